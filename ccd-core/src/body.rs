@@ -202,6 +202,17 @@ impl Body {
         });
     }
 
+    /// Bounds the distance of the body's points from its origin.
+    ///
+    /// ```
+    /// let box_of_4 = ccd_core::Body::cuboid([2.0, 2.0, 1.0])?;
+    /// assert!((box_of_4.span() - 3.0).abs() < 1e-12);
+    /// # Ok::<(), ccd_core::InputError>(())
+    /// ```
+    pub fn span(&self) -> f64 {
+        self.tree.span()
+    }
+
     /// The meaning of the body's inside.
     pub fn volume(&self) -> Volume {
         self.volume

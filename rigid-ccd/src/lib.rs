@@ -104,7 +104,7 @@ pub use hit::{Hit, HitKind};
 pub use load::load;
 pub use parallel::{ParallelSolver, QueryError, first_contacts};
 #[cfg(feature = "scenes")]
-pub use scene::{Groups, Impact, PairError, Scene};
+pub use scene::{Groups, Impact, PairError, Scene, Stop};
 pub use solver::{Solver, first_contact};
 
 /// The example in the README.

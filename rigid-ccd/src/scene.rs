@@ -5,19 +5,22 @@ mod goal;
 mod groups;
 mod pairs;
 mod race;
+mod settings;
+mod stops;
 
 use crate::ParallelSolver;
 use ccd_core::glam::DVec3;
-use ccd_core::{Body, Config, InputError, Motion, Moving, Pose, Problem, SweptBox};
+use ccd_core::{Body, Config, Motion, Moving, Pose, SweptBox};
 use event::Event;
 pub use event::{Impact, PairError};
 use goal::Goal;
 pub use groups::Groups;
 use race::{Race, Worker};
+use settings::{Clock, Settings};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
+pub use stops::Stop;
 
 /// Many bodies, each with its motion: which of them touch first, or at all.
 ///
@@ -46,9 +49,8 @@ use std::time::Instant;
 /// ```
 pub struct Scene<'a> {
     members: Vec<Member<'a>>,
-    config: Config,
+    settings: Settings,
     asked: Option<Box<dyn Fn(usize, usize) -> bool + 'a>>,
-    stop: Option<Arc<AtomicBool>>,
     workers: ParallelSolver<Worker>,
 }
 
@@ -89,17 +91,17 @@ impl<'a> Scene<'a> {
     fn from(workers: ParallelSolver<Worker>) -> Self {
         Scene {
             members: Vec::new(),
-            config: Config::default(),
+            settings: Settings::default(),
             asked: None,
-            stop: None,
             workers,
         }
     }
 
     /// Sets tolerance, margin, start policy and the budget of each pair. A deadline is for all pairs together.
     #[must_use]
-    pub fn with_config(self, config: Config) -> Self {
-        Scene { config, ..self }
+    pub fn with_config(mut self, config: Config) -> Self {
+        self.settings.config = config;
+        self
     }
 
     /// Asks only for pairs that a function of both indices, the lower one first, returns true for.
@@ -115,11 +117,9 @@ impl<'a> Scene<'a> {
 
     /// Lets other threads stop the search: pairs that are under way then are unresolved, with a certified time.
     #[must_use]
-    pub fn with_stop(self, stop: &Arc<AtomicBool>) -> Self {
-        Scene {
-            stop: Some(Arc::clone(stop)),
-            ..self
-        }
+    pub fn with_stop(mut self, stop: &Arc<AtomicBool>) -> Self {
+        self.settings.stop = Some(Arc::clone(stop));
+        self
     }
 
     /// Adds a body, and returns its index. Indices count from 0.
@@ -219,25 +219,18 @@ impl<'a> Scene<'a> {
 
     /// Returns what happens to the pairs, as far as the goal needs it, in any order.
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
+        let clock = self.settings.clock(duration);
         let pairs = self.pairs(duration);
-        let begun = self
-            .config
-            .deadline
-            .map(|deadline| (deadline, Instant::now()));
-        let (members, config, stop) = (&self.members, &self.config, &self.stop);
-        let problem = |[a, b]: [usize; 2]| -> Result<Problem<'a>, InputError> {
-            let moving = |index: usize| members[index].moving();
-            let config = Config {
-                deadline: begun.map(|(deadline, begun)| deadline.saturating_sub(begun.elapsed())),
-                ..*config
-            };
-            let problem = Problem::new(moving(a), moving(b), duration, &config)?;
-            Ok(match stop {
-                Some(stop) => problem.stopped_by(stop),
-                None => problem,
-            })
+        self.race(&pairs, &clock, goal)
+    }
+
+    fn race(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
+        let (members, settings) = (&self.members, &self.settings);
+        let problem = |pair: [usize; 2]| {
+            let pair = pair.map(|index| members[index].moving());
+            settings.problem(pair, clock, 0.0)
         };
-        let race = Race::new(&pairs, &problem, duration, goal);
+        let race = Race::new(pairs, &problem, clock.duration, goal);
         let threads = self
             .workers
             .threads()
@@ -251,7 +244,7 @@ impl<'a> Scene<'a> {
     /// Returns the pairs that are asked for and whose ways meet.
     fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
         let swept = |member: &Member<'_>| {
-            let swept = member.moving().swept_box(duration, &self.config);
+            let swept = member.moving().swept_box(duration, &self.settings.config);
             // Each of its pairs tells what is wrong.
             swept.unwrap_or(EVERYWHERE)
         };

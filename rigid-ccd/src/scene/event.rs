@@ -1,6 +1,7 @@
 //! What happens to two bodies of a scene.
 
-use crate::{Error, Hit};
+use crate::{Error, Hit, HitKind};
+use ccd_core::order::greater;
 use ccd_core::{Answer, InputError, Limit, Outcome};
 use std::cmp::Ordering;
 
@@ -67,6 +68,24 @@ impl Event {
             bodies,
             what: What::Refused(error),
         }
+    }
+
+    /// Returns the event of bodies that were asked from a time on; rounded so that it is never late.
+    pub(super) fn later(self, from: f64) -> Self {
+        Event {
+            time: greater(from, (from + self.time).next_down()),
+            ..self
+        }
+    }
+
+    /// Returns whether the bodies overlap at the start.
+    pub(super) fn overlaps(&self) -> bool {
+        matches!(&self.what, What::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
+    }
+
+    /// Returns whether the bodies could not be asked.
+    pub(super) fn is_refused(&self) -> bool {
+        matches!(self.what, What::Refused(_))
     }
 
     /// Compares by time, and then by indices.

@@ -38,7 +38,8 @@ fn holds(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
     leaves.any(|held| held as usize == index)
 }
 
-fn ordered(a: usize, b: usize) -> [usize; 2] {
+/// Returns two indices, the lower one first.
+pub(super) fn ordered(a: usize, b: usize) -> [usize; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 

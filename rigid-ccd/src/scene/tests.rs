@@ -9,10 +9,10 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 /// A body, its motion, whether it is fixed, and its groups.
-type Part = (usize, Motion, Mobility, Groups);
+pub(super) type Part = (usize, Motion, Mobility, Groups);
 
 /// Bodies of all kinds; the last one is a wide terrain.
-fn bodies(rng: &mut Pcg64) -> Vec<Body> {
+pub(super) fn bodies(rng: &mut Pcg64) -> Vec<Body> {
     let mut bodies = vec![
         Body::ball(0.4).unwrap(),
         Body::cuboid([0.3, 0.5, 0.2]).unwrap(),
@@ -42,7 +42,7 @@ fn bodies(rng: &mut Pcg64) -> Vec<Body> {
     bodies
 }
 
-fn parts(rng: &mut Pcg64, kinds: usize, count: usize) -> Vec<Part> {
+pub(super) fn parts(rng: &mut Pcg64, kinds: usize, count: usize) -> Vec<Part> {
     let any = |rng: &mut Pcg64, size: f64| {
         DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..=size)))
     };

@@ -1,0 +1,241 @@
+//! Bodies that stop where they touch, each at its own time.
+
+use super::event::Event;
+use super::goal::Goal;
+use super::pairs::ordered;
+use super::settings::Clock;
+use super::{Mobility, PairError, Scene};
+use ccd_core::schedule::{BestFirst, Schedule};
+use ccd_core::tolerance::STRETCH_F64;
+use ccd_core::vector::length;
+use ccd_core::{Answer, Config, InputError, Motion, Moving, StartPolicy};
+use ccd_distance_gjk::Direct;
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+/// Until when a body may move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// The time at which the body stops; the duration if nothing stops it.
+    pub time: f64,
+    /// The body that stops it, by index; none if nothing does.
+    pub by: Option<usize>,
+}
+
+impl Scene<'_> {
+    /// Finds until when each body may move, by index, if it stops where it touches another one while all others go
+    /// on. A simulation that sets these poses after each step lets nothing pass through anything.
+    ///
+    /// Bodies that touch at the start are let go, as by [`StartPolicy::Leave`], whatever the settings are: they may
+    /// slide and part, but not come nearer than half of their distance. Bodies that overlap at the start do not stop
+    /// each other.
+    ///
+    /// # Guarantee
+    /// No two bodies that move until they stop, and then stand still, overlap at any time, but for those that
+    /// overlap at the start. A body whose way is not known to be free, because a limit is reached, stops before.
+    ///
+    /// # Errors
+    /// A motion or the duration is out of range.
+    ///
+    /// # Complexity
+    /// That of all contacts, and as much again for the pairs of each body that stops.
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Pose, Scene};
+    /// let (bullet, paper) = (Body::ball(0.01)?, Body::cuboid([0.001, 1.0, 1.0])?);
+    /// let mut scene = Scene::new();
+    /// scene.add_fixed(&paper, Pose::IDENTITY);
+    /// let shot = Motion::new(Pose::at([-2.0, 0.0, 0.0])?, [800.0, 0.0, 0.0], [0.0; 3])?;
+    /// let bullet = scene.add(&bullet, shot);
+    /// let stop = scene.stops(1.0 / 60.0)?[bullet];
+    /// assert_eq!(stop.by, Some(0));
+    /// assert!(shot.pose(stop.time).translation().x < -0.01);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
+        let given = self.settings.config;
+        // Half of the tolerance is a distance to keep: what rests comes nearer by rounding only, step by step.
+        let half = 0.5 * given.tolerance;
+        self.settings.config = Config {
+            margin: given.margin + half,
+            tolerance: half,
+            start: StartPolicy::Leave,
+            ..given
+        };
+        let clock = self.settings.clock(duration);
+        let pairs = self.pairs(duration);
+        let events = self.race(&pairs, &clock, &Goal::All);
+        let stops = Stopping::new(self, &pairs, clock).run(events);
+        self.settings.config = given;
+        stops
+    }
+}
+
+/// The bodies that have stopped, and what is still to happen.
+struct Stopping<'s, 'a> {
+    scene: &'s Scene<'a>,
+    /// The other bodies that each one may touch.
+    others: Vec<Vec<usize>>,
+    stops: Vec<Stop>,
+    clock: Clock,
+    schedule: BestFirst<Direct>,
+    oracle: Direct,
+}
+
+/// A contact of two bodies, as they move before either stops, or with one that has.
+struct Coming {
+    event: Event,
+    /// The bodies that move until then.
+    moving: [bool; 2],
+}
+
+impl<'s, 'a> Stopping<'s, 'a> {
+    fn new(scene: &'s Scene<'a>, pairs: &[[usize; 2]], clock: Clock) -> Self {
+        let mut others = vec![Vec::new(); scene.len()];
+        for &[a, b] in pairs {
+            others[a].push(b);
+            others[b].push(a);
+        }
+        let goes_on = Stop {
+            time: clock.duration,
+            by: None,
+        };
+        Stopping {
+            scene,
+            others,
+            stops: vec![goes_on; scene.len()],
+            clock,
+            schedule: BestFirst::default(),
+            oracle: Direct::default(),
+        }
+    }
+
+    /// Takes one contact after another in order of time, stops its bodies, and looks at what still moves about them.
+    fn run(mut self, events: Vec<Event>) -> Result<Vec<Stop>, PairError> {
+        let mut coming = BinaryHeap::new();
+        for event in events {
+            let [a, b] = event.bodies;
+            match event.overlaps() {
+                true => {
+                    self.others[a].retain(|&other| other != b);
+                    self.others[b].retain(|&other| other != a);
+                }
+                false => coming.push(Reverse(Coming {
+                    moving: event.bodies.map(|index| self.moves(index)),
+                    event,
+                })),
+            }
+        }
+        while let Some(Reverse(Coming { event, moving })) = coming.pop() {
+            // Bodies that have stopped meanwhile were looked at again.
+            if event.bodies.map(|index| self.moves(index)) != moving {
+                continue;
+            }
+            if event.is_refused() {
+                event.impact()?;
+            }
+            let [a, b] = event.bodies;
+            for (index, other) in [(a, b), (b, a)] {
+                if self.moves(index) {
+                    self.stops[index] = Stop {
+                        time: event.time,
+                        by: Some(other),
+                    };
+                }
+            }
+            let stopped = event.bodies.into_iter().zip(moving);
+            for (index, _) in stopped.filter(|&(_, moved)| moved) {
+                coming.extend(self.about(index).into_iter().map(Reverse));
+            }
+        }
+        Ok(self.stops)
+    }
+
+    /// Returns what comes to a body that has stopped now.
+    fn about(&mut self, index: usize) -> Vec<Coming> {
+        let time = self.stops[index].time;
+        let others = std::mem::take(&mut self.others[index]);
+        let moving = others.iter().filter(|&&other| self.moves(other));
+        let pairs: Vec<[usize; 2]> = moving.map(|&other| ordered(index, other)).collect();
+        self.others[index] = others;
+        let found = pairs.into_iter().filter_map(|pair| self.from(time, pair));
+        found.collect()
+    }
+
+    /// Returns the contact of two bodies from a time on, at which one of them has stopped.
+    fn from(&mut self, time: f64, bodies: [usize; 2]) -> Option<Coming> {
+        let event = match self.answer(time, bodies) {
+            Ok(answer) => Event::answered(bodies, &answer)?,
+            Err(error) => Event::refused(bodies, error),
+        };
+        let moving = bodies.map(|index| self.moves(index));
+        Some(Coming {
+            event: event.later(time),
+            moving,
+        })
+    }
+
+    fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
+        let pair = [
+            self.going_on(time, bodies[0])?,
+            self.going_on(time, bodies[1])?,
+        ];
+        let rest = Clock {
+            duration: self.clock.duration - time,
+            ..self.clock
+        };
+        let rounding = pair.iter().map(|moving| rounding(moving, rest.duration));
+        let problem = self.scene.settings.problem(pair, &rest, rounding.sum())?;
+        Ok(self.schedule.solve(&problem, &mut self.oracle))
+    }
+
+    /// Returns a body with its motion from a time on.
+    fn going_on(&self, time: f64, index: usize) -> Result<Moving<'a>, InputError> {
+        let Moving { body, motion } = self.scene.members[index].moving();
+        let motion = match self.moves(index) {
+            true => {
+                let [velocity, spin] = [motion.velocity(), motion.spin()];
+                Motion::about(motion.pose(time), velocity, spin, motion.centre())?
+            }
+            // A fixed body has no stop.
+            false => Motion::still(motion.pose(self.stops[index].time)),
+        };
+        Ok(Moving { body, motion })
+    }
+
+    fn moves(&self, index: usize) -> bool {
+        self.scene.members[index].mobility == Mobility::Moving && self.stops[index].by.is_none()
+    }
+}
+
+/// Bounds how far a body is from its motion where it goes on from a pose that is rounded.
+fn rounding(moving: &Moving<'_>, duration: f64) -> f64 {
+    let motion = &moving.motion;
+    let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
+    let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
+    let reach = moving.body.span() + centre;
+    STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach)
+}
+
+impl Ord for Coming {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.event.order(&other.event)
+    }
+}
+
+impl PartialOrd for Coming {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Eq for Coming {}
+
+impl PartialEq for Coming {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+#[cfg(test)]
+mod tests;

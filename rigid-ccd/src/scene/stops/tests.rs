@@ -1,0 +1,197 @@
+//! Bodies that stop, at sampled times: none overlaps another one, and none stops early.
+
+use super::super::tests::{bodies, parts};
+use super::*;
+use crate::{Body, HitKind, Pose, Solver};
+use ccd_core::Config;
+use ccd_core::order::lesser;
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+use std::collections::HashSet;
+use std::num::NonZeroUsize;
+
+/// The poses of all bodies at a time, at which some have stopped.
+fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
+    let pose = |(member, stop): (&super::super::Member<'_>, &Stop)| {
+        member.motion.pose(lesser(time, stop.time))
+    };
+    scene.members.iter().zip(stops).map(pose).collect()
+}
+
+/// The pairs that overlap at these poses.
+fn overlapping(scene: &Scene<'_>, poses: &[Pose], solver: &mut Solver) -> HashSet<[usize; 2]> {
+    let mut pairs = HashSet::new();
+    for b in 0..poses.len() {
+        for a in 0..b {
+            let still = |k: usize| (scene.members[k].body, Motion::still(poses[k]));
+            let hit = solver.first_contact(still(a), still(b), 0.0).unwrap();
+            let overlaps = hit.is_some_and(|hit| matches!(hit.kind, HitKind::Overlapping(_)));
+            if overlaps {
+                pairs.insert([a, b]);
+            }
+        }
+    }
+    pairs
+}
+
+#[test]
+fn bodies_that_stop_never_overlap() {
+    let mut rng = Pcg64::seed_from_u64(5);
+    let mut solver = Solver::new();
+    let (mut stopped, mut moving, mut crossed, mut again) = (0, 0, 0, 0);
+    for round in 0..120 {
+        let bodies = bodies(&mut rng);
+        let parts = parts(&mut rng, bodies.len(), 2 + round % 24);
+        let config = Config {
+            margin: [0.0, 0.0, 0.05][round % 3],
+            ..Config::default()
+        };
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN).with_config(config);
+        for &(kind, motion, mobility, _) in &parts {
+            match mobility {
+                Mobility::Fixed => scene.add_fixed(&bodies[kind], motion.start()),
+                Mobility::Moving => scene.add(&bodies[kind], motion),
+            };
+        }
+        let stops = scene.stops(1.0).unwrap();
+        let free = vec![
+            Stop {
+                time: 1.0,
+                by: None
+            };
+            scene.len()
+        ];
+        let at_start = overlapping(&scene, &poses(&scene, &free, 0.0), &mut solver);
+        let mut through = HashSet::new();
+        for step in 0..=40 {
+            let time = f64::from(step) / 40.0;
+            let now = overlapping(&scene, &poses(&scene, &stops, time), &mut solver);
+            assert!(
+                now.is_subset(&at_start),
+                "{round} {time} {now:?} {at_start:?}"
+            );
+            through.extend(overlapping(
+                &scene,
+                &poses(&scene, &free, time),
+                &mut solver,
+            ));
+        }
+        crossed += through.difference(&at_start).count();
+        // Each is near what stops it, where both are then.
+        for (index, stop) in stops.iter().enumerate() {
+            let Some(by) = stop.by else {
+                moving += 1;
+                assert_eq!(stop.time, 1.0);
+                continue;
+            };
+            stopped += 1;
+            again += usize::from(stops[by].time < stop.time);
+            let poses = poses(&scene, &stops, stop.time);
+            let still = |k: usize| (scene.members[k].body, Motion::still(poses[k]));
+            // A query of no duration may pass over half of its tolerance.
+            let near = Config {
+                tolerance: 2.2 * config.tolerance,
+                ..config
+            };
+            let mut solver = Solver::new().with_config(near);
+            let hit = solver.first_contact(still(index), still(by), 0.0);
+            assert!(hit.unwrap().is_some(), "{round}: {index} is not near {by}");
+        }
+    }
+    assert!(
+        stopped > 100 && moving > 100 && crossed > 50 && again > 5,
+        "{stopped} {moving} {crossed} {again}"
+    );
+}
+
+/// A body that has stopped is in the way of the next one.
+#[test]
+fn a_queue_of_balls_stops_one_behind_the_other() {
+    let (ball, wall) = (
+        Body::ball(0.5).unwrap(),
+        Body::cuboid([0.1, 5.0, 5.0]).unwrap(),
+    );
+    let mut scene = Scene::new();
+    scene.add_fixed(&wall, Pose::at([10.0, 0.0, 0.0]).unwrap());
+    for k in 0..5 {
+        let pose = Pose::at([8.0 - 2.0 * f64::from(k), 0.0, 0.0]).unwrap();
+        scene.add(
+            &ball,
+            Motion::new(pose, [20.0, 0.0, 0.0], [0.0; 3]).unwrap(),
+        );
+    }
+    let stops = scene.stops(1.0).unwrap();
+    for (k, stop) in stops.iter().enumerate().skip(1) {
+        assert_eq!(stop.by, Some(k - 1));
+        let place = scene.members[k].motion.pose(stop.time).translation().x;
+        let expected = 9.4 - (k as f64 - 1.0);
+        assert!(
+            place <= expected && place > expected - 0.001 * k as f64 - 1e-9,
+            "{place}"
+        );
+    }
+}
+
+/// Step by step, a ball that is pressed onto a floor keeps half of the tolerance.
+#[test]
+fn what_is_pressed_stays_above() {
+    let (ball, floor) = (
+        Body::ball(0.5).unwrap(),
+        Body::cuboid([5.0, 5.0, 0.1]).unwrap(),
+    );
+    let mut scene = Scene::new();
+    scene.add_fixed(&floor, Pose::at([0.0, 0.0, -0.1]).unwrap());
+    let pressed = |height: f64, x: f64| {
+        Motion::new(
+            Pose::at([x, 0.0, height]).unwrap(),
+            [1.0, 0.0, -3.0],
+            [0.0; 3],
+        )
+        .unwrap()
+    };
+    let (mut height, mut x) = (0.6, 0.0);
+    let ball = scene.add(&ball, pressed(height, x));
+    for step in 0..200 {
+        let motion = pressed(height, x);
+        scene.set_motion(ball, motion);
+        let stop = scene.stops(0.01).unwrap()[ball];
+        let place = motion.pose(stop.time).translation();
+        assert!(
+            place.z > 0.5 - 1e-13 && place.z <= height,
+            "{step} {:e}",
+            place.z - 0.5
+        );
+        (height, x) = (place.z, place.x);
+    }
+    assert!(height < 0.501, "{:e}", height - 0.5);
+}
+
+#[test]
+fn what_is_out_of_range_or_unresolved_is_told_or_stops() {
+    let ball = Body::ball(0.5).unwrap();
+    let knot = Body::cuboid([0.5, 0.5, 0.5]).unwrap();
+    let mut scene = Scene::new().with_config(Config {
+        budget: 0,
+        ..Config::default()
+    });
+    scene.add_fixed(&knot, Pose::IDENTITY);
+    let flies = Motion::new(
+        Pose::at([-3.0, 0.0, 0.0]).unwrap(),
+        [4.0, 0.0, 0.0],
+        [0.0; 3],
+    )
+    .unwrap();
+    let flying = scene.add(&ball, flies);
+    // Without a budget nothing is known to be free.
+    let stop = scene.stops(1.0).unwrap()[flying];
+    assert!(stop.by == Some(0) && stop.time <= 0.5);
+    assert!(scene.stops(-1.0).is_err());
+    // The policy of other questions is what it was.
+    let mut scene = scene.with_config(Config::default());
+    scene.set_motion(flying, Motion::still(Pose::at([1.0, 0.0, 0.0]).unwrap()));
+    scene.stops(1.0).unwrap();
+    assert_eq!(
+        scene.first_contact(1.0).unwrap().unwrap().hit.kind,
+        HitKind::Touching
+    );
+}
