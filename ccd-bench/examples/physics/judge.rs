@@ -1,0 +1,93 @@
+//! Counts what passes through what, and how deep bodies are in each other, by the peer's own tests.
+
+use crate::glue::at;
+use crate::worlds::World;
+use anyhow::Result;
+use ccd_core::order::{greater, lesser};
+use parry3d_f64::query::{contact, intersection_test};
+use rigid_ccd::{Motion, Moving};
+
+/// What was seen so far.
+#[derive(Default)]
+pub(crate) struct Seen {
+    /// The pairs that were apart before and after a step, and overlapped between.
+    pub(crate) passed: usize,
+    /// The deepest penetration after each step.
+    pub(crate) depths: Vec<f64>,
+}
+
+/// A body's motion in a step, and the time at which it stops.
+pub(crate) type Moved = (Motion, f64);
+
+impl Seen {
+    /// Looks at a step of all bodies of a world.
+    pub(crate) fn step(&mut self, world: &World, moved: &[Moved], duration: f64) -> Result<()> {
+        let mut deepest = 0.0;
+        for [a, b] in near(world, moved, duration)? {
+            deepest = greater(deepest, depth(world, moved, [a, b], duration));
+            self.passed += usize::from(passes(world, moved, [a, b], duration));
+        }
+        self.depths.push(deepest);
+        Ok(())
+    }
+
+    pub(crate) fn deepest(&self) -> f64 {
+        self.depths.iter().copied().fold(0.0, greater)
+    }
+}
+
+/// Returns the pairs whose ways meet, without those that are joined or do not move.
+fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>> {
+    let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &Moved)| {
+        let moving = Moving {
+            body: &body.body,
+            motion,
+        };
+        moving.swept_box(duration, &rigid_ccd::Config::default())
+    };
+    let boxes = world.bodies.iter().zip(moved).map(swept);
+    let boxes = boxes.collect::<Result<Vec<_>, _>>()?;
+    let pairs = (0..boxes.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+    let asked = pairs.filter(|&[a, b]| {
+        let is_fixed = world.bodies[a].is_fixed && world.bodies[b].is_fixed;
+        !is_fixed && boxes[a].meets(&boxes[b]) && !world.joined.contains(&[a, b])
+    });
+    Ok(asked.collect())
+}
+
+fn depth(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> f64 {
+    let [a, b] = pair.map(|k| {
+        (
+            at(moved[k].0.pose(lesser(time, moved[k].1))),
+            &*world.bodies[k].shape,
+        )
+    });
+    let found = contact(&a.0, a.1, &b.0, b.1, 0.0).ok().flatten();
+    found.map_or(0.0, |contact| greater(0.0, -contact.dist))
+}
+
+fn overlap(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> bool {
+    let [a, b] = pair.map(|k| {
+        (
+            at(moved[k].0.pose(lesser(time, moved[k].1))),
+            &*world.bodies[k].shape,
+        )
+    });
+    intersection_test(&a.0, a.1, &b.0, b.1).is_ok_and(|found| found.intersecting)
+}
+
+/// Returns whether bodies that are apart at both ends overlap between, at samples so close that none passes through
+/// the thinnest part without one.
+fn passes(world: &World, moved: &[Moved], pair: [usize; 2], duration: f64) -> bool {
+    if overlap(world, moved, pair, 0.0) || overlap(world, moved, pair, duration) {
+        return false;
+    }
+    let [a, b] = pair.map(|k| moved[k].0);
+    let travel = (a.velocity() - b.velocity()).length() * duration;
+    let turn = (a.spin().length() + b.spin().length()) * duration;
+    let samples = (2.0 * (travel + turn) / world.thinnest).clamp(4.0, 20_000.0) as u32;
+    (1..samples).any(|k| {
+        let time = duration * f64::from(k) / f64::from(samples);
+        overlap(world, moved, pair, time)
+    })
+}

@@ -1,0 +1,242 @@
+//! Worlds in which fast bodies pass through each other, unless their steps are held against each other.
+
+use anyhow::Result;
+use ccd_core::glam::DVec3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rapier3d_f64::prelude::{
+    ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, Rotation, SharedShape,
+    SphericalJointBuilder, Vector,
+};
+use rigid_ccd::Body;
+
+/// A world, its bodies, and what acts on them.
+pub(crate) struct World {
+    pub(crate) name: &'static str,
+    pub(crate) physics: PhysicsWorld,
+    pub(crate) bodies: Vec<Simulated>,
+    /// Pairs that are joined, and may overlap.
+    pub(crate) joined: Vec<[usize; 2]>,
+    /// The length of the thinnest part of a body.
+    pub(crate) thinnest: f64,
+    act: fn(&mut World, u32),
+    rng: Pcg64,
+}
+
+pub(crate) struct Simulated {
+    pub(crate) handle: RigidBodyHandle,
+    pub(crate) body: Body,
+    pub(crate) shape: SharedShape,
+    pub(crate) is_fixed: bool,
+}
+
+/// Whether rapier's own continuous collision detection is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Detection {
+    Off,
+    /// For all bodies, against each other too.
+    Full,
+}
+
+/// The distance that rapier keeps about each body. Bodies that rest on each other are farther apart than those that
+/// are stopped.
+const SKIN: f64 = 0.002;
+
+/// The steps after which bodies are thrown again.
+const ROUND: u32 = 60;
+
+impl World {
+    pub(crate) fn all(detection: Detection) -> Result<Vec<World>> {
+        Ok(vec![
+            bullets(detection)?,
+            rocks(detection)?,
+            chain(detection)?,
+        ])
+    }
+
+    /// Acts on the bodies before a step.
+    pub(crate) fn act(&mut self, step: u32) {
+        (self.act)(self, step);
+    }
+
+    fn new(
+        name: &'static str,
+        detection: Detection,
+        thinnest: f64,
+        act: fn(&mut World, u32),
+    ) -> Self {
+        let mut physics = PhysicsWorld::new();
+        physics.gravity = -9.81 * Vector::Z;
+        if detection == Detection::Off {
+            physics.integration_parameters.max_ccd_substeps = 0;
+        }
+        World {
+            name,
+            physics,
+            bodies: Vec::new(),
+            joined: Vec::new(),
+            thinnest,
+            act,
+            rng: Pcg64::seed_from_u64(3),
+        }
+    }
+
+    fn add(&mut self, builder: RigidBodyBuilder, shape: SharedShape, body: Body) -> usize {
+        let collider = ColliderBuilder::new(shape.clone()).contact_skin(SKIN);
+        let (handle, _) = self.physics.insert(builder, collider);
+        self.bodies.push(Simulated {
+            handle,
+            body,
+            shape,
+            is_fixed: self.physics.bodies[handle].is_fixed(),
+        });
+        self.bodies.len() - 1
+    }
+
+    fn slab(&mut self, place: DVec3, half: DVec3) -> Result<()> {
+        let shape = SharedShape::cuboid(half.x, half.y, half.z);
+        let fixed = RigidBodyBuilder::fixed().translation(vector(place));
+        self.add(fixed, shape, Body::cuboid(half)?);
+        Ok(())
+    }
+
+    fn any(&mut self) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|_| self.rng.random_range(-1.0..1.0)))
+    }
+
+    /// Puts a body somewhere, and throws it.
+    fn throw(&mut self, index: usize, place: DVec3, velocity: DVec3) {
+        let (turn, spin) = (3.0 * self.any(), 5.0 * self.any());
+        let body = &mut self.physics.bodies[self.bodies[index].handle];
+        body.set_translation(vector(place), true);
+        body.set_rotation(Rotation::from_scaled_axis(vector(turn)), true);
+        body.set_linvel(vector(velocity), true);
+        body.set_angvel(vector(spin), true);
+    }
+}
+
+fn vector(v: DVec3) -> Vector {
+    Vector::from_array(v.to_array())
+}
+
+fn dynamic(detection: Detection) -> RigidBodyBuilder {
+    RigidBodyBuilder::dynamic()
+        .ccd_enabled(detection == Detection::Full)
+        .can_sleep(false)
+}
+
+/// The number of sheets of paper, which are 1 mm thick.
+const SHEETS: usize = 5;
+
+/// Twelve bullets at 100 to 390 metres a second, at five sheets of paper.
+fn bullets(detection: Detection) -> Result<World> {
+    let mut world = World::new("bullets and paper", detection, 0.001, |world, step| {
+        for index in SHEETS..world.bodies.len() {
+            // One after the other.
+            if step % ROUND == 3 * (index - SHEETS) as u32 {
+                let aside = 0.4 * world.any();
+                let speed = world.rng.random_range(100.0..390.0);
+                let place = DVec3::new(-2.0, aside.y, aside.z);
+                world.throw(index, place, DVec3::new(speed, 0.02 * speed * aside.x, 0.0));
+            }
+        }
+    });
+    for k in 0..SHEETS {
+        world.slab(
+            DVec3::new(0.3 * k as f64, 0.0, 0.0),
+            DVec3::new(0.0005, 0.5, 0.5),
+        )?;
+    }
+    for k in 0..12 {
+        let aside = DVec3::new(-4.0 - 0.1 * f64::from(k), 3.0, 0.0);
+        let builder = dynamic(detection).translation(vector(aside));
+        world.add(builder, SharedShape::ball(0.01), Body::ball(0.01)?);
+    }
+    Ok(world)
+}
+
+/// Rocks that are not convex are thrown at each other and at the floor, at 40 metres a second.
+fn rocks(detection: Detection) -> Result<World> {
+    let mut world = World::new("rocks onto rocks", detection, 0.01, |world, step| {
+        if step % ROUND != 0 {
+            return;
+        }
+        for index in 5..world.bodies.len() {
+            let number = (index - 5) as f64;
+            let place = DVec3::new(
+                0.8 * (number % 3.0) - 0.8,
+                0.8 * (number / 3.0).floor() - 1.2,
+                1.5,
+            );
+            let place = place + 0.05 * world.any();
+            let velocity =
+                -40.0 * (place - DVec3::new(0.0, 0.0, 0.4)).normalize() + 5.0 * world.any();
+            world.throw(index, place, velocity);
+        }
+    });
+    world.slab(DVec3::new(0.0, 0.0, -0.005), DVec3::new(2.0, 2.0, 0.005))?;
+    for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+        let half = DVec3::new(
+            if x == 0.0 { 2.0 } else { 0.005 },
+            if y == 0.0 { 2.0 } else { 0.005 },
+            1.0,
+        );
+        world.slab(DVec3::new(2.0 * x, 2.0 * y, 1.01), half)?;
+    }
+    let (shape, body) = crate::rock::rock()?;
+    for k in 0..12 {
+        let aside = DVec3::new(
+            0.8 * f64::from(k % 3) - 0.8,
+            0.8 * f64::from(k / 3) - 1.2,
+            1.5,
+        );
+        world.add(
+            dynamic(detection).translation(vector(aside)),
+            shape.clone(),
+            body.clone(),
+        );
+    }
+    Ok(world)
+}
+
+/// A chain of fourteen links is drawn through a slot between two plates, to and fro.
+fn chain(detection: Detection) -> Result<World> {
+    const LINKS: usize = 14;
+    const HALF: f64 = 0.06;
+    let mut world = World::new("chain through a slot", detection, 0.004, |world, step| {
+        let towards = if step / ROUND % 2 == 0 { 1.0 } else { -1.0 };
+        let aside = 3.0 * world.any();
+        let first = &mut world.physics.bodies[world.bodies[2].handle];
+        let ahead = first.translation().x * towards;
+        let speed = if ahead < 2.0 { 30.0 } else { 0.0 };
+        first.set_linvel(Vector::new(towards * speed, aside.y, aside.z), true);
+    });
+    for side in [-1.0, 1.0] {
+        world.slab(
+            DVec3::new(0.0, side * 1.04, 0.0),
+            DVec3::new(0.002, 1.0, 2.0),
+        )?;
+    }
+    for k in 0..LINKS {
+        let place = DVec3::new(-0.2 - 2.5 * HALF * k as f64, 0.0, 0.0);
+        let lying = std::f64::consts::FRAC_PI_2 * Vector::Y;
+        let builder = dynamic(detection)
+            .translation(vector(place))
+            .rotation(lying);
+        let index = world.add(
+            builder,
+            SharedShape::capsule_z(HALF, 0.02),
+            Body::capsule(0.02, HALF)?,
+        );
+        if k > 0 {
+            let joint = SphericalJointBuilder::new()
+                .local_anchor1(-1.25 * HALF * Vector::Z)
+                .local_anchor2(1.25 * HALF * Vector::Z)
+                .contacts_enabled(false);
+            let [before, this] = [index - 1, index].map(|index| world.bodies[index].handle);
+            world.physics.insert_impulse_joint(before, this, joint);
+            world.joined.push([index - 1, index]);
+        }
+    }
+    Ok(world)
+}
