@@ -1,0 +1,227 @@
+//! A cast in double precision, made a question for the engine.
+
+use crate::half_space::HalfSpace;
+use crate::horizon::{Horizon, Reaching};
+use crate::interval::Interval;
+use crate::order::{greater, length, lesser};
+use crate::scene::{Found, Scene};
+use crate::tolerance::{BEYOND, SHARE_OF_SIZE};
+use crate::{CastError, Prepared, Settings};
+use ccd_core::glam::DVec3;
+use ccd_core::limits::LEAST_TOLERANCE;
+use ccd_core::{Config, InputError, Motion, StartPolicy, Stray, Trajectory};
+use rigid_ccd::Solver;
+use std::sync::Arc;
+
+/// A cast of two shapes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cast<'a> {
+    pub(crate) operands: [Operand<'a>; 2],
+    pub(crate) motions: [Motion; 2],
+    pub(crate) interval: Interval,
+    /// The distance at which they are in contact.
+    pub(crate) target: f64,
+    pub(crate) start: StartPolicy,
+    pub(crate) settings: Settings,
+    /// The tolerance by default.
+    pub(crate) contact: f64,
+}
+
+/// A shape, ready for a cast.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Operand<'a> {
+    Body(&'a Prepared),
+    HalfSpace(HalfSpace),
+}
+
+/// A shape, ready for casts.
+#[derive(Clone, Debug)]
+pub(crate) enum Ready {
+    Body(Arc<Prepared>),
+    HalfSpace(HalfSpace),
+}
+
+impl Ready {
+    pub(crate) fn operand(&self) -> Operand<'_> {
+        match self {
+            Ready::Body(body) => Operand::Body(body),
+            Ready::HalfSpace(plane) => Operand::HalfSpace(*plane),
+        }
+    }
+}
+
+/// A motion from the start of the interval on.
+#[derive(Clone, Copy, Debug)]
+struct Started {
+    motion: Motion,
+    /// How far the motion may be off, for rounding.
+    stray: Stray,
+}
+
+impl Cast<'_> {
+    /// Finds the first contact in the interval.
+    pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+        let started = [self.started(0)?, self.started(1)?];
+        match self.operands {
+            [Operand::Body(a), Operand::Body(b)] => self.of_bodies([a, b], started, solver),
+            [Operand::HalfSpace(plane), Operand::Body(body)] => {
+                self.on_plane(&plane, 0, body, started, solver)
+            }
+            [Operand::Body(body), Operand::HalfSpace(plane)] => {
+                self.on_plane(&plane, 1, body, started, solver)
+            }
+            [Operand::HalfSpace(_), Operand::HalfSpace(_)] => Err(CastError::HalfSpaces),
+        }
+    }
+
+    fn of_bodies(
+        &self,
+        bodies: [&Prepared; 2],
+        started: [Started; 2],
+        solver: &mut Solver,
+    ) -> Result<Option<Found>, CastError> {
+        let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
+        let slack = |k: usize| bodies[k].slack() + started[k].slack(&sides[k]);
+        let config = self.config(&bodies, slack(0) + slack(1))?;
+        let within = config.margin + config.tolerance;
+        let scene = Scene {
+            bodies,
+            motions: sides.map(|side| side.motion),
+            horizon: Horizon::of(sides, within, self.interval.length()),
+            interval: self.interval,
+            target: self.target,
+            config,
+        };
+        scene.first_contact(solver)
+    }
+
+    /// Answers for a half-space, which is the shape of that index, and a body.
+    fn on_plane(
+        &self,
+        plane: &HalfSpace,
+        index: usize,
+        body: &Prepared,
+        started: [Started; 2],
+        solver: &mut Solver,
+    ) -> Result<Option<Found>, CastError> {
+        let side = started[1 - index].reaching(body);
+        let of_plane = started[index].reaching_plane(&side);
+        let within = self.config(&[body], body.slack())?;
+        let within = within.margin + within.tolerance;
+        let wanted = self.interval.length();
+        let reach = |horizon: Horizon| plane.reach(of_plane, side, within, horizon.duration());
+        let horizon = plane.horizon(of_plane, side, within, wanted);
+        // The box is off by what the motion is at its farthest point, for which there is room.
+        let off = started[index].stray.at(4.0 * reach(horizon));
+        let slack = body.slack() + started[1 - index].slack(&side) + off;
+        let config = self.config(&[body], slack)?;
+        let stand_in = plane
+            .stand_in(of_plane, 2.0 * reach(horizon))
+            .map_err(|error| {
+                let which = index as u8 + 1;
+                CastError::Shape { which, error }
+            })?;
+        let (mut bodies, mut motions) = ([&stand_in, body], [of_plane.motion, side.motion]);
+        if index == 1 {
+            bodies.reverse();
+            motions.reverse();
+        }
+        let scene = Scene {
+            bodies,
+            motions,
+            horizon,
+            interval: self.interval,
+            target: self.target,
+            config,
+        };
+        scene.first_contact(solver)
+    }
+
+    /// Returns the motion from the start of the interval on.
+    fn started(&self, index: usize) -> Result<Started, CastError> {
+        Started::new(&self.motions[index], self.interval.start()).map_err(|error| {
+            CastError::Motion {
+                which: index as u8 + 1,
+                error,
+            }
+        })
+    }
+
+    /// Returns the engine's settings for bodies that may be off by the slack.
+    fn config(&self, bodies: &[&Prepared], slack: f64) -> Result<Config, CastError> {
+        let margin = self.target + slack;
+        if !(self.target >= 0.0 && margin.is_finite()) {
+            return Err(CastError::Number {
+                what: "the target distance",
+                value: self.target,
+                allowed: "at least 0 and finite",
+            });
+        }
+        let settings = &self.settings;
+        let sizes = bodies.iter().map(|body| body.ball().1);
+        let by_default = (sizes.filter(|size| *size > 0.0)).fold(self.contact, |least, size| {
+            lesser(least, SHARE_OF_SIZE * size)
+        });
+        let by_default = greater(by_default, LEAST_TOLERANCE);
+        Ok(Config {
+            tolerance: settings.tolerance.unwrap_or(by_default),
+            margin,
+            start: self.start,
+            budget: settings.budget,
+            deadline: settings.deadline,
+            ..Config::default()
+        })
+    }
+}
+
+impl Started {
+    fn new(motion: &Motion, start: f64) -> Result<Self, InputError> {
+        // All points of a body that does not turn move straight: a centre at its origin rounds least.
+        let motion = match motion.spin() == DVec3::ZERO {
+            true => Motion::new(motion.start(), motion.velocity(), DVec3::ZERO)?,
+            false => *motion,
+        };
+        let stretch = motion.stretch(start, start)?;
+        Ok(Started {
+            motion: stretch.motion,
+            stray: stretch.stray,
+        })
+    }
+
+    /// Returns the motion with the reach of a body.
+    fn reaching(&self, body: &Prepared) -> Reaching {
+        let (middle, radius) = body.ball();
+        let about = match self.motion.spin() == DVec3::ZERO {
+            true => middle,
+            false => self.motion.centre(),
+        };
+        Reaching {
+            motion: self.motion,
+            about,
+            reach: (length(middle - about) + radius) * BEYOND,
+        }
+    }
+
+    /// Returns the motion of a half-space, with the point of it from which the other body is nearest.
+    fn reaching_plane(&self, other: &Reaching) -> Reaching {
+        let start = self.motion.start();
+        let about = match self.motion.spin() == DVec3::ZERO {
+            true => start.inverse().transform_point(other.place()),
+            false => self.motion.centre(),
+        };
+        Reaching {
+            motion: self.motion,
+            about,
+            reach: 0.0,
+        }
+    }
+
+    /// Returns how far points of a body may be off.
+    fn slack(&self, side: &Reaching) -> f64 {
+        self.stray
+            .at(side.reach + length(side.about - self.motion.centre()))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,37 @@
+//! Whether a mesh is closed.
+
+use ccd_core::glam::DVec3;
+use std::collections::HashMap;
+
+/// Returns an edge of a mesh that is passed more often in one direction than in the other; none of a closed mesh.
+///
+/// Vertices at one place count as one.
+pub(crate) fn open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {
+    let mut first_at: HashMap<[u64; 3], u32> = HashMap::new();
+    // Zero is added: both zeros are one place.
+    let place = |v: u32| {
+        vertices
+            .get(v as usize)
+            .map(|p| p.to_array().map(|x| (x + 0.0).to_bits()))
+    };
+    let mut balance: HashMap<[u32; 2], i64> = HashMap::new();
+    for triangle in triangles {
+        let mut corners = [0; 3];
+        for (corner, &v) in corners.iter_mut().zip(triangle) {
+            *corner = *first_at.entry(place(v)?).or_insert(v);
+        }
+        for k in 0..3 {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            match from < to {
+                true => *balance.entry([from, to]).or_default() += 1,
+                false if from > to => *balance.entry([to, from]).or_default() -= 1,
+                false => {}
+            }
+        }
+    }
+    let open = balance.into_iter().filter(|(_, passes)| *passes != 0);
+    open.map(|(edge, _)| edge).min()
+}
+
+#[cfg(test)]
+mod tests;

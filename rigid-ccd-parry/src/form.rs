@@ -1,0 +1,348 @@
+//! The geometry of a shape in double precision: all that a body is made of.
+
+use crate::closed::open_edge;
+use crate::enclosure::{Enclosure, Round};
+use crate::order::{greater, length};
+use crate::tolerance::PLACED;
+use crate::{Excess, ShapeError};
+use ccd_core::glam::DVec3;
+use ccd_core::{
+    Body, Combination, Facet, Feature, InputError, Origin, Pieces, Polytope, Pose, Volume,
+};
+use std::borrow::Cow;
+
+/// The geometry of a shape: triangles, and convex parts.
+///
+/// A body is made of this alone: equal forms make equal bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Form {
+    vertices: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    /// The number of the sub-shape that each triangle is.
+    triangle_numbers: Vec<u32>,
+    parts: Vec<Part>,
+    /// A cylinder or a cone, grown by a radius, if it is nothing else.
+    round: Option<(Round, f64, Excess)>,
+    volume: Volume,
+    /// How far points may be from their places, for rounding.
+    slack: f64,
+    /// How far polytopes may exceed what they enclose.
+    excess: f64,
+    /// The boundary of the only part in triangles, and the numbers of their facets, if it is exact.
+    surface: Option<(Vec<[u32; 3]>, Vec<u32>)>,
+}
+
+/// A convex part.
+#[derive(Clone, Debug, PartialEq)]
+struct Part {
+    polytope: Polytope,
+    /// The number of the sub-shape that it is.
+    number: u32,
+}
+
+impl Form {
+    /// Nothing, to be added to.
+    pub(crate) const EMPTY: Form = Form {
+        vertices: Vec::new(),
+        triangles: Vec::new(),
+        triangle_numbers: Vec::new(),
+        parts: Vec::new(),
+        round: None,
+        volume: Volume::Surface,
+        slack: 0.0,
+        excess: 0.0,
+        surface: None,
+    };
+
+    /// A cylinder or a cone, grown by a radius: a polytope about it is made with the body.
+    pub(crate) fn of_round(round: Round, radius: f64, excess: Excess) -> Self {
+        Form {
+            round: Some((round, radius, excess)),
+            ..Form::EMPTY
+        }
+    }
+
+    /// Returns it with a polytope in place of a cylinder or a cone.
+    pub(crate) fn expanded(&self) -> Result<Cow<'_, Form>, ShapeError> {
+        let Some((round, radius, excess)) = &self.round else {
+            return Ok(Cow::Borrowed(self));
+        };
+        let about = Enclosure::of(round, *excess)?;
+        // Of a flat one nothing is gained.
+        let bulky = *radius == 0.0 && round.radius > 0.0 && round.half_height > 0.0;
+        let mut form = Form {
+            excess: about.excess,
+            surface: bulky.then(|| about.triangles()),
+            ..Form::EMPTY
+        };
+        form.push_hull(about.points, *radius, &about.loops);
+        Ok(Cow::Owned(form))
+    }
+
+    /// Adds the hull of points, grown by a radius.
+    pub(crate) fn push_hull(&mut self, points: Vec<DVec3>, radius: f64, loops: &[Vec<u32>]) {
+        let facet = |(id, corners): (usize, &Vec<u32>)| Facet {
+            origin: Origin::Face(id as u32),
+            corners: corners.clone(),
+        };
+        self.parts.push(Part {
+            polytope: Polytope {
+                points,
+                radius,
+                facets: loops.iter().enumerate().map(facet).collect(),
+                ..Polytope::default()
+            },
+            number: 0,
+        });
+    }
+
+    /// Adds a box between two corners.
+    pub(crate) fn push_box(&mut self, low: DVec3, high: DVec3, radius: f64) {
+        let pick = |corner: u32, bit: u32| [low, high][(corner >> bit & 1) as usize];
+        let corner = |k| DVec3::new(pick(k, 0).x, pick(k, 1).y, pick(k, 2).z);
+        self.push_corners((0..8).map(corner).collect(), radius);
+    }
+
+    /// Adds a box with eight corners, of which corner `k` is high along the first, second and third axis of a right-handed
+    /// frame if bit 0, 1, 2 of `k` is set.
+    pub(crate) fn push_corners(&mut self, corners: Vec<DVec3>, radius: f64) {
+        self.push_hull(corners, radius, &BOX.map(Vec::from));
+    }
+
+    /// Adds a segment.
+    pub(crate) fn push_segment(&mut self, ends: [DVec3; 2], number: u32) {
+        let polytope = Polytope {
+            points: ends.to_vec(),
+            ..Polytope::default()
+        };
+        self.parts.push(Part { polytope, number });
+    }
+
+    /// Adds a triangle.
+    pub(crate) fn push_triangle(&mut self, corners: [DVec3; 3], number: u32) {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(corners);
+        self.triangles.push([first, first + 1, first + 2]);
+        self.triangle_numbers.push(number);
+    }
+
+    /// Adds the triangles of a mesh, which are numbered from 0.
+    pub(crate) fn push_mesh(&mut self, vertices: impl Iterator<Item = DVec3>, faces: &[[u32; 3]]) {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(vertices);
+        let corners = |face: &[u32; 3]| face.map(|corner| first.saturating_add(corner));
+        self.triangles.extend(faces.iter().map(corners));
+        self.triangle_numbers.extend(0..faces.len() as u32);
+    }
+
+    /// Notes that points may be farther from their places.
+    pub(crate) fn add_slack(&mut self, slack: f64) {
+        self.slack = greater(self.slack, slack);
+    }
+
+    /// Returns it with the triangles as the surface of a solid.
+    ///
+    /// # Errors
+    /// [`ShapeError::Open`] unless they are closed.
+    pub(crate) fn filled(self) -> Result<Self, ShapeError> {
+        match open_edge(&self.vertices, &self.triangles) {
+            Some([from, to]) => Err(ShapeError::Open { from, to }),
+            None => Ok(Form {
+                volume: Volume::Solid,
+                ..self
+            }),
+        }
+    }
+
+    /// Adds another form at a pose, as the sub-shape of that number.
+    pub(crate) fn push_placed(
+        &mut self,
+        pose: &Pose,
+        inner: &Form,
+        number: u32,
+    ) -> Result<(), ShapeError> {
+        let inner = inner.expanded()?;
+        let place = |point: &DVec3| pose.transform_point(*point);
+        let reach = (inner.points()).fold(0.0, |most, point| greater(most, length(*point)));
+        let moved = match *pose == Pose::IDENTITY {
+            true => 0.0,
+            false => PLACED * (reach + length(pose.translation())),
+        };
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(inner.vertices.iter().map(place));
+        let corners = |face: &[u32; 3]| face.map(|corner| first.saturating_add(corner));
+        (self.triangle_numbers).extend(inner.triangles.iter().map(|_| number));
+        self.triangles.extend(inner.triangles.iter().map(corners));
+        for Part { polytope, .. } in &inner.parts {
+            let points = polytope.points.iter().map(place).collect();
+            let polytope = Polytope {
+                points,
+                ..polytope.clone()
+            };
+            self.parts.push(Part { polytope, number });
+        }
+        self.slack = greater(self.slack, inner.slack + moved);
+        self.excess = greater(self.excess, inner.excess);
+        Ok(())
+    }
+
+    /// How far points may be from their places, for rounding.
+    pub(crate) fn slack(&self) -> f64 {
+        self.slack
+    }
+
+    /// How far polytopes may exceed what they enclose.
+    pub(crate) fn excess(&self) -> f64 {
+        self.excess
+    }
+
+    /// The approximate number of bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        let corners = |part: &Part| {
+            part.polytope
+                .facets
+                .iter()
+                .map(|facet: &Facet| 32 + 4 * facet.corners.len())
+                .sum::<usize>()
+        };
+        let of_part = |part: &Part| 24 * part.polytope.points.len() + corners(part) + 128;
+        let parts: usize = self.parts.iter().map(of_part).sum();
+        24 * self.vertices.len() + 16 * self.triangles.len() + parts
+    }
+
+    /// Returns a ball about it: the middle, and a radius rounded up.
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        let (low, high) = self
+            .points()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+                (low.min(*p), high.max(*p))
+            });
+        let middle = 0.5 * low + 0.5 * high;
+        let of_part =
+            |part: &Part| farthest(part.polytope.points.iter(), middle) + part.polytope.radius;
+        let parts = self.parts.iter().map(of_part).fold(0.0, greater);
+        let radius = greater(parts, farthest(self.vertices.iter(), middle));
+        (middle, radius * crate::tolerance::BEYOND)
+    }
+
+    fn points(&self) -> impl Iterator<Item = &DVec3> {
+        let parts = self.parts.iter().flat_map(|part| &part.polytope.points);
+        self.vertices.iter().chain(parts)
+    }
+
+    /// Returns the body, and the number of the sub-shape that each of its pieces is, in the body's order.
+    ///
+    /// # Errors
+    /// [`ShapeError::Piece`] that names the sub-shape, [`ShapeError::Body`].
+    pub(crate) fn body(&self) -> Result<(Body, Vec<u32>), ShapeError> {
+        let made = match (&self.parts[..], self.triangles.is_empty()) {
+            (parts, true) => self.of_parts(parts),
+            ([], false) => {
+                Pieces::triangles(&self.vertices, &self.triangles, &self.triangle_numbers)
+                    .and_then(|pieces| Body::new(&pieces, self.volume))
+            }
+            (parts, false) => self.of_parts(&self.all_parts(parts)),
+        };
+        let body = made.map_err(|error| self.named(error))?;
+        let numbers = (0..body.pieces().len()).map(|k| self.number(&body, k));
+        let numbers = numbers.collect();
+        Ok((body, numbers))
+    }
+
+    fn of_parts(&self, parts: &[Part]) -> Result<Body, InputError> {
+        if let [part] = parts {
+            let body = Body::polytope(part.polytope.clone())?;
+            return match &self.surface {
+                Some((faces, numbers)) => {
+                    let pieces = Pieces::triangles(&part.polytope.points, faces, numbers)?;
+                    body.with_surface(Body::new(&pieces, Volume::Solid)?)
+                }
+                None => Ok(body),
+            };
+        }
+        // Corners have the number of their part, by which its pieces are known after they are ordered anew.
+        let numbered = |part: &Part| Polytope {
+            vertex_ids: vec![part.number; part.polytope.points.len()],
+            ..part.polytope.clone()
+        };
+        let pieces = Pieces::polytopes(&parts.iter().map(numbered).collect::<Vec<_>>())?;
+        // Each piece is filled by itself.
+        Body::new(&pieces, Volume::Surface)
+    }
+
+    /// Returns the parts, and each triangle as a part.
+    fn all_parts(&self, parts: &[Part]) -> Vec<Part> {
+        // A vertex that does not exist is refused as a point that is not finite.
+        let corner = |v: &u32| *self.vertices.get(*v as usize).unwrap_or(&DVec3::NAN);
+        let of_face = |(face, number): (&[u32; 3], &u32)| Part {
+            polytope: Polytope {
+                points: face.iter().map(corner).collect(),
+                ..Polytope::default()
+            },
+            number: *number,
+        };
+        let faces = self
+            .triangles
+            .iter()
+            .zip(&self.triangle_numbers)
+            .map(of_face);
+        parts.iter().cloned().chain(faces).collect()
+    }
+
+    /// Returns the number of the sub-shape that a piece of the body is.
+    fn number(&self, body: &Body, piece: usize) -> u32 {
+        let inside = match body.pieces().all_triangles() {
+            true => {
+                let mut inside = Combination::segment([0, 1], 0.5);
+                inside.push(2, 0.5);
+                inside
+            }
+            false if self.parts.len() == 1 && self.triangles.is_empty() => {
+                return self.parts[0].number;
+            }
+            false => Combination::point(0),
+        };
+        match body.pieces().feature(piece, &inside) {
+            Feature::Face(number) | Feature::Vertex(number) => number,
+            Feature::Edge(..) | Feature::Piece(_) => 0,
+        }
+    }
+
+    /// Returns the error with the number of the sub-shape in place of that of the piece.
+    fn named(&self, error: InputError) -> ShapeError {
+        let piece = match error {
+            InputError::BadPoint { piece, .. }
+            | InputError::BadRadius { piece }
+            | InputError::EmptyPiece { piece }
+            | InputError::FacetOutOfRange { piece, .. }
+            | InputError::BadFace { piece, .. } => Some(piece),
+            InputError::VertexOutOfRange { face, .. } => Some(face + self.parts.len()),
+            _ => None,
+        };
+        let number = |piece: usize| match self.parts.get(piece) {
+            Some(part) => Some(part.number),
+            None => self.triangle_numbers.get(piece - self.parts.len()).copied(),
+        };
+        match piece.and_then(number) {
+            Some(number) => ShapeError::Piece { number, error },
+            None => ShapeError::Body(error),
+        }
+    }
+}
+
+/// Loops of corners of a box, whose corner `k` is high in x, y, z if bit 0, 1, 2 of `k` is set.
+const BOX: [[u32; 4]; 6] = [
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+];
+
+fn farthest<'a>(points: impl Iterator<Item = &'a DVec3>, from: DVec3) -> f64 {
+    points.fold(0.0, |most, point| greater(most, length(*point - from)))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,118 @@
+//! Half-spaces: for the time of one cast, a box is as good.
+//!
+//! The other body stays within a ball about a point of the half-space, in the half-space's frame. A box that holds the
+//! part of the half-space in that ball, and hardly more, has the same contacts.
+
+use crate::form::Form;
+use crate::horizon::{Horizon, Reaching};
+use crate::order::{greater, length, lesser};
+use crate::tolerance::{BEYOND, FACE};
+use crate::{Prepared, ShapeError};
+use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
+use std::f64::consts::TAU;
+
+/// All points on one side of a plane through the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HalfSpace {
+    /// The unit normal, to the outside.
+    normal: DVec3,
+}
+
+impl HalfSpace {
+    /// # Errors
+    /// [`ShapeError::Size`] for a normal that has no direction.
+    pub(crate) fn new(normal: DVec3) -> Result<Self, ShapeError> {
+        let size = ShapeError::Size {
+            what: "normal",
+            value: length(normal),
+        };
+        match normal.is_finite() {
+            true => Ok(HalfSpace {
+                normal: unit(normal).ok_or(size)?,
+            }),
+            false => Err(size),
+        }
+    }
+
+    /// Returns the time to look at for a body that is in contact within a distance, of a time that is asked for.
+    ///
+    /// `plane` is the half-space's motion, about any point of it.
+    pub(crate) fn horizon(
+        &self,
+        plane: Reaching,
+        body: Reaching,
+        within: f64,
+        wanted: f64,
+    ) -> Horizon {
+        let needed = self.decided(plane, body, within);
+        let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
+        Horizon::needed([plane, body], needed)
+    }
+
+    /// Returns a time after which the body is inside for good, or outside for good, or does what it did; none if there
+    /// is none.
+    fn decided(&self, plane: Reaching, body: Reaching, within: f64) -> Option<f64> {
+        let [p, b] = [plane.motion, body.motion];
+        let (still, spin) = (p.spin() == DVec3::ZERO, b.spin());
+        if p.velocity() == b.velocity() {
+            // In the plane's frame the body turns in place, or goes around.
+            return match (still, spin == DVec3::ZERO) {
+                (true, true) => Some(0.0),
+                (true, false) => Some(TAU / length(spin) * BEYOND),
+                (false, true) => Some(TAU / length(p.spin()) * BEYOND),
+                (false, false) => (spin == p.spin()).then(|| TAU / length(spin) * BEYOND),
+            };
+        }
+        if !still {
+            return None;
+        }
+        let normal = p.start().rotation() * self.normal;
+        let (from, to) = (p.start().translation(), body.place());
+        let velocity = b.velocity() - p.velocity();
+        let rate = normal.dot(velocity);
+        let rounding = FACE * length(velocity);
+        let spread = length(from) + length(to);
+        let height = normal.dot(to - from);
+        let reach = (body.reach + within + FACE * spread) * BEYOND;
+        let way = if rate < 0.0 {
+            height + reach
+        } else {
+            reach - height
+        };
+        let rate = rate.abs() - rounding;
+        (rate > 0.0).then(|| greater(0.0, way) / rate * BEYOND)
+    }
+
+    /// Bounds the distance from `plane.about` of all points of the half-space that the body may be in contact with.
+    pub(crate) fn reach(&self, plane: Reaching, body: Reaching, within: f64, duration: f64) -> f64 {
+        let [p, b] = [plane.place(), body.place()];
+        let speed = length(body.motion.velocity() - plane.motion.velocity());
+        let spread = length(p) + length(b);
+        (length(b - p) + speed * duration + body.reach + within + FACE * spread) * BEYOND
+    }
+
+    /// Returns a box that has the contacts of the half-space within that reach of `plane.about`.
+    pub(crate) fn stand_in(&self, plane: Reaching, reach: f64) -> Result<Prepared, ShapeError> {
+        let normal = self.normal;
+        let height = normal.dot(plane.about);
+        let middle = plane.about - height * normal;
+        let across = normal.any_orthonormal_vector();
+        let along = normal.cross(across);
+        // The face is above the plane, whatever rounding does to the corners.
+        let above = FACE * (reach + length(plane.about));
+        let below = -(reach + above) + lesser(height, 0.0);
+        let wide = reach * BEYOND + above;
+        let corner = |k: u32| {
+            let side = |bit: u32| if k >> bit & 1 == 1 { wide } else { -wide };
+            let high = if k & 4 == 4 { above } else { below };
+            middle + side(0) * across + side(1) * along + high * normal
+        };
+        let mut form = Form::EMPTY;
+        form.push_corners((0..8).map(corner).collect(), 0.0);
+        Ok(Prepared::new(&form)?.exceeding(2.0 * above))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,115 @@
+//! For how long a cast has to look: casts may ask for any time, queries are finite.
+//!
+//! Each body stays within a ball about its centre, and centres move straight. Contact is over for good once the balls
+//! have passed each other, and a motion that repeats itself need be looked at once.
+
+use crate::order::{greater, length, lesser};
+use crate::tolerance::{BEYOND, LONGEST, USED};
+use ccd_core::Motion;
+use ccd_core::glam::DVec3;
+use ccd_core::limits::{MAX_COORDINATE, MAX_TURN};
+use std::f64::consts::TAU;
+
+/// A motion, and how far the body reaches.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reaching {
+    pub(crate) motion: Motion,
+    /// A point of the body that moves straight, in its frame.
+    pub(crate) about: DVec3,
+    /// The largest distance of the body's points from that.
+    pub(crate) reach: f64,
+}
+
+impl Reaching {
+    /// Returns the place of the point that moves straight, at the start.
+    pub(crate) fn place(&self) -> DVec3 {
+        self.motion.start().transform_point(self.about)
+    }
+}
+
+/// The time to look at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Horizon {
+    /// Bodies that stay apart for this time stay apart for all that was asked for.
+    Whole(f64),
+    /// The engine can look no farther than this.
+    Part(f64),
+}
+
+impl Horizon {
+    pub(crate) fn duration(self) -> f64 {
+        match self {
+            Horizon::Whole(duration) | Horizon::Part(duration) => duration,
+        }
+    }
+
+    /// Returns the time to look at for bodies that are in contact within a distance, of a time that is asked for.
+    pub(crate) fn of(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
+        let needed = [passed(bodies, within), repeated(bodies)];
+        Horizon::needed(bodies, needed.into_iter().flatten().fold(wanted, lesser))
+    }
+
+    /// Returns the time to look at, of a time that is needed.
+    pub(crate) fn needed(bodies: [Reaching; 2], needed: f64) -> Self {
+        let possible = possible(bodies);
+        match needed <= possible {
+            true => Horizon::Whole(needed),
+            false => Horizon::Part(possible),
+        }
+    }
+}
+
+/// Returns a time after which the bodies are out of each other's reach; none if they do not pass each other.
+fn passed(bodies: [Reaching; 2], within: f64) -> Option<f64> {
+    let [a, b] = bodies.map(|body| body.motion);
+    let speed = length(b.velocity() - a.velocity());
+    let [at_a, at_b] = bodies.map(|body| body.place());
+    // The rounding of the places, too, is made up for.
+    let spread = length(at_a) + length(at_b);
+    let apart = length(at_b - at_a) + (BEYOND - 1.0) * spread;
+    let way = apart + bodies[0].reach + bodies[1].reach + within;
+    (speed > 0.0).then(|| way / speed * BEYOND)
+}
+
+/// Returns a time after which the bodies have each pose to each other that they ever have, if they do not move on.
+fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
+    let [a, b] = bodies.map(|body| body.motion);
+    let turn = |spin: DVec3| TAU / length(spin) * BEYOND;
+    if a.velocity() != b.velocity() {
+        return None;
+    }
+    match (a.spin() == DVec3::ZERO, b.spin() == DVec3::ZERO) {
+        (true, true) => Some(0.0),
+        (false, true) => Some(turn(a.spin())),
+        (true, false) => Some(turn(b.spin())),
+        // About two axes at one rate, too, everything repeats itself.
+        (false, false) if a.spin() == b.spin() => Some(turn(a.spin())),
+        (false, false) => None,
+    }
+}
+
+/// Returns the longest time for which the engine takes both motions.
+fn possible(bodies: [Reaching; 2]) -> f64 {
+    let origin = bodies[1].motion.start().translation();
+    let of = |body: &Reaching| {
+        let motion = &body.motion;
+        let centre = motion.start().transform_point(motion.centre());
+        let left = MAX_COORDINATE * USED - length(centre - origin);
+        let (speed, rate) = (length(motion.velocity()), length(motion.spin()));
+        let travel = if speed > 0.0 {
+            greater(left, 0.0) / speed
+        } else {
+            LONGEST
+        };
+        let turn = if rate > 0.0 {
+            MAX_TURN * USED / rate
+        } else {
+            LONGEST
+        };
+        lesser(travel, turn)
+    };
+    bodies.iter().map(of).fold(LONGEST, lesser)
+}
+
+#[cfg(test)]
+mod tests;

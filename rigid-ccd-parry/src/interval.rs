@@ -1,0 +1,57 @@
+//! The times that a cast is about.
+
+use crate::CastError;
+use crate::order::{greater, lesser};
+
+/// Times, from the first to the last one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Interval {
+    start: f64,
+    end: f64,
+}
+
+impl Interval {
+    /// Returns none if it holds no time, as its end is before its start.
+    ///
+    /// # Errors
+    /// [`CastError::Number`] for NaN, and for a start that is infinite.
+    pub(crate) fn new(start: f64, end: f64) -> Result<Option<Self>, CastError> {
+        let number = |what, value, allowed| CastError::Number {
+            what,
+            value,
+            allowed,
+        };
+        if !start.is_finite() {
+            return Err(number("the start time", start, "finite"));
+        }
+        if end.is_nan() {
+            return Err(number("the end time", end, "a number"));
+        }
+        Ok((start <= end).then_some(Interval { start, end }))
+    }
+
+    /// The first time.
+    pub(crate) fn start(self) -> f64 {
+        self.start
+    }
+
+    /// Returns its length, rounded up.
+    pub(crate) fn length(self) -> f64 {
+        match self.start == 0.0 {
+            true => self.end,
+            false => (self.end - self.start).next_up(),
+        }
+    }
+
+    /// Returns the time that long after the start, rounded down.
+    pub(crate) fn time_after(self, after: f64) -> f64 {
+        let time = match self.start == 0.0 {
+            true => after,
+            false => (self.start + after).next_down(),
+        };
+        lesser(greater(self.start, time), self.end)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,88 @@
+//! parry's arguments as a question.
+
+use super::CONTACT;
+use super::convert::{motion, point, pose};
+use super::hits::hit;
+use super::library::math::{Pose, Real, Vector};
+use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
+use crate::cast::{Cast, Ready};
+use crate::interval::Interval;
+use crate::{CastError, Settings};
+use ccd_core::{InputError, Motion, StartPolicy};
+use rigid_ccd::Solver;
+
+/// What is asked about two bodies: all of parry's arguments but the shapes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Question {
+    motions: [Motion; 2],
+    /// None if it holds no time.
+    interval: Option<Interval>,
+    target: f64,
+    start: StartPolicy,
+}
+
+impl Question {
+    /// Takes the arguments of `cast_shapes_nonlinear`.
+    pub(super) fn nonlinear(
+        motions: [&NonlinearRigidMotion; 2],
+        [start_time, end_time]: [Real; 2],
+        stop_at_penetration: bool,
+    ) -> Result<Self, CastError> {
+        let [a, b] = motions.map(motion);
+        Ok(Question {
+            motions: [of(1, a)?, of(2, b)?],
+            interval: Interval::new(f64::from(start_time), f64::from(end_time))?,
+            target: 0.0,
+            start: policy(stop_at_penetration),
+        })
+    }
+
+    /// Takes the arguments of `cast_shapes`.
+    pub(super) fn linear(
+        bodies: [(&Pose, Vector); 2],
+        options: ShapeCastOptions,
+    ) -> Result<Self, CastError> {
+        let slides =
+            |(at, velocity): (&Pose, Vector)| Motion::new(pose(at)?, point(velocity), [0.0; 3]);
+        let [a, b] = bodies.map(slides);
+        Ok(Question {
+            motions: [of(1, a)?, of(2, b)?],
+            interval: Interval::new(0.0, f64::from(options.max_time_of_impact))?,
+            target: f64::from(options.target_distance),
+            start: policy(options.stop_at_penetration),
+        })
+    }
+
+    /// Answers it about two shapes.
+    pub(super) fn answer(
+        &self,
+        shapes: [&Ready; 2],
+        settings: &Settings,
+        solver: &mut Solver,
+    ) -> Result<Option<ShapeCastHit>, CastError> {
+        let Some(interval) = self.interval else {
+            return Ok(None);
+        };
+        let cast = Cast {
+            operands: shapes.map(Ready::operand),
+            motions: self.motions,
+            interval,
+            target: self.target,
+            start: self.start,
+            settings: *settings,
+            contact: CONTACT,
+        };
+        Ok(cast.answer(solver)?.as_ref().map(hit))
+    }
+}
+
+fn of(which: u8, motion: Result<Motion, InputError>) -> Result<Motion, CastError> {
+    motion.map_err(|error| CastError::Motion { which, error })
+}
+
+fn policy(stop_at_penetration: bool) -> StartPolicy {
+    match stop_at_penetration {
+        true => StartPolicy::Report,
+        false => StartPolicy::Leave,
+    }
+}

@@ -1,0 +1,161 @@
+//! Casts that keep the bodies of shapes.
+
+use super::ask::Question;
+use super::library::math::{Pose, Real, Vector};
+use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
+use super::library::shape::{SharedShape, TypedShape};
+use super::shapes::{body, half_space};
+use crate::cast::Ready;
+use crate::{CastError, Prepared, Settings, ShapeError};
+use rigid_ccd::Solver;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Casts that keep the bodies of shapes from call to call: for simulations and games, that cast each frame.
+///
+/// A body is known by the address of its [`SharedShape`]. The caster holds a clone of it: while it does, the address
+/// belongs to that shape, and `SharedShape::make_mut` makes a copy at another one. A shape that is let go by everyone
+/// else is let go here, too, once the number of bodies has doubled.
+#[doc = ""]
+#[doc = "```"]
+#[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
+#[doc = concat!("use ", parry!(), "::query::NonlinearRigidMotion;")]
+#[doc = concat!("use ", parry!(), "::shape::SharedShape;")]
+#[doc = concat!("use rigid_ccd_parry::", precision!(), "::Caster;")]
+/// let (ball, wall) = (SharedShape::ball(0.5), SharedShape::cuboid(0.1, 5.0, 5.0));
+/// let rests = NonlinearRigidMotion::constant_position(Pose::IDENTITY);
+/// let mut caster = Caster::default();
+/// for speed in [1.0, 2.0, 4.0] {
+///     let start = Pose::translation(-3.0, 0.0, 0.0);
+///     let flies = NonlinearRigidMotion::new(start, Vector::ZERO, speed * Vector::X, Vector::Y);
+///     let hit = caster.cast_shapes_nonlinear(&flies, &ball, &rests, &wall, 0.0, 1.0, true)?;
+///     assert_eq!(hit.is_some(), speed > 2.4);
+/// }
+/// # Ok::<(), rigid_ccd_parry::CastError>(())
+/// ```
+#[derive(Default)]
+pub struct Caster {
+    settings: Settings,
+    solver: Solver,
+    shapes: HashMap<usize, (SharedShape, Ready)>,
+    /// The number of bodies after the last look for those that nobody else holds.
+    seen: usize,
+}
+
+impl Caster {
+    /// Creates a caster.
+    pub fn new(settings: Settings) -> Self {
+        Caster {
+            settings,
+            ..Caster::default()
+        }
+    }
+
+    /// Finds when two moving shapes first touch: `query::cast_shapes_nonlinear`, with the same arguments.
+    ///
+    /// # Guarantee
+    /// Nothing touches before the time of the hit; without a hit nothing touches in the interval. See the [crate's
+    /// documentation](crate) for what each argument means.
+    ///
+    /// # Errors
+    /// [`CastError`].
+    #[allow(clippy::too_many_arguments)] // They are parry's.
+    pub fn cast_shapes_nonlinear(
+        &mut self,
+        motion1: &NonlinearRigidMotion,
+        g1: &SharedShape,
+        motion2: &NonlinearRigidMotion,
+        g2: &SharedShape,
+        start_time: Real,
+        end_time: Real,
+        stop_at_penetration: bool,
+    ) -> Result<Option<ShapeCastHit>, CastError> {
+        let times = [start_time, end_time];
+        let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
+        self.answer(&question, [g1, g2])
+    }
+
+    /// Finds when two shapes that move straight first touch: `query::cast_shapes`, with the same arguments.
+    ///
+    /// # Guarantee
+    /// That of [`Caster::cast_shapes_nonlinear`].
+    ///
+    /// # Errors
+    /// [`CastError`].
+    #[allow(clippy::too_many_arguments)] // They are parry's.
+    pub fn cast_shapes(
+        &mut self,
+        pos1: &Pose,
+        vel1: Vector,
+        g1: &SharedShape,
+        pos2: &Pose,
+        vel2: Vector,
+        g2: &SharedShape,
+        options: ShapeCastOptions,
+    ) -> Result<Option<ShapeCastHit>, CastError> {
+        let question = Question::linear([(pos1, vel1), (pos2, vel2)], options)?;
+        self.answer(&question, [g1, g2])
+    }
+
+    /// Returns the body of a shape, for other questions, and to have it made ahead.
+    ///
+    /// # Errors
+    /// [`ShapeError`]; [`ShapeError::HalfSpace`] for half-spaces, which have no body.
+    pub fn body(&mut self, shape: &SharedShape) -> Result<Arc<Prepared>, ShapeError> {
+        match self.ready(shape)? {
+            Ready::Body(body) => Ok(body),
+            Ready::HalfSpace(_) => Err(ShapeError::HalfSpace),
+        }
+    }
+
+    /// The number of bodies kept.
+    pub fn kept(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// Lets go of the bodies of shapes that nobody else holds.
+    pub fn forget_unused(&mut self) {
+        self.shapes
+            .retain(|_, (shape, _)| Arc::strong_count(&shape.0) > 1);
+        self.seen = self.shapes.len();
+    }
+
+    fn ready(&mut self, shape: &SharedShape) -> Result<Ready, ShapeError> {
+        if let Some((_, kept)) = self.shapes.get(&address(shape)) {
+            return Ok(kept.clone());
+        }
+        let ready = match shape.as_typed_shape() {
+            TypedShape::HalfSpace(plane) => Ready::HalfSpace(half_space(plane)?),
+            _ => Ready::Body(Arc::new(body(&**shape, &self.settings)?)),
+        };
+        if self.shapes.len() >= 2 * self.seen + FEW {
+            self.forget_unused();
+        }
+        self.shapes
+            .insert(address(shape), (shape.clone(), ready.clone()));
+        Ok(ready)
+    }
+
+    fn answer(
+        &mut self,
+        question: &Question,
+        [g1, g2]: [&SharedShape; 2],
+    ) -> Result<Option<ShapeCastHit>, CastError> {
+        let mut ready = |which, shape| {
+            let named = |error| CastError::Shape { which, error };
+            self.ready(shape).map_err(named)
+        };
+        let (a, b) = (ready(1, g1)?, ready(2, g2)?);
+        question.answer([&a, &b], &self.settings, &mut self.solver)
+    }
+}
+
+/// The number of bodies for which nobody looks whether they are still used.
+const FEW: usize = 32;
+
+fn address(shape: &SharedShape) -> usize {
+    Arc::as_ptr(&shape.0).cast::<()>() as usize
+}
+
+#[cfg(test)]
+mod tests;

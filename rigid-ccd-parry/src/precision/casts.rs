@@ -1,0 +1,167 @@
+//! The functions with parry's names and signatures.
+
+use super::ask::Question;
+use super::library::math::{Pose, Real, Vector};
+use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions, Unsupported};
+use super::library::shape::{Shape, TypedShape};
+use super::shapes::{form, half_space};
+use crate::cast::Ready;
+use crate::shelf::Shelf;
+use crate::{CastError, Settings, ShapeError};
+use rigid_ccd::Solver;
+use std::cell::Cell;
+
+/// Finds when two moving shapes first touch: `query::cast_shapes_nonlinear`, never late.
+///
+/// # Guarantee
+/// Nothing touches before the time of the hit; without a hit nothing touches in the interval. See the [crate's
+/// documentation](crate) for what each argument means.
+///
+/// # Errors
+/// `Unsupported`, for what [`try_cast_shapes_nonlinear`] tells about.
+///
+/// # Complexity
+/// Each call goes over all numbers of both shapes, to find their bodies among those of earlier calls of the thread. For
+/// large meshes use a [`Caster`](super::Caster).
+#[doc = ""]
+#[doc = "```"]
+#[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
+#[doc = concat!("use ", parry!(), "::query::NonlinearRigidMotion;")]
+#[doc = concat!("use ", parry!(), "::shape::{Ball, Cuboid};")]
+#[doc = concat!("use rigid_ccd_parry::", precision!(), "::cast_shapes_nonlinear;")]
+/// let (ball, wall) = (Ball::new(0.5), Cuboid::new(Vector::new(0.1, 5.0, 5.0)));
+/// let start = Pose::translation(-3.0, 0.0, 0.0);
+/// let flies = NonlinearRigidMotion::new(start, Vector::ZERO, 4.0 * Vector::X, 20.0 * Vector::Z);
+/// let rests = NonlinearRigidMotion::identity();
+/// let hit = cast_shapes_nonlinear(&flies, &ball, &rests, &wall, 0.0, 1.0, true)?;
+/// let time = hit.expect("it flies at the wall").time_of_impact;
+/// assert!(time <= 0.6 && time > 0.5999);
+#[doc = concat!("# Ok::<(), ", parry!(), "::query::Unsupported>(())")]
+/// ```
+#[allow(clippy::too_many_arguments)] // They are parry's.
+pub fn cast_shapes_nonlinear(
+    motion1: &NonlinearRigidMotion,
+    g1: &dyn Shape,
+    motion2: &NonlinearRigidMotion,
+    g2: &dyn Shape,
+    start_time: Real,
+    end_time: Real,
+    stop_at_penetration: bool,
+) -> Result<Option<ShapeCastHit>, Unsupported> {
+    let times = [start_time, end_time];
+    try_cast_shapes_nonlinear(motion1, g1, motion2, g2, times, stop_at_penetration)
+        .map_err(|_| Unsupported)
+}
+
+/// Like [`cast_shapes_nonlinear`], and tells why it has no answer; `times` are the start and the end.
+///
+/// # Errors
+/// [`CastError`].
+pub fn try_cast_shapes_nonlinear(
+    motion1: &NonlinearRigidMotion,
+    g1: &dyn Shape,
+    motion2: &NonlinearRigidMotion,
+    g2: &dyn Shape,
+    times: [Real; 2],
+    stop_at_penetration: bool,
+) -> Result<Option<ShapeCastHit>, CastError> {
+    let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
+    answer(&question, [g1, g2])
+}
+
+/// Finds when two shapes that move straight first touch: `query::cast_shapes`, never late.
+///
+/// # Guarantee
+/// That of [`cast_shapes_nonlinear`].
+///
+/// # Errors
+/// `Unsupported`, for what [`try_cast_shapes`] tells about.
+///
+/// # Complexity
+/// That of [`cast_shapes_nonlinear`].
+#[doc = ""]
+#[doc = "```"]
+#[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
+#[doc = concat!("use ", parry!(), "::query::ShapeCastOptions;")]
+#[doc = concat!("use ", parry!(), "::shape::Ball;")]
+#[doc = concat!("use rigid_ccd_parry::", precision!(), "::cast_shapes;")]
+/// let (ball, options) = (Ball::new(1.0), ShapeCastOptions::default());
+/// let (here, there) = (Pose::IDENTITY, Pose::translation(10.0, 0.0, 0.0));
+/// let hit = cast_shapes(&here, 2.0 * Vector::X, &ball, &there, Vector::ZERO, &ball, options)?;
+/// let time = hit.expect("they meet").time_of_impact;
+/// assert!(time <= 4.0 && time > 3.9999);
+#[doc = concat!("# Ok::<(), ", parry!(), "::query::Unsupported>(())")]
+/// ```
+#[allow(clippy::too_many_arguments)] // They are parry's.
+pub fn cast_shapes(
+    pos1: &Pose,
+    vel1: Vector,
+    g1: &dyn Shape,
+    pos2: &Pose,
+    vel2: Vector,
+    g2: &dyn Shape,
+    options: ShapeCastOptions,
+) -> Result<Option<ShapeCastHit>, Unsupported> {
+    try_cast_shapes((pos1, vel1, g1), (pos2, vel2, g2), options).map_err(|_| Unsupported)
+}
+
+/// Like [`cast_shapes`], and tells why it has no answer; each shape comes with its pose and velocity.
+///
+/// # Errors
+/// [`CastError`].
+pub fn try_cast_shapes(
+    (pos1, vel1, g1): (&Pose, Vector, &dyn Shape),
+    (pos2, vel2, g2): (&Pose, Vector, &dyn Shape),
+    options: ShapeCastOptions,
+) -> Result<Option<ShapeCastHit>, CastError> {
+    let question = Question::linear([(pos1, vel1), (pos2, vel2)], options)?;
+    answer(&question, [g1, g2])
+}
+
+/// What is kept from call to call.
+#[derive(Default)]
+struct Kept {
+    shelf: Shelf,
+    solver: Solver,
+}
+
+thread_local! {
+    /// Taken away while a call uses it.
+    static KEPT: Cell<Option<Box<Kept>>> = const { Cell::new(None) };
+}
+
+fn answer(question: &Question, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
+    let settings = Settings::default();
+    // A thread that ends keeps nothing any more.
+    let kept = KEPT.try_with(Cell::take).ok().flatten();
+    let mut kept = kept.unwrap_or_default();
+    let found = kept.answer(question, shapes, &settings);
+    let _ = KEPT.try_with(|place| place.set(Some(kept)));
+    found
+}
+
+impl Kept {
+    fn answer(
+        &mut self,
+        question: &Question,
+        [g1, g2]: [&dyn Shape; 2],
+        settings: &Settings,
+    ) -> Result<Option<ShapeCastHit>, CastError> {
+        let mut ready = |which, shape| {
+            let named = |error| CastError::Shape { which, error };
+            self.ready(shape, settings).map_err(named)
+        };
+        let (a, b) = (ready(1, g1)?, ready(2, g2)?);
+        question.answer([&a, &b], settings, &mut self.solver)
+    }
+
+    fn ready(&mut self, shape: &dyn Shape, settings: &Settings) -> Result<Ready, ShapeError> {
+        match shape.as_typed_shape() {
+            TypedShape::HalfSpace(plane) => half_space(plane).map(Ready::HalfSpace),
+            _ => self.shelf.body(form(shape, settings)?).map(Ready::Body),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

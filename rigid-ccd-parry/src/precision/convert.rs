@@ -1,0 +1,63 @@
+//! Numbers, vectors, poses and motions, from parry's types and back.
+
+use super::library::math::{Pose as ParryPose, Real, Vector};
+use super::library::query::NonlinearRigidMotion;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Motion, Pose};
+
+/// Returns the motion of a body in double precision: the same path, of the same numbers.
+///
+/// parry's motion turns about `local_center`, a point in the shape's frame, which moves by `linvel`; `angvel` is along
+/// the world's axes. A [`Motion`] about that centre is the same. Its orientation is that of the quaternion made a unit
+/// in double precision, where parry's own arithmetic scales a shape by the square of the quaternion's length.
+///
+/// # Errors
+/// [`InputError::NotFinite`], [`InputError::ZeroQuaternion`].
+#[doc = ""]
+#[doc = "```"]
+#[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
+#[doc = concat!("use ", parry!(), "::query::NonlinearRigidMotion;")]
+/// let pose = Pose::translation(3.0, 0.0, 0.0);
+/// let spins = NonlinearRigidMotion::new(pose, Vector::Y, Vector::X, Vector::Z);
+#[doc = concat!("let motion = rigid_ccd_parry::", precision!(), "::motion(&spins)?;")]
+/// let there = spins.position_at_time(2.0).translation.x as f64;
+/// assert!((motion.pose(2.0).translation().x - there).abs() < 1e-5);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+pub fn motion(motion: &NonlinearRigidMotion) -> Result<Motion, InputError> {
+    Motion::about(
+        pose(&motion.start)?,
+        point(motion.linvel),
+        point(motion.angvel),
+        point(motion.local_center),
+    )
+}
+
+/// Returns the placement in double precision.
+pub(super) fn pose(pose: &ParryPose) -> Result<Pose, InputError> {
+    let q = pose.rotation;
+    let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
+    Pose::new(point(pose.translation), DQuat::from_xyzw(x, y, z, w))
+}
+
+/// Returns the point in double precision.
+pub(super) fn point(v: Vector) -> DVec3 {
+    DVec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
+}
+
+/// Returns the vector in parry's precision, rounded to nearest.
+pub(super) fn vector(v: DVec3) -> Vector {
+    Vector::new(v.x as Real, v.y as Real, v.z as Real)
+}
+
+/// Returns the time in parry's precision, rounded down.
+pub(super) fn time(time: f64) -> Real {
+    let near = time as Real;
+    match f64::from(near) > time {
+        true => near.next_down(),
+        false => near,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,26 @@
+//! What is found, in parry's types.
+
+use super::convert::{time, vector};
+use super::library::query::{ShapeCastHit, ShapeCastStatus};
+use crate::scene::{Ending, Found};
+
+/// Returns the hit in parry's terms: the time rounded down.
+pub(super) fn hit(found: &Found) -> ShapeCastHit {
+    let [witness1, witness2] = found.witnesses.map(vector);
+    let [normal1, normal2] = found.normals.map(vector);
+    let [subshape1, subshape2] = found.numbers;
+    ShapeCastHit {
+        time_of_impact: time(found.time),
+        witness1,
+        witness2,
+        normal1,
+        normal2,
+        status: match found.ending {
+            Ending::Contact => ShapeCastStatus::Converged,
+            Ending::AtStart => ShapeCastStatus::PenetratingOrWithinTargetDist,
+            Ending::Limit => ShapeCastStatus::OutOfIterations,
+        },
+        subshape1,
+        subshape2,
+    }
+}

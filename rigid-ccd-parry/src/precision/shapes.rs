@@ -1,0 +1,243 @@
+//! Forms of parry's shapes.
+
+use super::convert::{point, pose};
+use super::library::math::{IVector, Real};
+use super::library::shape::{
+    Compound, ConvexPolyhedron, Cuboid, HalfSpace as ParryHalfSpace, HeightField, Polyline, Shape,
+    TriMeshFlags, TypedShape, Voxels,
+};
+use crate::enclosure::{Kind, Round};
+use crate::form::Form;
+use crate::half_space::HalfSpace;
+use crate::limits::{DEEPEST, FARTHEST_VOXEL};
+use crate::order::{greater, length};
+use crate::tolerance::GRID;
+use crate::{Meshes, Prepared, Settings, ShapeError};
+use ccd_core::glam::DVec3;
+
+/// Makes the body of a shape, for casts and all other questions of [`rigid_ccd::Solver`].
+///
+/// # Errors
+/// A [`ShapeError`] that names the part, triangle or size.
+///
+/// # Complexity
+/// O(n log n) in the number of triangles, parts and voxels.
+#[doc = ""]
+#[doc = "```"]
+#[doc = concat!("use ", parry!(), "::shape::{Cuboid, Cylinder};")]
+#[doc = concat!("use ", parry!(), "::math::Vector;")]
+#[doc = concat!("use rigid_ccd_parry::", precision!(), "::body;")]
+/// use rigid_ccd_parry::Settings;
+/// let block = body(&Cuboid::new(Vector::splat(0.5)), &Settings::default())?;
+/// assert_eq!(block.excess(), 0.0);
+/// let wheel = body(&Cylinder::new(0.1, 0.5), &Settings::default())?;
+/// assert!(wheel.excess() > 0.0 && wheel.excess() < 0.5 / 4000.0);
+/// # Ok::<(), rigid_ccd_parry::ShapeError>(())
+/// ```
+pub fn body(shape: &dyn Shape, settings: &Settings) -> Result<Prepared, ShapeError> {
+    Prepared::new(&form(shape, settings)?)
+}
+
+/// Returns the geometry of a shape.
+pub(super) fn form(shape: &dyn Shape, settings: &Settings) -> Result<Form, ShapeError> {
+    let form = nested(shape, settings, 0)?;
+    let TypedShape::TriMesh(mesh) = shape.as_typed_shape() else {
+        return Ok(form);
+    };
+    let oriented = mesh.flags().contains(TriMeshFlags::ORIENTED);
+    match settings.meshes == Meshes::SolidIfOriented && oriented {
+        true => form.filled(),
+        false => Ok(form),
+    }
+}
+
+/// Returns a half-space.
+pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError> {
+    HalfSpace::new(point(shape.normal))
+}
+
+/// Returns the geometry of a shape that is that deep in others.
+fn nested(shape: &dyn Shape, settings: &Settings, depth: usize) -> Result<Form, ShapeError> {
+    let mut form = Form::EMPTY;
+    match shape.as_typed_shape() {
+        TypedShape::Ball(ball) => {
+            form.push_hull(vec![DVec3::ZERO], size("radius", ball.radius)?, &[]);
+        }
+        TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
+        TypedShape::RoundCuboid(round) => {
+            push_cuboid(&mut form, &round.inner_shape, border(round.border_radius)?)?;
+        }
+        TypedShape::Capsule(capsule) => {
+            let ends = [capsule.segment.a, capsule.segment.b].map(point);
+            form.push_hull(ends.to_vec(), size("radius", capsule.radius)?, &[]);
+        }
+        TypedShape::Segment(segment) => {
+            form.push_hull([segment.a, segment.b].map(point).to_vec(), 0.0, &[]);
+        }
+        TypedShape::Triangle(t) => form.push_triangle([t.a, t.b, t.c].map(point), 0),
+        TypedShape::RoundTriangle(round) => {
+            let corners = round.inner_shape.vertices().map(point);
+            form.push_hull(corners.to_vec(), border(round.border_radius)?, &[]);
+        }
+        TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
+        TypedShape::RoundConvexPolyhedron(round) => {
+            push_polyhedron(&mut form, &round.inner_shape, border(round.border_radius)?);
+        }
+        TypedShape::TriMesh(mesh) => {
+            let vertices = mesh.vertices().iter().copied().map(point);
+            form.push_mesh(vertices, mesh.indices());
+        }
+        TypedShape::Polyline(line) => push_polyline(&mut form, line),
+        TypedShape::HeightField(field) => push_heights(&mut form, field),
+        TypedShape::Voxels(voxels) => push_voxels(&mut form, voxels)?,
+        TypedShape::Compound(compound) => push_parts(&mut form, compound, settings, depth)?,
+        TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
+        TypedShape::Custom(_) => return Err(ShapeError::Custom),
+        typed => return round(&typed, settings),
+    }
+    Ok(form)
+}
+
+/// Returns the geometry of a cylinder or a cone.
+fn round(shape: &TypedShape<'_>, settings: &Settings) -> Result<Form, ShapeError> {
+    let (kind, half_height, radius, grown) = match shape {
+        TypedShape::Cylinder(s) => (Kind::Cylinder, s.half_height, s.radius, 0.0),
+        TypedShape::Cone(s) => (Kind::Cone, s.half_height, s.radius, 0.0),
+        TypedShape::RoundCylinder(s) => {
+            let inner = &s.inner_shape;
+            (
+                Kind::Cylinder,
+                inner.half_height,
+                inner.radius,
+                s.border_radius,
+            )
+        }
+        TypedShape::RoundCone(s) => {
+            let inner = &s.inner_shape;
+            (Kind::Cone, inner.half_height, inner.radius, s.border_radius)
+        }
+        _ => return Err(ShapeError::Custom),
+    };
+    let round = Round {
+        kind,
+        half_height: size("half height", half_height)?,
+        radius: size("radius", radius)?,
+    };
+    Ok(Form::of_round(round, border(grown)?, settings.excess))
+}
+
+fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
+    let half = point(cuboid.half_extents);
+    for length in half.to_array() {
+        checked("half extent", length)?;
+    }
+    form.push_box(-half, half, radius);
+    Ok(())
+}
+
+/// Adds the hull of a polyhedron's points.
+fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) {
+    let corners = polyhedron.vertices_adj_to_face();
+    let facets = polyhedron.faces().iter().map(|face| {
+        let first = face.first_vertex_or_edge as usize;
+        let loop_of = corners.get(first..first + face.num_vertices_or_edges as usize)?;
+        (loop_of.len() >= 3).then(|| loop_of.to_vec())
+    });
+    let loops: Option<Vec<Vec<u32>>> = facets.collect();
+    let points = polyhedron.points().iter().copied().map(point).collect();
+    // Facets that are not all there are as good as none.
+    form.push_hull(points, radius, &loops.unwrap_or_default());
+}
+
+/// Adds the segments of a polyline.
+fn push_polyline(form: &mut Form, line: &Polyline) {
+    // A vertex that does not exist is refused as a point that is not finite.
+    let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
+    for (number, ends) in (0..).zip(line.indices()) {
+        form.push_segment(ends.map(vertex), number);
+    }
+}
+
+/// Adds the triangles of a height field, with parry's numbers and corners.
+fn push_heights(form: &mut Form, field: &HeightField) {
+    let (rows, columns) = (field.nrows(), field.ncols());
+    for j in 0..columns {
+        for i in 0..rows {
+            let (left, right) = field.triangles_at(i, j);
+            let number = j * rows + i;
+            for (triangle, number) in [(left, number), (right, number + rows * columns)] {
+                if let Some(triangle) = triangle {
+                    form.push_triangle(triangle.vertices().map(point), number as u32);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the cubes of filled voxels.
+fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
+    let edge = point(voxels.voxel_size());
+    let [low, high] = voxels.domain();
+    let near = |v: IVector| {
+        [v.x, v.y, v.z]
+            .into_iter()
+            .all(|k| i64::from(k).unsigned_abs() <= FARTHEST_VOXEL as u64)
+    };
+    // parry finds voxels by rounded divisions.
+    let sizes = 1e-30..=1e30;
+    if !(edge.to_array().iter().all(|side| sizes.contains(side)) && near(low) && near(high)) {
+        return Err(ShapeError::Grid);
+    }
+    // The range is compared to rounded places: it is a chunk larger than what it has to hold.
+    let chunk = IVector::new(8, 8, 8);
+    let mut reach = 0.0;
+    for voxel in voxels.voxels_in_range(low - chunk, high + chunk) {
+        let key = voxel.grid_coords;
+        let key = DVec3::new(key.x as f64, key.y as f64, key.z as f64);
+        let [low, high] = [key * edge, (key + 1.0) * edge];
+        reach = greater(reach, greater(length(low), length(high)));
+        form.push_box(low, high, 0.0);
+    }
+    form.add_slack(GRID * reach);
+    Ok(())
+}
+
+/// Adds the parts of a compound at their poses.
+fn push_parts(
+    form: &mut Form,
+    compound: &Compound,
+    settings: &Settings,
+    depth: usize,
+) -> Result<(), ShapeError> {
+    if depth >= DEEPEST {
+        return Err(ShapeError::Nested);
+    }
+    for (part, (at, shape)) in (0..).zip(compound.shapes()) {
+        let named = |error| ShapeError::Part {
+            part,
+            error: Box::new(error),
+        };
+        let inner = nested(&**shape, settings, depth + 1).map_err(named)?;
+        let at = pose(at).map_err(|error| named(ShapeError::Body(error)))?;
+        form.push_placed(&at, &inner, part).map_err(named)?;
+    }
+    Ok(())
+}
+
+fn border(radius: Real) -> Result<f64, ShapeError> {
+    size("border radius", radius)
+}
+
+fn size(what: &'static str, value: Real) -> Result<f64, ShapeError> {
+    checked(what, f64::from(value))
+}
+
+fn checked(what: &'static str, value: f64) -> Result<f64, ShapeError> {
+    match value >= 0.0 && value.is_finite() {
+        true => Ok(value),
+        false => Err(ShapeError::Size { what, value }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

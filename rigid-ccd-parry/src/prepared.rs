@@ -1,0 +1,79 @@
+//! Bodies of shapes, ready for casts.
+
+use crate::ShapeError;
+use crate::form::Form;
+use ccd_core::Body;
+use ccd_core::glam::DVec3;
+
+/// A body made of a shape: for casts, and for all other questions of [`rigid_ccd::Solver`].
+///
+/// # Guarantee
+/// Each point of the shape is at most [`slack`](Prepared::slack) from the body, and each point of the body at most
+/// [`slack`](Prepared::slack) + [`excess`](Prepared::excess) from the shape. The casts of this crate add the slack to
+/// the target distance: they are never late for it.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    body: Body,
+    numbers: Vec<u32>,
+    middle: DVec3,
+    radius: f64,
+    slack: f64,
+    excess: f64,
+}
+
+impl Prepared {
+    /// Makes the body of a form.
+    pub(crate) fn new(form: &Form) -> Result<Self, ShapeError> {
+        let form = form.expanded()?;
+        let (body, numbers) = form.body()?;
+        let (middle, radius) = form.ball();
+        Ok(Prepared {
+            body,
+            numbers,
+            middle,
+            radius,
+            slack: form.slack(),
+            excess: form.excess(),
+        })
+    }
+
+    /// The body, in the shape's frame.
+    ///
+    /// Features of a triangle mesh have the mesh's numbers. Vertices of other bodies of many parts have the number of
+    /// their part.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// How far points of the shape may be outside of the body, for rounding: 0 for all shapes but compounds and
+    /// voxels.
+    pub fn slack(&self) -> f64 {
+        self.slack
+    }
+
+    /// How far the body may exceed the shape: 0 without cylinders and cones.
+    pub fn excess(&self) -> f64 {
+        self.excess
+    }
+
+    /// Returns the number of the sub-shape that a piece of the body is, as in
+    /// `parry3d::query::ShapeCastHit::subshape1`; 0 for a piece that does not exist.
+    pub fn sub_shape(&self, piece: u32) -> u32 {
+        self.numbers.get(piece as usize).copied().unwrap_or(0)
+    }
+
+    /// Returns it as one that exceeds its shape by this.
+    pub(crate) fn exceeding(self, excess: f64) -> Self {
+        Prepared { excess, ..self }
+    }
+
+    /// The approximate number of bytes held.
+    pub fn bytes(&self) -> usize {
+        self.body.bytes() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
+    }
+
+    /// A ball about all points: its middle, in the shape's frame, and its radius.
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        (self.middle, self.radius)
+    }
+}

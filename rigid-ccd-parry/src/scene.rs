@@ -1,0 +1,153 @@
+//! Two bodies and their motions from the start of a cast on: the engine's question, and its answer in parry's terms.
+
+use crate::horizon::Horizon;
+use crate::interval::Interval;
+use crate::order::lesser;
+use crate::tolerance::LOOK;
+use crate::{CastError, Prepared};
+use ccd_core::glam::DVec3;
+use ccd_core::{Answer, Config, Contact, Motion, Outcome, Overlap, Pose};
+use rigid_ccd::Solver;
+use rigid_ccd::schedule::ClosestApproach;
+
+/// Two moving bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scene<'a> {
+    pub(crate) bodies: [&'a Prepared; 2],
+    /// From the start of the interval on.
+    pub(crate) motions: [Motion; 2],
+    pub(crate) horizon: Horizon,
+    pub(crate) interval: Interval,
+    /// The distance at which they count as in contact.
+    pub(crate) target: f64,
+    pub(crate) config: Config,
+}
+
+/// What a cast found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Found {
+    pub(crate) time: f64,
+    /// The nearest points, each in its body's frame.
+    pub(crate) witnesses: [DVec3; 2],
+    /// The directions to the other body, each in its body's frame.
+    pub(crate) normals: [DVec3; 2],
+    /// The sub-shapes that are nearest.
+    pub(crate) numbers: [u32; 2],
+    pub(crate) ending: Ending,
+}
+
+/// How a cast ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// With a contact.
+    Contact,
+    /// With bodies that overlap at the start, or are nearer than the target distance.
+    AtStart,
+    /// At a limit: nothing touches before.
+    Limit,
+}
+
+impl Scene<'_> {
+    /// Finds the first contact.
+    pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+        let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), self.motions[k]));
+        solver.set_config(self.config);
+        let answer = solver.answer(a, b, self.horizon.duration())?;
+        Ok(self.found(&answer, solver))
+    }
+
+    fn found(&self, answer: &Answer, solver: &mut Solver) -> Option<Found> {
+        match answer.outcome {
+            Outcome::Contact { time, contact } => Some(self.shown(time, &contact, Ending::Contact)),
+            Outcome::Touching { contact } => {
+                let within = self.target > 0.0 && contact.separation.upper <= self.target;
+                let ending = match within {
+                    true => Ending::AtStart,
+                    false => Ending::Contact,
+                };
+                Some(self.shown(0.0, &contact, ending))
+            }
+            Outcome::Overlapping { overlap } => Some(match overlap {
+                Overlap::Pieces(contact) => self.shown(0.0, &contact, Ending::AtStart),
+                Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
+            }),
+            Outcome::Unresolved { safe_until, .. } => Some(self.seen(safe_until, solver)),
+            Outcome::Free { .. } => match self.horizon {
+                Horizon::Whole(_) => None,
+                Horizon::Part(duration) => Some(self.seen(duration, solver)),
+            },
+        }
+    }
+
+    /// Returns a contact in the bodies' frames.
+    fn shown(&self, after: f64, contact: &Contact, ending: Ending) -> Found {
+        let separation = &contact.separation;
+        let points = [separation.witness_a, separation.witness_b];
+        let normals = [separation.normal, -separation.normal];
+        let poses = self.poses(after);
+        Found {
+            time: self.interval.time_after(after),
+            witnesses: [0, 1].map(|k| poses[k].inverse().transform_point(points[k])),
+            normals: [0, 1].map(|k| poses[k].rotation().conjugate() * normals[k]),
+            numbers: [
+                self.bodies[0].sub_shape(contact.piece_a),
+                self.bodies[1].sub_shape(contact.piece_b),
+            ],
+            ending,
+        }
+    }
+
+    /// Returns a hit of one body inside the other at the start, with a common point.
+    fn inside(&self, point: DVec3) -> Found {
+        let witnesses = self
+            .poses(0.0)
+            .map(|pose| pose.inverse().transform_point(point));
+        Found {
+            witnesses,
+            ..Found::unseen(self.interval.start(), Ending::AtStart)
+        }
+    }
+
+    /// Returns the hit for a time at which a limit was reached, with the nearest points if they can be had.
+    fn seen(&self, after: f64, solver: &mut Solver) -> Found {
+        solver.set_config(Config {
+            budget: lesser(self.config.budget, LOOK),
+            deadline: self.config.deadline,
+            ..Config::default()
+        });
+        let poses = self.poses(after);
+        let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), poses[k]));
+        let contact = match solver.distance(a, b).map(|answer| answer.outcome) {
+            Ok(ClosestApproach::Nearest { contact, .. }) => Some(contact),
+            Ok(ClosestApproach::Overlapping {
+                overlap: Overlap::Pieces(contact),
+            }) => Some(contact),
+            Ok(ClosestApproach::Unresolved { nearest, .. }) => nearest.map(|(_, contact)| contact),
+            Ok(ClosestApproach::Overlapping { .. }) | Err(_) => None,
+        };
+        match contact {
+            Some(contact) => self.shown(after, &contact, Ending::Limit),
+            None => Found::unseen(self.interval.time_after(after), Ending::Limit),
+        }
+    }
+
+    fn poses(&self, after: f64) -> [Pose; 2] {
+        self.motions.map(|motion| motion.pose(after))
+    }
+}
+
+impl Found {
+    /// A hit without nearest points: they are as in parry's casts.
+    fn unseen(time: f64, ending: Ending) -> Self {
+        Found {
+            time,
+            witnesses: [DVec3::ZERO; 2],
+            normals: [DVec3::X; 2],
+            numbers: [0; 2],
+            ending,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

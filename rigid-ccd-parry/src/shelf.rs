@@ -1,0 +1,65 @@
+//! Bodies kept by what they are made of.
+
+use crate::form::Form;
+use crate::limits::{KEPT_BODIES, KEPT_BYTES};
+use crate::{Prepared, ShapeError};
+use std::sync::Arc;
+
+/// The bodies that were asked for last, for shapes that nobody holds.
+///
+/// A body is found by its form, number by number: no other shape is ever taken for it.
+#[derive(Debug, Default)]
+pub(crate) struct Shelf {
+    /// The one asked for last stands last.
+    bodies: Vec<Kept>,
+}
+
+#[derive(Debug)]
+struct Kept {
+    form: Form,
+    body: Arc<Prepared>,
+    bytes: usize,
+}
+
+impl Shelf {
+    /// Returns the body of a form.
+    pub(crate) fn body(&mut self, form: Form) -> Result<Arc<Prepared>, ShapeError> {
+        if let Some(at) = self.bodies.iter().rposition(|kept| kept.form == form) {
+            self.bodies[at..].rotate_left(1);
+            let last = self.bodies.last().map(|kept| Arc::clone(&kept.body));
+            return last.map_or_else(|| Prepared::new(&form).map(Arc::new), Ok);
+        }
+        let body = Arc::new(Prepared::new(&form)?);
+        let bytes = body.bytes() + form.bytes();
+        self.make_room(bytes);
+        if bytes <= KEPT_BYTES {
+            self.bodies.push(Kept {
+                form,
+                body: Arc::clone(&body),
+                bytes,
+            });
+        }
+        Ok(body)
+    }
+
+    /// Lets go of those that were not asked for the longest.
+    fn make_room(&mut self, bytes: usize) {
+        let mut held: usize = self.bodies.iter().map(|kept| kept.bytes).sum();
+        let mut gone = 0;
+        while gone < self.bodies.len()
+            && (held + bytes > KEPT_BYTES || self.bodies.len() - gone >= KEPT_BODIES)
+        {
+            held -= self.bodies[gone].bytes;
+            gone += 1;
+        }
+        self.bodies.drain(..gone);
+    }
+
+    #[cfg(test)]
+    pub(crate) fn len(&self) -> usize {
+        self.bodies.len()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,65 @@
+//! Every number of this crate that is not exact: its unit, and the reason for its value.
+//!
+//! `u` is half a unit in the last place of 1.
+
+use ccd_core::tolerance::U64;
+
+/// The default distance at which single precision is in contact, in the scene's unit of length.
+///
+/// It is what parry's own casts stop at, ten units of rounding of single precision, rounded down. Twice as much
+/// reports twice as early; a thousandth of it takes a few percent longer, for contacts that single precision can
+/// not tell apart.
+pub(crate) const CONTACT_F32: f64 = 1e-6;
+
+/// The default distance at which double precision is in contact, in the scene's unit of length. parry's casts stop
+/// at 2e-15, which no proof in double precision can reach.
+pub(crate) const CONTACT_F64: f64 = 1e-9;
+
+/// The default tolerance is at most this part of the smaller body's radius: bodies of a micrometre, in metres, are
+/// not in contact at their own size.
+pub(crate) const SHARE_OF_SIZE: f64 = 1.0 / (1 << 20) as f64;
+
+/// Bounds how far a point is from its place after a pose is applied in f64, relative to the lengths of the point and
+/// of the translation.
+///
+/// In units of `u`: the given quaternion is normalised with an error of 2 in direction, which turns by 4, and of 4.5
+/// in length, which scales by up to 9; products and sums of the rotation add 15, the translation 1. That is 29; 64
+/// are taken.
+pub(crate) const PLACED: f64 = 64.0 * U64;
+
+/// Bounds how far a corner of a voxel is from its place, relative to its coordinates: one product, and two of it in
+/// sums that bound it.
+pub(crate) const GRID: f64 = 4.0 * U64;
+
+/// The factor on the corners of a polygon about a circle that makes up for their rounding.
+///
+/// In units of `u`: sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a
+/// cosine, by 4. That is 7, as is an edge's distance from the middle, for which 16 are taken.
+pub(crate) const ABOUT: f64 = 1.0 + 16.0 * U64;
+
+/// The share of a radius that a cylinder or a cone sticks out of its polytope by default: 288 points, and contacts
+/// early by a quarter of a thousandth of the radius.
+pub(crate) const EXCESS: f64 = 1.0 / 4096.0;
+
+/// The most corners of a polygon about a circle: it exceeds the circle by 2e-8 of its radius.
+pub(crate) const MOST_CORNERS: f64 = 16384.0;
+
+/// Bounds how far corners of a box that stands in for a half-space are from its plane, relative to their distances, and
+/// the rounding of heights, relative to what they are sums of.
+///
+/// In units of `u`: a normal made a unit is off by 3, an axis across it by 6 and not at a right angle by 6, the other one
+/// by 10; products and sums add 8. That is 33; 64 are taken.
+pub(crate) const FACE: f64 = 64.0 * U64;
+
+/// The factor on lengths and times that end an interval, which makes up for their rounding: the sums and quotients
+/// that they come from have an error of less than a thousand `u`. A longer interval costs nothing.
+pub(crate) const BEYOND: f64 = 1.0 + 1024.0 * U64;
+
+/// The part of the engine's limits of travel and turn that is used, which leaves room for their rounding.
+pub(crate) const USED: f64 = 0.999;
+
+/// The longest duration that is asked for: products with it stay finite.
+pub(crate) const LONGEST: f64 = 1e250;
+
+/// The most work to find the nearest points of a cast that reached a limit.
+pub(crate) const LOOK: u64 = 1 << 16;

@@ -1,0 +1,85 @@
+//! parry's types of recipes, in one precision.
+
+use super::library::math::{IVector, Pose, Real, Rotation, Vector};
+use super::library::query::NonlinearRigidMotion;
+use super::library::shape::{Cone, Cylinder, HeightField, RoundShape, SharedShape, Triangle, Voxels};
+use super::library::utils::Array2;
+use crate::scenes::{Moves, Recipe};
+
+pub fn vector(v: [f32; 3]) -> Vector {
+    let [x, y, z] = v.map(Real::from);
+    Vector::new(x, y, z)
+}
+
+pub fn pose(place: [f32; 3], turned: [f32; 4]) -> Pose {
+    let [x, y, z, w] = turned.map(Real::from);
+    // In double precision the quaternion is made a unit, as this crate does.
+    Pose::from_parts(vector(place), Rotation::from_xyzw(x, y, z, w).normalize())
+}
+
+pub fn motion(moves: &Moves) -> NonlinearRigidMotion {
+    NonlinearRigidMotion::new(
+        pose(moves.place, moves.turned),
+        vector(moves.centre),
+        vector(moves.velocity),
+        vector(moves.spin),
+    )
+}
+
+pub fn shape(recipe: &Recipe) -> SharedShape {
+    let real = Real::from;
+    match recipe {
+        Recipe::Ball(radius) => SharedShape::ball(real(*radius)),
+        Recipe::Cuboid([x, y, z]) => SharedShape::cuboid(real(*x), real(*y), real(*z)),
+        Recipe::RoundCuboid([x, y, z], r) => {
+            SharedShape::round_cuboid(real(*x), real(*y), real(*z), real(*r))
+        }
+        Recipe::Capsule(a, b, r) => SharedShape::capsule(vector(*a), vector(*b), real(*r)),
+        Recipe::Segment([a, b]) => SharedShape::segment(vector(*a), vector(*b)),
+        Recipe::Triangle([a, b, c]) => SharedShape::triangle(vector(*a), vector(*b), vector(*c)),
+        Recipe::RoundTriangle([a, b, c], r) => SharedShape::new(RoundShape {
+            inner_shape: Triangle::new(vector(*a), vector(*b), vector(*c)),
+            border_radius: real(*r),
+        }),
+        Recipe::Hull(points, r) => {
+            let points: Vec<Vector> = points.iter().map(|p| vector(*p)).collect();
+            match *r > 0.0 {
+                true => SharedShape::round_convex_hull(&points, real(*r)).expect("a hull"),
+                false => SharedShape::convex_hull(&points).expect("a hull"),
+            }
+        }
+        Recipe::Mesh(vertices, faces) => {
+            let vertices = vertices.iter().map(|p| vector(*p)).collect();
+            SharedShape::trimesh(vertices, faces.clone()).expect("a mesh")
+        }
+        Recipe::Heights(heights, rows, scale) => {
+            let heights: Vec<Real> = heights.iter().map(|h| real(*h)).collect();
+            let columns = heights.len() / rows;
+            let heights = Array2::new(*rows, columns, heights);
+            SharedShape::new(HeightField::new(heights, vector(*scale)))
+        }
+        Recipe::Cylinder(half, radius, border) => match *border > 0.0 {
+            true => SharedShape::round_cylinder(real(*half), real(*radius), real(*border)),
+            false => SharedShape::new(Cylinder::new(real(*half), real(*radius))),
+        },
+        Recipe::Cone(half, radius, border) => match *border > 0.0 {
+            true => SharedShape::round_cone(real(*half), real(*radius), real(*border)),
+            false => SharedShape::new(Cone::new(real(*half), real(*radius))),
+        },
+        Recipe::Voxels(size, cells) => {
+            let cells: Vec<IVector> = (cells.iter())
+                .map(|[x, y, z]| IVector::new((*x).into(), (*y).into(), (*z).into()))
+                .collect();
+            SharedShape::new(Voxels::new(vector(*size), &cells))
+        }
+        Recipe::Polyline(points) => {
+            SharedShape::polyline(points.iter().map(|p| vector(*p)).collect(), None)
+        }
+        Recipe::Compound(parts) => {
+            let part = |(place, turned, inner): &([f32; 3], [f32; 4], Recipe)| {
+                (pose(*place, *turned), shape(inner))
+            };
+            SharedShape::compound(parts.iter().map(part).collect())
+        }
+    }
+}

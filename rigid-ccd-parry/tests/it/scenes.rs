@@ -1,0 +1,139 @@
+//! Random scenes of all shapes, in numbers of single precision: both precisions have the same scene, exactly.
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// A shape, in numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Recipe {
+    Ball(f32),
+    Cuboid([f32; 3]),
+    RoundCuboid([f32; 3], f32),
+    Capsule([f32; 3], [f32; 3], f32),
+    Segment([[f32; 3]; 2]),
+    Triangle([[f32; 3]; 3]),
+    RoundTriangle([[f32; 3]; 3], f32),
+    /// The hull of points, grown by a radius.
+    Hull(Vec<[f32; 3]>, f32),
+    Mesh(Vec<[f32; 3]>, Vec<[u32; 3]>),
+    /// Heights by rows, the number of rows, the scale.
+    Heights(Vec<f32>, usize, [f32; 3]),
+    /// Half height and radius, and the radius that it is grown by.
+    Cylinder(f32, f32, f32),
+    Cone(f32, f32, f32),
+    Voxels([f32; 3], Vec<[i32; 3]>),
+    Polyline(Vec<[f32; 3]>),
+    /// Each part with its place and a quaternion.
+    Compound(Vec<([f32; 3], [f32; 4], Recipe)>),
+}
+
+/// A motion, in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moves {
+    pub place: [f32; 3],
+    /// Of length one, up to rounding.
+    pub turned: [f32; 4],
+    pub centre: [f32; 3],
+    pub velocity: [f32; 3],
+    pub spin: [f32; 3],
+}
+
+pub fn random(seed: u64) -> Pcg64Mcg {
+    Pcg64Mcg::seed_from_u64(seed)
+}
+
+pub fn number(rng: &mut impl Rng, low: f32, high: f32) -> f32 {
+    low + (high - low) * rng.random::<f32>()
+}
+
+pub fn vector(rng: &mut impl Rng, size: f32) -> [f32; 3] {
+    std::array::from_fn(|_| number(rng, -size, size))
+}
+
+pub fn turn(rng: &mut impl Rng) -> [f32; 4] {
+    loop {
+        let q: [f32; 4] = std::array::from_fn(|_| number(rng, -1.0, 1.0));
+        let length = q.iter().map(|x| x * x).sum::<f32>().sqrt();
+        if length > 0.1 && length < 1.0 {
+            return q.map(|x| x / length);
+        }
+    }
+}
+
+/// The number of kinds of shapes.
+pub const KINDS: u32 = 15;
+
+/// Returns a shape of a kind, about one large.
+pub fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
+    let size = |rng: &mut _| number(rng, 0.1, 0.5);
+    let points = |rng: &mut _| vector(rng, 0.5);
+    match kind % KINDS {
+        0 => Recipe::Ball(size(rng)),
+        1 => Recipe::Cuboid([size(rng), size(rng), size(rng)]),
+        2 => Recipe::RoundCuboid([size(rng), size(rng), size(rng)], 0.3 * size(rng)),
+        3 => Recipe::Capsule(points(rng), points(rng), size(rng)),
+        4 => Recipe::Segment([points(rng), points(rng)]),
+        5 => Recipe::Triangle([points(rng), points(rng), points(rng)]),
+        6 => Recipe::RoundTriangle([points(rng), points(rng), points(rng)], 0.3 * size(rng)),
+        7 => Recipe::Hull((0..12).map(|_| points(rng)).collect(), 0.0),
+        8 => Recipe::Hull((0..12).map(|_| points(rng)).collect(), 0.3 * size(rng)),
+        9 => mesh(rng),
+        10 => {
+            let heights = (0..20).map(|_| number(rng, -0.2, 0.2)).collect();
+            Recipe::Heights(heights, 5, [1.5, 1.0, 1.0])
+        }
+        11 => Recipe::Cylinder(size(rng), size(rng), [0.0, 0.1][rng.random_range(0..2)]),
+        12 => Recipe::Cone(size(rng), size(rng), [0.0, 0.1][rng.random_range(0..2)]),
+        13 => {
+            let cells = (0..9).map(|_| std::array::from_fn(|_| rng.random_range(-2..2)));
+            Recipe::Voxels([0.2, 0.3, 0.25], cells.collect())
+        }
+        _ => {
+            let part = |rng: &mut _| {
+                // Composite shapes are refused by parry.
+                let kind = [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13][number(rng, 0.0, 11.99) as usize];
+                (vector(rng, 0.5), turn(rng), shape(rng, kind))
+            };
+            Recipe::Compound((0..3).map(|_| part(rng)).collect())
+        }
+    }
+}
+
+/// Returns a torus of a few triangles, not closed in one of four.
+fn mesh(rng: &mut impl Rng) -> Recipe {
+    let (rings, sides) = (7, 5);
+    let thick = number(rng, 0.1, 0.25);
+    let vertex = |k: u32| {
+        let angle = |k: u32, of: u32| std::f32::consts::TAU * k as f32 / of as f32;
+        let (a, b) = (angle(k / sides, rings), angle(k % sides, sides));
+        let out = 0.4 + thick * b.cos();
+        [out * a.cos(), out * a.sin(), thick * b.sin()]
+    };
+    let at = |i: u32, j: u32| (i % rings) * sides + j % sides;
+    let mut faces = Vec::new();
+    for (i, j) in (0..rings).flat_map(|i| (0..sides).map(move |j| (i, j))) {
+        faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+        faces.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+    }
+    if rng.random_range(0..4) == 0 {
+        faces.truncate(50);
+    }
+    Recipe::Mesh((0..rings * sides).map(vertex).collect(), faces)
+}
+
+/// Returns two motions of bodies that start some way apart, the first one aimed at the second one in most cases.
+pub fn motions(rng: &mut impl Rng) -> [Moves; 2] {
+    let moves = |rng: &mut _, place, velocity| Moves {
+        place,
+        turned: turn(rng),
+        centre: vector(rng, 0.3),
+        velocity,
+        spin: vector(rng, [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize]),
+    };
+    let start = turn(rng);
+    let place = [start[0], start[1], start[2]].map(|x| 4.0 * x);
+    let aside = vector(rng, 1.0);
+    let velocity = std::array::from_fn(|k| aside[k] - place[k] * number(rng, 0.5, 1.5));
+    let drift = vector(rng, 0.3);
+    [moves(rng, place, velocity), moves(rng, [0.0; 3], drift)]
+}
