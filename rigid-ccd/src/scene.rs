@@ -150,6 +150,14 @@ impl<'a> Scene<'a> {
         self.members[index].motion = motion;
     }
 
+    /// Returns the motion of a body.
+    ///
+    /// # Panics
+    /// No body has the index.
+    pub fn motion(&self, index: usize) -> Motion {
+        self.members[index].motion
+    }
+
     /// Changes the groups of a body.
     ///
     /// # Panics

@@ -7,33 +7,32 @@ use rapier3d_f64::prelude::{
 use rigid_ccd::{Motion, Pose, Scene, Stop};
 
 /// Steps a world, and stops each body where it touches another one. `moving` are the bodies of the scene that move,
-/// with their indices in it. Returns their motions, and where they stop.
+/// by their indices in it. Returns until when each body of the scene moved.
 pub(crate) fn step(
     world: &mut PhysicsWorld,
     scene: &mut Scene<'_>,
     moving: &[(usize, RigidBodyHandle)],
-) -> Result<Vec<(Motion, Stop)>> {
+) -> Result<Vec<Stop>> {
     let duration = world.integration_parameters.dt;
-    let poses = moving.iter().map(|&(_, body)| pose(&world.bodies[body]));
-    let starts = poses.collect::<Result<Vec<Pose>>>()?;
+    let starts = moving.iter().map(|&(_, body)| pose(&world.bodies[body]));
+    let starts: Vec<Pose> = starts.collect::<Result<_>>()?;
     world.step();
-    let mut motions = Vec::new();
     for (&(index, body), start) in moving.iter().zip(starts) {
         let body = &world.bodies[body];
-        let centre = body.mass_properties().local_mprops.local_com;
-        let motion = Motion::between(start, pose(body)?, centre.to_array(), duration)?;
-        scene.set_motion(index, motion);
-        motions.push(motion);
+        let centre = body.mass_properties().local_mprops.local_com.to_array();
+        scene.set_motion(
+            index,
+            Motion::between(start, pose(body)?, centre, duration)?,
+        );
     }
     let stops = scene.stops(duration)?;
-    for (&(index, body), motion) in moving.iter().zip(&motions) {
+    for &(index, body) in moving {
         if stops[index].by.is_some() {
-            let stopped = motion.pose(stops[index].time);
-            world.bodies[body].set_position(at(stopped), true);
+            let pose = scene.motion(index).pose(stops[index].time);
+            world.bodies[body].set_position(at(pose), true);
         }
     }
-    let stops = moving.iter().map(|&(index, _)| stops[index]);
-    Ok(motions.into_iter().zip(stops).collect())
+    Ok(stops)
 }
 
 /// Returns where a body is.

@@ -14,6 +14,9 @@ pub(crate) struct Seen {
     pub(crate) passed: usize,
     /// The deepest penetration after each step.
     pub(crate) depths: Vec<f64>,
+    /// The steps of moving bodies, and those of them that were stopped.
+    moves: usize,
+    stops: usize,
 }
 
 /// A body's motion in a step, and the time at which it stops.
@@ -23,12 +26,21 @@ impl Seen {
     /// Looks at a step of all bodies of a world.
     pub(crate) fn step(&mut self, world: &World, moved: &[Moved], duration: f64) -> Result<()> {
         let mut deepest = 0.0;
+        for (body, &(_, stop)) in world.bodies.iter().zip(moved) {
+            self.moves += usize::from(!body.is_fixed);
+            self.stops += usize::from(stop < duration);
+        }
         for [a, b] in near(world, moved, duration)? {
             deepest = greater(deepest, depth(world, moved, [a, b], duration));
             self.passed += usize::from(passes(world, moved, [a, b], duration));
         }
         self.depths.push(deepest);
         Ok(())
+    }
+
+    /// Returns the share of the bodies' steps that were stopped.
+    pub(crate) fn stopped(&self) -> f64 {
+        self.stops as f64 / self.moves as f64
     }
 
     pub(crate) fn deepest(&self) -> f64 {

@@ -5,20 +5,22 @@
 //! cargo run --release -p ccd-bench --example physics -- [STEPS [CHART.svg]]
 //! ```
 
+mod bunny;
+mod chart;
 mod glue;
 mod judge;
-mod rock;
 mod worlds;
 
 use anyhow::Result;
+use chart::{Depths, draw};
 use glue::pose;
 use judge::{Moved, Seen};
-use rapier3d_f64::prelude::RigidBodyHandle;
-use rigid_ccd::{Motion, Pose, Scene, Stop};
+use rigid_ccd::{Motion, Pose, Scene};
 use std::io::Write;
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::time::{Duration, Instant};
-use worlds::{Detection, World};
+use worlds::{Detection, Simulated, World};
 
 /// How a world is stepped.
 #[derive(Clone, Copy, Debug)]
@@ -33,28 +35,60 @@ enum Method {
 
 const METHODS: [Method; 3] = [Method::Plain, Method::Rapier, Method::Certified];
 
+impl Method {
+    fn name(self) -> &'static str {
+        match self {
+            Method::Plain => "rapier without CCD",
+            Method::Rapier => "rapier's CCD",
+            Method::Certified => "certified times",
+        }
+    }
+
+    fn detection(self) -> Detection {
+        match self {
+            Method::Rapier => Detection::Full,
+            Method::Plain | Method::Certified => Detection::Off,
+        }
+    }
+}
+
 fn main() -> Result<()> {
     let steps = std::env::args()
         .nth(1)
         .map_or(Ok(600), |text| text.parse())?;
+    let chart = std::env::args()
+        .nth(2)
+        .unwrap_or("target/physics.svg".to_owned());
     let mut out = std::io::stdout().lock();
-    writeln!(out, "world,stepped,steps,passed through,deepest,step ms")?;
-    for method in METHODS {
-        let detection = match method {
-            Method::Rapier => Detection::Full,
-            Method::Plain | Method::Certified => Detection::Off,
-        };
-        for mut world in World::all(detection)? {
+    writeln!(
+        out,
+        "world,stepped,steps,passed through,deepest m,stopped,step ms"
+    )?;
+    let mut drawn = Vec::new();
+    for number in 0..World::COUNT {
+        let mut methods = Vec::new();
+        let mut name = "";
+        for method in METHODS {
+            let mut world = World::new(number, method.detection())?;
             let (seen, time) = run(&mut world, method, steps)?;
             let millis = 1e3 * time.as_secs_f64() / f64::from(steps);
-            let (name, deepest) = (world.name, seen.deepest());
+            let (deepest, stopped) = (seen.deepest(), seen.stopped());
+            name = world.name;
             writeln!(
                 out,
-                "{name},{method:?},{steps},{},{deepest:.2e},{millis:.3}",
+                "{name},{},{steps},{},{deepest:.2e},{stopped:.4},{millis:.3}",
+                method.name(),
                 seen.passed
             )?;
+            methods.push(seen.depths);
         }
+        drawn.push(Depths {
+            world: name,
+            methods,
+        });
     }
+    draw(&drawn, Path::new(&chart))?;
+    writeln!(out, "drawn: {chart}")?;
     Ok(())
 }
 
@@ -82,7 +116,7 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
         world.act(step);
         let starts = poses(world)?;
         let begun = Instant::now();
-        let stopped = match method {
+        let stops = match method {
             Method::Certified => Some(glue::step(&mut world.physics, &mut scene, &moving)?),
             Method::Plain | Method::Rapier => {
                 world.physics.step();
@@ -90,7 +124,13 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
             }
         };
         time += begun.elapsed();
-        let moved = moved(world, &starts, &moving, stopped, duration)?;
+        let moved = match stops {
+            Some(stops) => (0..)
+                .zip(stops)
+                .map(|(index, stop)| (scene.motion(index), stop.time))
+                .collect(),
+            None => moved(world, &starts, duration)?,
+        };
         seen.step(world, &moved, duration)?;
     }
     Ok((seen, time))
@@ -104,31 +144,13 @@ fn poses(world: &World) -> Result<Vec<Pose>> {
     poses.collect()
 }
 
-/// Returns how each body of a world moved in a step.
-fn moved(
-    world: &World,
-    starts: &[Pose],
-    moving: &[(usize, RigidBodyHandle)],
-    stopped: Option<Vec<(Motion, Stop)>>,
-    duration: f64,
-) -> Result<Vec<Moved>> {
-    if let Some(stopped) = stopped {
-        let mut moved: Vec<Moved> = starts
-            .iter()
-            .map(|&start| (Motion::still(start), duration))
-            .collect();
-        for (&(index, _), (motion, stop)) in moving.iter().zip(stopped) {
-            moved[index] = (motion, stop.time);
-        }
-        return Ok(moved);
-    }
-    let between = |(body, start): (&worlds::Simulated, &Pose)| -> Result<Moved> {
+/// Returns how each body of a world moved in a step that nothing stopped.
+fn moved(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
+    let between = |(body, start): (&Simulated, &Pose)| {
         let rigid = &world.physics.bodies[body.handle];
         let centre = rigid.mass_properties().local_mprops.local_com.to_array();
-        Ok((
-            Motion::between(*start, pose(rigid)?, centre, duration)?,
-            duration,
-        ))
+        let motion = Motion::between(*start, pose(rigid)?, centre, duration)?;
+        Ok((motion, duration))
     };
     world.bodies.iter().zip(starts).map(between).collect()
 }

@@ -1,14 +1,16 @@
 //! Worlds in which fast bodies pass through each other, unless their steps are held against each other.
 
+use crate::bunny::bunny;
 use anyhow::Result;
 use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d_f64::prelude::{
-    ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, Rotation, SharedShape,
-    SphericalJointBuilder, Vector,
+    ColliderBuilder, PhysicsWorld, Pose as At, RigidBodyBuilder, RigidBodyHandle, Rotation,
+    SharedShape, SphericalJointBuilder, Vector,
 };
 use rigid_ccd::Body;
+use std::f64::consts::FRAC_PI_2;
 
 /// A world, its bodies, and what acts on them.
 pub(crate) struct World {
@@ -46,12 +48,16 @@ const SKIN: f64 = 0.002;
 const ROUND: u32 = 60;
 
 impl World {
-    pub(crate) fn all(detection: Detection) -> Result<Vec<World>> {
-        Ok(vec![
-            bullets(detection)?,
-            rocks(detection)?,
-            chain(detection)?,
-        ])
+    /// The number of worlds.
+    pub(crate) const COUNT: usize = 3;
+
+    /// Makes a world, by its number.
+    pub(crate) fn new(number: usize, detection: Detection) -> Result<World> {
+        match number {
+            0 => bullets(detection),
+            1 => bunnies(detection),
+            _ => chain(detection),
+        }
     }
 
     /// Acts on the bodies before a step.
@@ -59,7 +65,7 @@ impl World {
         (self.act)(self, step);
     }
 
-    fn new(
+    fn empty(
         name: &'static str,
         detection: Detection,
         thinnest: f64,
@@ -130,7 +136,7 @@ const SHEETS: usize = 5;
 
 /// Twelve bullets at 100 to 390 metres a second, at five sheets of paper.
 fn bullets(detection: Detection) -> Result<World> {
-    let mut world = World::new("bullets and paper", detection, 0.001, |world, step| {
+    let mut world = World::empty("bullets and paper", detection, 0.001, |world, step| {
         for index in SHEETS..world.bodies.len() {
             // One after the other.
             if step % ROUND == 3 * (index - SHEETS) as u32 {
@@ -155,9 +161,9 @@ fn bullets(detection: Detection) -> Result<World> {
     Ok(world)
 }
 
-/// Rocks that are not convex are thrown at each other and at the floor, at 40 metres a second.
-fn rocks(detection: Detection) -> Result<World> {
-    let mut world = World::new("rocks onto rocks", detection, 0.01, |world, step| {
+/// Bunnies are thrown at each other and at thin walls, at 40 metres a second.
+fn bunnies(detection: Detection) -> Result<World> {
+    let mut world = World::empty("bunnies onto bunnies", detection, 0.01, |world, step| {
         if step % ROUND != 0 {
             return;
         }
@@ -183,7 +189,7 @@ fn rocks(detection: Detection) -> Result<World> {
         );
         world.slab(DVec3::new(2.0 * x, 2.0 * y, 1.01), half)?;
     }
-    let (shape, body) = crate::rock::rock()?;
+    let (shape, body) = bunny()?;
     for k in 0..12 {
         let aside = DVec3::new(
             0.8 * f64::from(k % 3) - 0.8,
@@ -199,12 +205,18 @@ fn rocks(detection: Detection) -> Result<World> {
     Ok(world)
 }
 
-/// A chain of fourteen links is drawn through a slot between two plates, to and fro.
+/// The links of the chain, and half of the length of one.
+const LINKS: usize = 14;
+const HALF: f64 = 0.06;
+
+/// A chain of fourteen links is drawn through a slot between two plates, and back, and laid out anew.
 fn chain(detection: Detection) -> Result<World> {
-    const LINKS: usize = 14;
-    const HALF: f64 = 0.06;
-    let mut world = World::new("chain through a slot", detection, 0.004, |world, step| {
-        let towards = if step / ROUND % 2 == 0 { 1.0 } else { -1.0 };
+    let mut world = World::empty("chain through a slot", detection, 0.004, |world, step| {
+        if step.is_multiple_of(4 * ROUND) {
+            (0..LINKS).for_each(|link| world.lay_out(link));
+        }
+        let is_back = !(step / ROUND).is_multiple_of(2);
+        let towards = if is_back { -1.0 } else { 1.0 };
         let aside = 3.0 * world.any();
         let first = &mut world.physics.bodies[world.bodies[2].handle];
         let ahead = first.translation().x * towards;
@@ -212,23 +224,14 @@ fn chain(detection: Detection) -> Result<World> {
         first.set_linvel(Vector::new(towards * speed, aside.y, aside.z), true);
     });
     for side in [-1.0, 1.0] {
-        world.slab(
-            DVec3::new(0.0, side * 1.04, 0.0),
-            DVec3::new(0.002, 1.0, 2.0),
-        )?;
+        let half = DVec3::new(0.002, 1.0, 2.0);
+        world.slab(DVec3::new(0.0, side * 1.04, 0.0), half)?;
     }
-    for k in 0..LINKS {
-        let place = DVec3::new(-0.2 - 2.5 * HALF * k as f64, 0.0, 0.0);
-        let lying = std::f64::consts::FRAC_PI_2 * Vector::Y;
-        let builder = dynamic(detection)
-            .translation(vector(place))
-            .rotation(lying);
-        let index = world.add(
-            builder,
-            SharedShape::capsule_z(HALF, 0.02),
-            Body::capsule(0.02, HALF)?,
-        );
-        if k > 0 {
+    for link in 0..LINKS {
+        let shape = SharedShape::capsule_z(HALF, 0.02);
+        let index = world.add(dynamic(detection), shape, Body::capsule(0.02, HALF)?);
+        world.lay_out(link);
+        if link > 0 {
             let joint = SphericalJointBuilder::new()
                 .local_anchor1(-1.25 * HALF * Vector::Z)
                 .local_anchor2(1.25 * HALF * Vector::Z)
@@ -239,4 +242,17 @@ fn chain(detection: Detection) -> Result<World> {
         }
     }
     Ok(world)
+}
+
+impl World {
+    /// Puts a link of the chain where it is at the start, at rest.
+    fn lay_out(&mut self, link: usize) {
+        let body = &mut self.physics.bodies[self.bodies[2 + link].handle];
+        let place = Vector::new(-0.2 - 2.5 * HALF * link as f64, 0.0, 0.0);
+        let lying = FRAC_PI_2 * Vector::Y;
+        let at = At::from_parts(place, Rotation::from_scaled_axis(lying));
+        body.set_position(at, true);
+        body.set_linvel(Vector::ZERO, true);
+        body.set_angvel(Vector::ZERO, true);
+    }
 }

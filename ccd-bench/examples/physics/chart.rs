@@ -1,0 +1,83 @@
+//! How deep bodies get into each other, drawn over the steps.
+
+use crate::{METHODS, Method};
+use anyhow::Result;
+use ccd_core::order::greater;
+use plotters::prelude::*;
+use std::ops::Range;
+use std::path::Path;
+
+/// The depths after each step of a world, for each of [`METHODS`].
+pub(crate) struct Depths {
+    pub(crate) world: &'static str,
+    pub(crate) methods: Vec<Vec<f64>>,
+}
+
+/// Depths below this are drawn on the lower edge, in metres.
+const LEAST: f64 = 1e-6;
+
+/// The most values of a line: each is the deepest of its steps.
+const MOST_VALUES: usize = 300;
+
+/// Draws one panel for each world.
+pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
+    let size = (900, 260 * worlds.len() as u32);
+    let sheet = SVGBackend::new(path, size).into_drawing_area();
+    sheet.fill(&WHITE)?;
+    for (panel, depths) in sheet.split_evenly((worlds.len(), 1)).iter().zip(worlds) {
+        let steps = depths
+            .methods
+            .iter()
+            .map(Vec::len)
+            .max()
+            .unwrap_or_default();
+        let range: Range<f64> = LEAST..1.0;
+        let mut chart = ChartBuilder::on(panel)
+            .caption(depths.world, ("sans-serif", 18))
+            .margin(10)
+            .x_label_area_size(36)
+            .y_label_area_size(70)
+            .build_cartesian_2d(0..steps, range.log_scale())?;
+        let mut mesh = chart.configure_mesh();
+        mesh.x_desc("step")
+            .y_desc("deepest penetration, m; none: lower edge")
+            .y_labels(7)
+            .light_line_style(TRANSPARENT);
+        mesh.y_label_formatter(&|depth| format!("{depth:.0e}"))
+            .draw()?;
+        for (method, values) in METHODS.iter().zip(&depths.methods) {
+            let style = style(*method);
+            let line = deepest(values)
+                .into_iter()
+                .map(|(step, depth)| (step, greater(LEAST, depth)));
+            chart
+                .draw_series(LineSeries::new(line, style))?
+                .label(method.name())
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+        }
+        let mut labels = chart.configure_series_labels();
+        labels
+            .position(SeriesLabelPosition::MiddleRight)
+            .background_style(WHITE.mix(0.8))
+            .draw()?;
+    }
+    sheet.present()?;
+    Ok(())
+}
+
+fn style(method: Method) -> ShapeStyle {
+    match method {
+        Method::Plain => RGBColor(200, 80, 60).stroke_width(1),
+        Method::Rapier => RGBColor(220, 160, 40).stroke_width(1),
+        Method::Certified => RGBColor(30, 90, 180).stroke_width(3),
+    }
+}
+
+/// Returns the deepest of every few steps.
+fn deepest(values: &[f64]) -> Vec<(usize, f64)> {
+    let few = values.len().div_ceil(MOST_VALUES).max(1);
+    let chunks = values.chunks(few).enumerate();
+    chunks
+        .map(|(k, chunk)| (k * few, chunk.iter().copied().fold(0.0, greater)))
+        .collect()
+}
