@@ -225,6 +225,17 @@ impl Form {
         (middle, radius * crate::tolerance::BEYOND)
     }
 
+    /// Returns the only point, of a ball.
+    pub(crate) fn point(&self) -> Option<DVec3> {
+        match &self.parts[..] {
+            [part] if self.triangles.is_empty() => match part.polytope.points[..] {
+                [point] => Some(point),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     fn points(&self) -> impl Iterator<Item = &DVec3> {
         let parts = self.parts.iter().flat_map(|part| &part.polytope.points);
         self.vertices.iter().chain(parts)

@@ -14,8 +14,10 @@ use rigid_ccd::schedule::ClosestApproach;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) bodies: [&'a Prepared; 2],
-    /// From the start of the interval on.
+    /// From the start of the interval on, as far as they matter.
     pub(crate) motions: [Motion; 2],
+    /// With all turns: hits are told in their frames.
+    pub(crate) frames: [Motion; 2],
     pub(crate) horizon: Horizon,
     pub(crate) interval: Interval,
     /// The distance at which they count as in contact.
@@ -132,7 +134,7 @@ impl Scene<'_> {
     }
 
     fn poses(&self, after: f64) -> [Pose; 2] {
-        self.motions.map(|motion| motion.pose(after))
+        self.frames.map(|motion| motion.pose(after))
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::library::math::{IVector, Pose, Real, Rotation, Vector};
 use super::library::query::NonlinearRigidMotion;
-use super::library::shape::{Cone, Cylinder, HeightField, RoundShape, SharedShape, Triangle, Voxels};
+pub use super::library::shape::SharedShape;
+use super::library::shape::{Cone, Cylinder, HeightField, RoundShape, Triangle, Voxels};
 use super::library::utils::Array2;
 use crate::scenes::{Moves, Recipe};
 
@@ -13,8 +14,7 @@ pub fn vector(v: [f32; 3]) -> Vector {
 
 pub fn pose(place: [f32; 3], turned: [f32; 4]) -> Pose {
     let [x, y, z, w] = turned.map(Real::from);
-    // In double precision the quaternion is made a unit, as this crate does.
-    Pose::from_parts(vector(place), Rotation::from_xyzw(x, y, z, w).normalize())
+    Pose::from_parts(vector(place), super::unit(Rotation::from_xyzw(x, y, z, w)))
 }
 
 pub fn motion(moves: &Moves) -> NonlinearRigidMotion {

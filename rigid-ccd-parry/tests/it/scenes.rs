@@ -91,7 +91,8 @@ pub fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
         _ => {
             let part = |rng: &mut _| {
                 // Composite shapes are refused by parry.
-                let kind = [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13][number(rng, 0.0, 11.99) as usize];
+                let kind =
+                    [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13][number(rng, 0.0, 11.99) as usize];
                 (vector(rng, 0.5), turn(rng), shape(rng, kind))
             };
             Recipe::Compound((0..3).map(|_| part(rng)).collect())
@@ -123,12 +124,15 @@ fn mesh(rng: &mut impl Rng) -> Recipe {
 
 /// Returns two motions of bodies that start some way apart, the first one aimed at the second one in most cases.
 pub fn motions(rng: &mut impl Rng) -> [Moves; 2] {
-    let moves = |rng: &mut _, place, velocity| Moves {
-        place,
-        turned: turn(rng),
-        centre: vector(rng, 0.3),
-        velocity,
-        spin: vector(rng, [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize]),
+    let moves = |rng: &mut _, place, velocity| {
+        let fast = [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize];
+        Moves {
+            place,
+            turned: turn(rng),
+            centre: vector(rng, 0.3),
+            velocity,
+            spin: vector(rng, fast),
+        }
     };
     let start = turn(rng);
     let place = [start[0], start[1], start[2]].map(|x| 4.0 * x);
