@@ -3,8 +3,9 @@
 use crate::half_space::HalfSpace;
 use crate::horizon::{Horizon, Reaching};
 use crate::interval::Interval;
+use crate::leaving::parting;
 use crate::order::{greater, length, lesser};
-use crate::scene::{Found, Scene};
+use crate::scene::{Ending, Found, Scene};
 use crate::tolerance::{BEYOND, SHARE_OF_SIZE};
 use crate::{CastError, Prepared, Settings};
 use ccd_core::glam::DVec3;
@@ -80,19 +81,22 @@ impl Cast<'_> {
         started: [Started; 2],
         solver: &mut Solver,
     ) -> Result<Option<Found>, CastError> {
+        let frames = started.map(|started| started.motion);
+        let started = [0, 1].map(|k| started[k].without_spin_of(bodies[k]));
         let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
-        let slack = |k: usize| bodies[k].slack() + started[k].slack(&sides[k]);
+        let slack = |k: usize| bodies[k].slack() + slack(started[k].stray, &sides[k]);
         let config = self.config(&bodies, slack(0) + slack(1))?;
         let within = config.margin + config.tolerance;
         let scene = Scene {
             bodies,
             motions: sides.map(|side| side.motion),
+            frames,
             horizon: Horizon::of(sides, within, self.interval.length()),
             interval: self.interval,
             target: self.target,
             config,
         };
-        scene.first_contact(solver)
+        self.told(&scene, solver)
     }
 
     /// Answers for a half-space, which is the shape of that index, and a body.
@@ -104,7 +108,10 @@ impl Cast<'_> {
         started: [Started; 2],
         solver: &mut Solver,
     ) -> Result<Option<Found>, CastError> {
-        let side = started[1 - index].reaching(body);
+        let frames = started.map(|started| started.motion);
+        let side = started[1 - index].without_spin_of(body);
+        let stray = side.stray;
+        let side = side.reaching(body);
         let of_plane = started[index].reaching_plane(&side);
         let within = self.config(&[body], body.slack())?;
         let within = within.margin + within.tolerance;
@@ -113,7 +120,7 @@ impl Cast<'_> {
         let horizon = plane.horizon(of_plane, side, within, wanted);
         // The box is off by what the motion is at its farthest point, for which there is room.
         let off = started[index].stray.at(4.0 * reach(horizon));
-        let slack = body.slack() + started[1 - index].slack(&side) + off;
+        let slack = body.slack() + slack(stray, &side) + off;
         let config = self.config(&[body], slack)?;
         let stand_in = plane
             .stand_in(of_plane, 2.0 * reach(horizon))
@@ -129,12 +136,28 @@ impl Cast<'_> {
         let scene = Scene {
             bodies,
             motions,
+            frames,
             horizon,
             interval: self.interval,
             target: self.target,
             config,
         };
-        scene.first_contact(solver)
+        self.told(&scene, solver)
+    }
+
+    /// Returns what is found, after bodies are let go that begin to part.
+    fn told(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+        let found = scene.first_contact(solver)?;
+        match found {
+            Some(found)
+                if found.ending == Ending::Overlap
+                    && self.start == StartPolicy::Leave
+                    && scene.is_straight() =>
+            {
+                parting(scene, found, solver)
+            }
+            _ => Ok(found),
+        }
     }
 
     /// Returns the motion from the start of the interval on.
@@ -216,11 +239,23 @@ impl Started {
         }
     }
 
-    /// Returns how far points of a body may be off.
-    fn slack(&self, side: &Reaching) -> f64 {
-        self.stray
-            .at(side.reach + length(side.about - self.motion.centre()))
+    /// Returns it without a spin that leaves a ball as it is.
+    fn without_spin_of(self, body: &Prepared) -> Self {
+        if body.point() != Some(self.motion.centre()) {
+            return self;
+        }
+        let [velocity, centre] = [self.motion.velocity(), self.motion.centre()];
+        let slides = Motion::about(self.motion.start(), velocity, DVec3::ZERO, centre);
+        Started {
+            motion: slides.unwrap_or(self.motion),
+            ..self
+        }
     }
+}
+
+/// Returns how far points of a body may be off.
+fn slack(stray: Stray, side: &Reaching) -> f64 {
+    stray.at(side.reach + length(side.about - side.motion.centre()))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::tolerance::PLACED;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Body, Combination, Facet, Feature, InputError, Origin, Pieces, Polytope, Pose, Volume,
+    Body, Combination, Facet, Feature, InputError, Origin, Piece, Pieces, Polytope, Pose, Volume,
 };
 use std::borrow::Cow;
 
@@ -107,6 +107,15 @@ impl Form {
     /// frame if bit 0, 1, 2 of `k` is set.
     pub(crate) fn push_corners(&mut self, corners: Vec<DVec3>, radius: f64) {
         self.push_hull(corners, radius, &BOX.map(Vec::from));
+    }
+
+    /// Adds a piece of a body, as the sub-shape of that number.
+    pub(crate) fn push_piece(&mut self, piece: &Piece<'_>, number: u32) {
+        let loops: Vec<Vec<u32>> = piece.facets.iter().map(<[u32]>::to_vec).collect();
+        self.push_hull(piece.points.to_vec(), piece.radius, &loops);
+        if let Some(part) = self.parts.last_mut() {
+            part.number = number;
+        }
     }
 
     /// Adds a segment.
@@ -223,6 +232,17 @@ impl Form {
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
         let radius = greater(parts, farthest(self.vertices.iter(), middle));
         (middle, radius * crate::tolerance::BEYOND)
+    }
+
+    /// Returns the only point, of a ball.
+    pub(crate) fn point(&self) -> Option<DVec3> {
+        match &self.parts[..] {
+            [part] if self.triangles.is_empty() => match part.polytope.points[..] {
+                [point] => Some(point),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     fn points(&self) -> impl Iterator<Item = &DVec3> {

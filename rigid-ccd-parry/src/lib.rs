@@ -8,6 +8,7 @@ mod form;
 mod half_space;
 mod horizon;
 mod interval;
+mod leaving;
 pub mod limits;
 mod order;
 mod prepared;

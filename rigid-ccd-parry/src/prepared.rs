@@ -17,6 +17,8 @@ pub struct Prepared {
     numbers: Vec<u32>,
     middle: DVec3,
     radius: f64,
+    /// The middle, for a ball.
+    point: Option<DVec3>,
     slack: f64,
     excess: f64,
 }
@@ -32,6 +34,7 @@ impl Prepared {
             numbers,
             middle,
             radius,
+            point: form.point(),
             slack: form.slack(),
             excess: form.excess(),
         })
@@ -70,6 +73,11 @@ impl Prepared {
     /// The approximate number of bytes held.
     pub fn bytes(&self) -> usize {
         self.body.bytes() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
+    }
+
+    /// The middle of a ball, in the shape's frame; none for other shapes.
+    pub(crate) fn point(&self) -> Option<DVec3> {
+        self.point
     }
 
     /// A ball about all points: its middle, in the shape's frame, and its radius.

@@ -14,8 +14,10 @@ use rigid_ccd::schedule::ClosestApproach;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) bodies: [&'a Prepared; 2],
-    /// From the start of the interval on.
+    /// From the start of the interval on, as far as they matter.
     pub(crate) motions: [Motion; 2],
+    /// With all turns: hits are told in their frames.
+    pub(crate) frames: [Motion; 2],
     pub(crate) horizon: Horizon,
     pub(crate) interval: Interval,
     /// The distance at which they count as in contact.
@@ -41,8 +43,11 @@ pub(crate) struct Found {
 pub(crate) enum Ending {
     /// With a contact.
     Contact,
-    /// With bodies that overlap at the start, or are nearer than the target distance.
-    AtStart,
+    /// With bodies that overlap at the start: two pieces, or one body inside the other.
+    Overlap,
+    Inside,
+    /// With bodies that are nearer than the target distance at the start.
+    Near,
     /// At a limit: nothing touches before.
     Limit,
 }
@@ -56,19 +61,26 @@ impl Scene<'_> {
         Ok(self.found(&answer, solver))
     }
 
+    /// Returns whether both bodies move straight.
+    pub(crate) fn is_straight(&self) -> bool {
+        self.motions
+            .iter()
+            .all(|motion| motion.spin() == DVec3::ZERO)
+    }
+
     fn found(&self, answer: &Answer, solver: &mut Solver) -> Option<Found> {
         match answer.outcome {
             Outcome::Contact { time, contact } => Some(self.shown(time, &contact, Ending::Contact)),
             Outcome::Touching { contact } => {
                 let within = self.target > 0.0 && contact.separation.upper <= self.target;
                 let ending = match within {
-                    true => Ending::AtStart,
+                    true => Ending::Near,
                     false => Ending::Contact,
                 };
                 Some(self.shown(0.0, &contact, ending))
             }
             Outcome::Overlapping { overlap } => Some(match overlap {
-                Overlap::Pieces(contact) => self.shown(0.0, &contact, Ending::AtStart),
+                Overlap::Pieces(contact) => self.shown(0.0, &contact, Ending::Overlap),
                 Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
             }),
             Outcome::Unresolved { safe_until, .. } => Some(self.seen(safe_until, solver)),
@@ -104,7 +116,7 @@ impl Scene<'_> {
             .map(|pose| pose.inverse().transform_point(point));
         Found {
             witnesses,
-            ..Found::unseen(self.interval.start(), Ending::AtStart)
+            ..Found::unseen(self.interval.start(), Ending::Inside)
         }
     }
 
@@ -132,7 +144,7 @@ impl Scene<'_> {
     }
 
     fn poses(&self, after: f64) -> [Pose; 2] {
-        self.motions.map(|motion| motion.pose(after))
+        self.frames.map(|motion| motion.pose(after))
     }
 }
 

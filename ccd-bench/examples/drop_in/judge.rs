@@ -3,7 +3,8 @@
 //! - A contact is *late* after the expected time, *early* before the time at which the bodies come within the
 //!   tolerance, *missed* without a hit. Times are compared to a relative 1e-9, as the suite's own judge does.
 //! - Bodies that stay apart are *false* with a hit. Bodies in contact at the start are *late* or *missed* unless the
-//!   hit is at time 0. Bodies that come within the tolerance without touching may be reported or not.
+//!   hit is at time 0. Bodies that come within the tolerance without touching may be reported or not. Which bodies are
+//!   let go at the start, where that is asked for, is what parry's own test of the row says.
 //! - In single precision the numbers of a row are rounded, which moves the bodies: by `6e-8` of the sum of all
 //!   coordinates, sizes and ways. The time in which they approach by that, at the rate at which they do at the hit, is
 //!   allowed on either side, and a unit in the last place of the time. What the library stops at in single precision,

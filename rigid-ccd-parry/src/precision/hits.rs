@@ -17,7 +17,9 @@ pub(super) fn hit(found: &Found) -> ShapeCastHit {
         normal2,
         status: match found.ending {
             Ending::Contact => ShapeCastStatus::Converged,
-            Ending::AtStart => ShapeCastStatus::PenetratingOrWithinTargetDist,
+            Ending::Overlap | Ending::Inside | Ending::Near => {
+                ShapeCastStatus::PenetratingOrWithinTargetDist
+            }
             Ending::Limit => ShapeCastStatus::OutOfIterations,
         },
         subshape1,

@@ -2,22 +2,22 @@
 
 use super::library::math::{IVector, Pose, Real, Rotation, Vector};
 use super::library::query::NonlinearRigidMotion;
-use super::library::shape::{Cone, Cylinder, HeightField, RoundShape, SharedShape, Triangle, Voxels};
+pub(crate) use super::library::shape::SharedShape;
+use super::library::shape::{Cone, Cylinder, HeightField, RoundShape, Triangle, Voxels};
 use super::library::utils::Array2;
 use crate::scenes::{Moves, Recipe};
 
-pub fn vector(v: [f32; 3]) -> Vector {
+pub(crate) fn vector(v: [f32; 3]) -> Vector {
     let [x, y, z] = v.map(Real::from);
     Vector::new(x, y, z)
 }
 
-pub fn pose(place: [f32; 3], turned: [f32; 4]) -> Pose {
+pub(crate) fn pose(place: [f32; 3], turned: [f32; 4]) -> Pose {
     let [x, y, z, w] = turned.map(Real::from);
-    // In double precision the quaternion is made a unit, as this crate does.
-    Pose::from_parts(vector(place), Rotation::from_xyzw(x, y, z, w).normalize())
+    Pose::from_parts(vector(place), super::unit(Rotation::from_xyzw(x, y, z, w)))
 }
 
-pub fn motion(moves: &Moves) -> NonlinearRigidMotion {
+pub(crate) fn motion(moves: &Moves) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose(moves.place, moves.turned),
         vector(moves.centre),
@@ -26,7 +26,7 @@ pub fn motion(moves: &Moves) -> NonlinearRigidMotion {
     )
 }
 
-pub fn shape(recipe: &Recipe) -> SharedShape {
+pub(crate) fn shape(recipe: &Recipe) -> SharedShape {
     let real = Real::from;
     match recipe {
         Recipe::Ball(radius) => SharedShape::ball(real(*radius)),

@@ -5,7 +5,7 @@ use rand_pcg::Pcg64Mcg;
 
 /// A shape, in numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Recipe {
+pub(crate) enum Recipe {
     Ball(f32),
     Cuboid([f32; 3]),
     RoundCuboid([f32; 3], f32),
@@ -29,28 +29,28 @@ pub enum Recipe {
 
 /// A motion, in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moves {
-    pub place: [f32; 3],
+pub(crate) struct Moves {
+    pub(crate) place: [f32; 3],
     /// Of length one, up to rounding.
-    pub turned: [f32; 4],
-    pub centre: [f32; 3],
-    pub velocity: [f32; 3],
-    pub spin: [f32; 3],
+    pub(crate) turned: [f32; 4],
+    pub(crate) centre: [f32; 3],
+    pub(crate) velocity: [f32; 3],
+    pub(crate) spin: [f32; 3],
 }
 
-pub fn random(seed: u64) -> Pcg64Mcg {
+pub(crate) fn random(seed: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(seed)
 }
 
-pub fn number(rng: &mut impl Rng, low: f32, high: f32) -> f32 {
+pub(crate) fn number(rng: &mut impl Rng, low: f32, high: f32) -> f32 {
     low + (high - low) * rng.random::<f32>()
 }
 
-pub fn vector(rng: &mut impl Rng, size: f32) -> [f32; 3] {
+pub(crate) fn vector(rng: &mut impl Rng, size: f32) -> [f32; 3] {
     std::array::from_fn(|_| number(rng, -size, size))
 }
 
-pub fn turn(rng: &mut impl Rng) -> [f32; 4] {
+pub(crate) fn turn(rng: &mut impl Rng) -> [f32; 4] {
     loop {
         let q: [f32; 4] = std::array::from_fn(|_| number(rng, -1.0, 1.0));
         let length = q.iter().map(|x| x * x).sum::<f32>().sqrt();
@@ -61,10 +61,10 @@ pub fn turn(rng: &mut impl Rng) -> [f32; 4] {
 }
 
 /// The number of kinds of shapes.
-pub const KINDS: u32 = 15;
+pub(crate) const KINDS: u32 = 16;
 
 /// Returns a shape of a kind, about one large.
-pub fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
+pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
     let size = |rng: &mut _| number(rng, 0.1, 0.5);
     let points = |rng: &mut _| vector(rng, 0.5);
     match kind % KINDS {
@@ -88,10 +88,15 @@ pub fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
             let cells = (0..9).map(|_| std::array::from_fn(|_| rng.random_range(-2..2)));
             Recipe::Voxels([0.2, 0.3, 0.25], cells.collect())
         }
+        14 => {
+            let points = (0..5).map(|_| points(rng));
+            Recipe::Polyline(points.collect())
+        }
         _ => {
             let part = |rng: &mut _| {
                 // Composite shapes are refused by parry.
-                let kind = [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13][number(rng, 0.0, 11.99) as usize];
+                let kind =
+                    [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13][number(rng, 0.0, 11.99) as usize];
                 (vector(rng, 0.5), turn(rng), shape(rng, kind))
             };
             Recipe::Compound((0..3).map(|_| part(rng)).collect())
@@ -122,13 +127,16 @@ fn mesh(rng: &mut impl Rng) -> Recipe {
 }
 
 /// Returns two motions of bodies that start some way apart, the first one aimed at the second one in most cases.
-pub fn motions(rng: &mut impl Rng) -> [Moves; 2] {
-    let moves = |rng: &mut _, place, velocity| Moves {
-        place,
-        turned: turn(rng),
-        centre: vector(rng, 0.3),
-        velocity,
-        spin: vector(rng, [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize]),
+pub(crate) fn motions(rng: &mut impl Rng) -> [Moves; 2] {
+    let moves = |rng: &mut _, place, velocity| {
+        let fast = [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize];
+        Moves {
+            place,
+            turned: turn(rng),
+            centre: vector(rng, 0.3),
+            velocity,
+            spin: vector(rng, fast),
+        }
     };
     let start = turn(rng);
     let place = [start[0], start[1], start[2]].map(|x| 4.0 * x);

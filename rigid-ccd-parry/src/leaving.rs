@@ -1,0 +1,168 @@
+//! Bodies that overlap at the start of a straight cast and are to be let go if they part, as parry lets them.
+//!
+//! Two convex pieces that move straight overlap for one stretch of time. Once they part they never meet again: a pair
+//! that begins to part is left out, and all other pairs are asked about. parry, too, looks at each pair by itself.
+
+mod direction;
+
+use crate::form::Form;
+use crate::order::{greater, length, lesser};
+use crate::scene::{Ending, Found, Scene};
+use crate::tolerance::BEYOND;
+use crate::{CastError, Prepared};
+use ccd_core::Piece;
+use ccd_core::glam::DVec3;
+use direction::direction;
+use rigid_ccd::Solver;
+
+/// The most pairs of pieces that are left out. Beyond it the bodies are in contact at the start.
+const MOST_PAIRS: usize = 256;
+
+/// Some pieces of both bodies, by their numbers: all pairs of them are asked about.
+struct Task {
+    pieces: [Vec<u32>; 2],
+}
+
+/// Returns the first contact of all pairs that do not begin to part; `overlap` is what was found at the start.
+pub(crate) fn parting(
+    scene: &Scene<'_>,
+    overlap: Found,
+    solver: &mut Solver,
+) -> Result<Option<Found>, CastError> {
+    let mut tasks = vec![Task {
+        pieces: [0, 1].map(|k| near(scene, k)),
+    }];
+    let (mut first, mut left_out) = (None, 0);
+    while let Some(task) = tasks.pop() {
+        if task.pieces.iter().any(Vec::is_empty) {
+            continue;
+        }
+        match ask(scene, &task, solver)? {
+            Asked::Overlap([a, b]) => {
+                left_out += 1;
+                if left_out > MOST_PAIRS || !parts(scene, [a, b], solver) {
+                    return Ok(Some(overlap));
+                }
+                let [of_a, of_b] = task.pieces;
+                let without = |pieces: &[u32], left: u32| -> Vec<u32> {
+                    pieces
+                        .iter()
+                        .copied()
+                        .filter(|piece| *piece != left)
+                        .collect()
+                };
+                tasks.push(Task {
+                    pieces: [vec![a], without(&of_b, b)],
+                });
+                tasks.push(Task {
+                    pieces: [without(&of_a, a), of_b],
+                });
+            }
+            Asked::Inside => return Ok(Some(overlap)),
+            Asked::Found(None) => {}
+            Asked::Found(Some(found)) => {
+                let earlier = first.is_none_or(|first: Found| found.time < first.time);
+                first = if earlier { Some(found) } else { first };
+            }
+        }
+    }
+    Ok(first)
+}
+
+/// What comes out for some pieces.
+enum Asked {
+    /// These two overlap at the start.
+    Overlap([u32; 2]),
+    /// One body is inside the other at the start.
+    Inside,
+    Found(Option<Found>),
+}
+
+/// Asks about all pairs of a task.
+fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, CastError> {
+    let some = |k: usize| {
+        let which = k as u8 + 1;
+        let named = |error| CastError::Shape { which, error };
+        some_pieces(scene.bodies[k], &task.pieces[k]).map_err(named)
+    };
+    let (a, b) = (some(0)?, some(1)?);
+    let part = Scene {
+        bodies: [&a, &b],
+        ..*scene
+    };
+    let Some(found) = part.first_contact(solver)? else {
+        return Ok(Asked::Found(None));
+    };
+    let numbers = found.numbers;
+    Ok(match found.ending {
+        Ending::Overlap => Asked::Overlap(numbers),
+        Ending::Inside => Asked::Inside,
+        Ending::Near | Ending::Contact | Ending::Limit => Asked::Found(Some(Found {
+            numbers: [0, 1].map(|k| scene.bodies[k].sub_shape(numbers[k])),
+            ..found
+        })),
+    })
+}
+
+/// Returns the body of some pieces, whose sub-shapes have their numbers.
+fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
+    let mut form = Form::EMPTY;
+    for &number in pieces {
+        let piece = body.body().pieces().get(number as usize);
+        form.push_piece(&piece, number);
+    }
+    Prepared::new(&form)
+}
+
+/// Returns the pieces of a body that the other body may come near to.
+fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
+    let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
+    let velocity = other.1.velocity() - this.1.velocity();
+    let way = velocity * scene.horizon.duration();
+    let (middle, radius) = other.0.ball();
+    // In the world at the start.
+    let from = other.1.start().transform_point(middle);
+    let within = scene.config.margin + scene.config.tolerance + radius;
+    let comes_near = |piece: &Piece<'_>| {
+        let (middle, radius) = ball(piece);
+        let place = this.1.start().transform_point(middle);
+        let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(way));
+        let apart = distance_to_way(place - from, way);
+        // Written so that NaN is near.
+        !(apart > (within + radius) * BEYOND + rounding)
+    };
+    let pieces = (0..).zip(this.0.body().pieces().iter());
+    pieces
+        .filter(|(_, piece)| comes_near(piece))
+        .map(|(number, _)| number)
+        .collect()
+}
+
+/// Returns the distance of a point from the segment from the origin along a vector.
+fn distance_to_way(point: DVec3, way: DVec3) -> f64 {
+    let square = way.dot(way);
+    let share = match square > 0.0 {
+        true => lesser(greater(0.0, point.dot(way) / square), 1.0),
+        false => 0.0,
+    };
+    length(point - share * way)
+}
+
+/// Returns a ball about a piece.
+fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
+    let first = piece.points[0];
+    let reach = piece.points.iter().map(|p| length(*p - first));
+    (first, reach.fold(0.0, greater) + piece.radius)
+}
+
+/// Returns whether two pieces that overlap at the start begin to part.
+fn parts(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
+    let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
+    let poses = scene.motions.map(|motion| motion.start());
+    let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
+    // Written so that NaN does not part.
+    direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= 0.0)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,127 @@
+//! In which direction two convex pieces that overlap part soonest.
+
+use crate::Prepared;
+use crate::form::Form;
+use crate::order::length;
+use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
+use ccd_core::{Piece, Pose};
+use rigid_ccd::Solver;
+use rigid_ccd::schedule::ClosestApproach;
+
+/// The most products of edges that are tried.
+const MOST_EDGES: usize = 4096;
+
+/// Returns a unit vector, from the first piece to the second one, along which they overlap least.
+///
+/// For rounded pieces whose cores are apart it is the direction between these. Otherwise it is the best of the normals
+/// of facets, the products of edges, and the direction between the middles. Where pieces have too many edges for all
+/// products, a slightly worse one may come out.
+pub(super) fn direction(
+    pieces: [Piece<'_>; 2],
+    poses: [Pose; 2],
+    solver: &mut Solver,
+) -> Option<DVec3> {
+    if let Some(between) = between_cores(pieces, poses, solver) {
+        return Some(between);
+    }
+    let [a, b] = [0, 1].map(|k| Placed::new(&pieces[k], &poses[k]));
+    let mut best: Option<(f64, DVec3)> = None;
+    let mut consider = |axis: DVec3| {
+        let Some(axis) = unit(axis) else { return };
+        for axis in [axis, -axis] {
+            let depth = a.reach(axis) + b.reach(-axis);
+            if depth.is_finite() && best.is_none_or(|(least, _)| depth < least) {
+                best = Some((depth, axis));
+            }
+        }
+    };
+    consider(b.middle() - a.middle());
+    a.normals
+        .iter()
+        .chain(&b.normals)
+        .for_each(|normal| consider(*normal));
+    if a.edges.len() * b.edges.len() <= MOST_EDGES {
+        for edge in &a.edges {
+            b.edges
+                .iter()
+                .for_each(|other| consider(edge.cross(*other)));
+        }
+    }
+    best.map(|(_, axis)| axis)
+}
+
+/// Returns the direction between the cores of rounded pieces, if these are apart.
+fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) -> Option<DVec3> {
+    if pieces.iter().all(|piece| piece.radius == 0.0) {
+        return None;
+    }
+    let core = |piece: Piece<'_>| {
+        let mut form = Form::EMPTY;
+        form.push_hull(piece.points.to_vec(), 0.0, &[]);
+        Prepared::new(&form).ok()
+    };
+    let [a, b] = pieces.map(core);
+    let (a, b) = (a?, b?);
+    let found = solver
+        .distance((a.body(), poses[0]), (b.body(), poses[1]))
+        .ok()?;
+    match found.outcome {
+        ClosestApproach::Nearest { lower, contact, .. } if lower > 0.0 => {
+            Some(contact.separation.normal)
+        }
+        _ => None,
+    }
+}
+
+/// A piece in the world.
+struct Placed {
+    points: Vec<DVec3>,
+    radius: f64,
+    normals: Vec<DVec3>,
+    edges: Vec<DVec3>,
+}
+
+impl Placed {
+    fn new(piece: &Piece<'_>, pose: &Pose) -> Self {
+        let points: Vec<DVec3> = piece
+            .points
+            .iter()
+            .map(|p| pose.transform_point(*p))
+            .collect();
+        let at = |corner: u32| points[corner as usize];
+        // The corners of a piece without known facets are taken for one loop.
+        let whole: Vec<u32> = (0..points.len() as u32).collect();
+        let loops: Vec<&[u32]> = match piece.facets.is_empty() {
+            true => vec![&whole],
+            false => piece.facets.iter().collect(),
+        };
+        let (mut normals, mut edges) = (Vec::new(), Vec::new());
+        for corners in loops {
+            let sides =
+                (0..corners.len()).map(|k| at(corners[(k + 1) % corners.len()]) - at(corners[k]));
+            edges.extend(sides.filter(|side| length(*side) > 0.0));
+            if let [first, middle @ .., last] = corners
+                && let [second, ..] = middle
+            {
+                normals.push((at(*second) - at(*first)).cross(at(*last) - at(*first)));
+            }
+        }
+        Placed {
+            points,
+            radius: piece.radius,
+            normals,
+            edges,
+        }
+    }
+
+    /// Returns how far it reaches along a unit vector.
+    fn reach(&self, axis: DVec3) -> f64 {
+        let heights = self.points.iter().map(|p| axis.dot(*p));
+        heights.fold(f64::NEG_INFINITY, crate::order::greater) + self.radius
+    }
+
+    fn middle(&self) -> DVec3 {
+        self.points.iter().sum::<DVec3>() / self.points.len() as f64
+    }
+}

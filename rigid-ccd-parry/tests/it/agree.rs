@@ -1,0 +1,151 @@
+//! The casts beside the engine itself, for bodies made by other means.
+
+use crate::double::make;
+use crate::scenes::{Moves, Recipe, motions, number, random, shape, vector};
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::{Body, Config, Motion, Pieces, Pose, Solver, Volume};
+use rigid_ccd_parry::f64::cast_shapes_nonlinear;
+
+fn wide(v: [f32; 3]) -> [f64; 3] {
+    v.map(f64::from)
+}
+
+/// Makes a body by the engine's own means.
+fn body(recipe: &Recipe) -> Body {
+    let points = |points: &[[f32; 3]]| -> Vec<DVec3> {
+        points.iter().map(|p| DVec3::from_array(wide(*p))).collect()
+    };
+    let made = match recipe {
+        Recipe::Ball(radius) => Body::ball(f64::from(*radius)),
+        Recipe::Cuboid(half) => Body::cuboid(wide(*half)),
+        Recipe::Capsule(a, b, radius) => Body::polytope(rigid_ccd::Polytope {
+            points: points(&[*a, *b]),
+            radius: f64::from(*radius),
+            ..rigid_ccd::Polytope::default()
+        }),
+        Recipe::Mesh(vertices, faces) => {
+            let ids: Vec<u32> = (0..faces.len() as u32).collect();
+            let pieces = Pieces::triangles(&points(vertices), faces, &ids).expect("triangles");
+            Body::new(&pieces, Volume::Surface)
+        }
+        _ => unreachable!("made of these alone"),
+    };
+    made.expect("a body")
+}
+
+fn motion(moves: &Moves) -> Motion {
+    let start = Pose::new(wide(moves.place), moves.turned.map(f64::from)).expect("a pose");
+    let about = Motion::about(
+        start,
+        wide(moves.velocity),
+        wide(moves.spin),
+        wide(moves.centre),
+    );
+    about.expect("a motion")
+}
+
+#[test]
+fn casts_are_the_engines_answers() {
+    let (mut hits, mut misses, mut near) = (0, 0, 0);
+    for seed in 0..600 {
+        let mut rng = random(seed);
+        let kinds = [
+            [0, 1, 3, 9][seed as usize % 4],
+            [0, 1, 3, 9][seed as usize / 4 % 4],
+        ];
+        let recipes = kinds.map(|kind| shape(&mut rng, kind));
+        let moves = motions(&mut rng);
+        let config = Config {
+            tolerance: 1e-9,
+            ..Config::default()
+        };
+        let [a, b] = [0, 1].map(|k| body(&recipes[k]));
+        let [m, n] = [0, 1].map(|k| motion(&moves[k]));
+        let mut solver = Solver::new().with_config(config);
+        let engine = solver
+            .first_contact((&a, m), (&b, n), 2.0)
+            .expect("resolved");
+        let mut closest = || {
+            let closest = solver.closest_approach((&a, m), (&b, n), 2.0);
+            closest.expect("a scene").outcome
+        };
+        let shapes = [0, 1].map(|k| make::shape(&recipes[k]));
+        let [p, q] = moves.map(|moves| make::motion(&moves));
+        let hit = cast_shapes_nonlinear(&p, &*shapes[0], &q, &*shapes[1], 0.0, 2.0, true);
+        match (engine, hit.expect("served")) {
+            (Some(engine), Some(hit)) => {
+                hits += 1;
+                // At the rate of a tangential approach, too, tolerances of 1e-9 are passed in that time.
+                let apart = (engine.time - hit.time_of_impact).abs();
+                assert!(apart < 1e-4, "seed {seed}: {apart:e}");
+                near += u32::from(apart > 1e-8);
+            }
+            (None, None) => {
+                misses += 1;
+                if seed % 8 == 0 {
+                    let lower = closest().lower();
+                    assert!(lower > 0.0, "seed {seed}");
+                }
+            }
+            (engine, hit) => {
+                near += 1;
+                let lower = closest().lower();
+                assert!(lower < 2e-9, "seed {seed}: {engine:?} {hit:?} at {lower:e}");
+            }
+        }
+    }
+    assert!(
+        hits > 250 && misses > 150 && near < 10,
+        "{hits} {misses} {near}"
+    );
+}
+
+#[test]
+fn an_interval_is_part_of_the_whole() {
+    let mut later = 0;
+    for seed in 0..300 {
+        let mut rng = random(1000 + seed);
+        let shapes = [0, 9].map(|kind| make::shape(&shape(&mut rng, kind)));
+        let moves = motions(&mut rng);
+        let [p, q] = moves.map(|moves| make::motion(&moves));
+        let cast = |from, to| {
+            let hit = cast_shapes_nonlinear(&p, &*shapes[0], &q, &*shapes[1], from, to, true);
+            hit.expect("served").map(|hit| hit.time_of_impact)
+        };
+        let first = cast(0.0, 2.0);
+        let start = f64::from(number(&mut rng, 0.01, 0.5));
+        match (first, cast(start, 2.0)) {
+            (Some(first), Some(found)) if first > start => {
+                later += 1;
+                assert!(
+                    (first - found).abs() < 1e-7 && found >= start,
+                    "{first} {found}"
+                );
+                assert_eq!(cast(start, first - 1e-6), None);
+            }
+            (Some(first), _) if first <= start => {}
+            (None, None) => {}
+            other => panic!("seed {seed}: {other:?} after {start}"),
+        }
+    }
+    assert!(later > 80, "{later}");
+}
+
+#[test]
+fn the_order_of_the_shapes_does_not_matter() {
+    for seed in 0..200 {
+        let mut rng = random(2000 + seed);
+        let shapes = [seed as u32, seed as u32 / 2].map(|kind| make::shape(&shape(&mut rng, kind)));
+        let [p, q] = motions(&mut rng).map(|moves| make::motion(&moves));
+        let [a, b] = &shapes;
+        let there = cast_shapes_nonlinear(&p, &**a, &q, &**b, 0.0, 2.0, true).expect("served");
+        let back = cast_shapes_nonlinear(&q, &**b, &p, &**a, 0.0, 2.0, true).expect("served");
+        let times = [there, back].map(|hit| hit.map(|hit| hit.time_of_impact));
+        let near = match times {
+            [Some(t), Some(u)] => (t - u).abs() < 1e-5,
+            [t, u] => t == u,
+        };
+        assert!(near, "seed {seed}: {times:?}");
+        let _ = vector(&mut rng, 1.0);
+    }
+}

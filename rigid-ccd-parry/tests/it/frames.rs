@@ -1,0 +1,122 @@
+//! Witnesses, normals and sub-shapes are those of parry's casts, in the same frames.
+
+use crate::double::library::math::{Pose, Vector};
+use crate::double::library::query::{self, ShapeCastHit, ShapeCastOptions, ShapeCastStatus};
+use crate::double::library::shape::{Shape, TypedShape};
+use crate::double::make;
+use crate::scenes::{Moves, motions, random, shape};
+use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
+
+/// Counts hits of both casts at about one time, and how many of them have the same points, directions and sub-shapes.
+#[derive(Debug, Default)]
+struct Count {
+    hits: u32,
+    points: u32,
+    normals: u32,
+    parts: u32,
+}
+
+impl Count {
+    fn add(
+        &mut self,
+        shapes: [&make::SharedShape; 2],
+        ours: Option<ShapeCastHit>,
+        theirs: Option<ShapeCastHit>,
+    ) {
+        let (Some(ours), Some(theirs)) = (ours, theirs) else {
+            return;
+        };
+        let good = theirs.status == ShapeCastStatus::Converged;
+        if !good || (ours.time_of_impact - theirs.time_of_impact).abs() > 1e-6 {
+            return;
+        }
+        let near = |a: Vector, b: Vector| u32::from(a.distance(b) < 1e-3);
+        self.hits += 1;
+        self.points += near(ours.witness1, theirs.witness1) * near(ours.witness2, theirs.witness2);
+        self.normals += near(ours.normal1, theirs.normal1) * near(ours.normal2, theirs.normal2);
+        let [a, b] = shapes;
+        self.parts += u32::from(
+            distance_of(a, ours.subshape1, ours.witness1) < 1e-6
+                && distance_of(b, ours.subshape2, ours.witness2) < 1e-6,
+        );
+    }
+
+    /// Nearest points are not unique on edges that are parallel, or beside each other: a few may differ.
+    fn check(&self) {
+        let most = self.hits * 9 / 10;
+        assert!(self.hits > 100, "{self:?}");
+        assert!(
+            self.points >= most && self.normals >= most && self.parts >= most,
+            "{self:?}"
+        );
+    }
+}
+
+/// Returns the distance of a point from a sub-shape: of the whole for shapes that have none, whose number is 0.
+fn distance_of(shape: &make::SharedShape, number: u32, point: Vector) -> f64 {
+    let mut found = f64::INFINITY;
+    let mut measure = |at: Option<&Pose>, part: &dyn Shape| {
+        found = part.distance_to_point(at.unwrap_or(&Pose::IDENTITY), point, true);
+    };
+    if let TypedShape::HeightField(field) = shape.as_typed_shape() {
+        measure(None, &field.triangle_at_id(number).expect("a triangle"));
+        return found;
+    }
+    match shape.as_composite_shape() {
+        Some(composite) => composite.map_part_at(number, &mut |at, part, _| measure(at, part)),
+        None => {
+            assert_eq!(number, 0);
+            measure(None, &**shape);
+        }
+    }
+    found
+}
+
+fn pair(seed: u64, kinds: [u32; 2]) -> ([make::SharedShape; 2], [Moves; 2]) {
+    let mut rng = random(seed);
+    let shapes = kinds.map(|kind| make::shape(&shape(&mut rng, kind)));
+    (shapes, motions(&mut rng))
+}
+
+#[test]
+fn nonlinear_hits_are_told_as_parry_tells_them() {
+    let mut count = Count::default();
+    for seed in 0..600 {
+        // Balls, boxes, capsules and rounded hulls: parry converges on most of them.
+        let kinds = [
+            [0, 1, 2, 3, 8][seed as usize % 5],
+            [0, 1, 2, 3, 8][seed as usize / 5 % 5],
+        ];
+        let ([a, b], moves) = pair(seed, kinds);
+        // Slow turns: beyond half a turn parry's cast may be late.
+        let slow = moves.map(|moves| Moves {
+            spin: moves.spin.map(|w| 0.02 * w),
+            ..moves
+        });
+        let [m, n] = slow.map(|moves| make::motion(&moves));
+        let theirs = query::cast_shapes_nonlinear(&m, &*a, &n, &*b, 0.0, 2.0, true);
+        let ours = cast_shapes_nonlinear(&m, &*a, &n, &*b, 0.0, 2.0, true);
+        count.add([&a, &b], ours.expect("served"), theirs.expect("served"));
+    }
+    count.check();
+}
+
+#[test]
+fn linear_hits_are_told_as_parry_tells_them() {
+    let mut count = Count::default();
+    for seed in 0..900 {
+        // Meshes and compounds too: their sub-shapes have numbers.
+        let kinds = [
+            [0, 1, 9, 10, 3, 15][seed as usize % 6],
+            [0, 1, 3][seed as usize / 6 % 3],
+        ];
+        let ([a, b], moves) = pair(seed, kinds);
+        let [p, q] = moves.map(|moves| make::pose(moves.place, moves.turned));
+        let [v, w] = moves.map(|moves| make::vector(moves.velocity));
+        let options = ShapeCastOptions::with_max_time_of_impact(2.0);
+        let theirs = query::cast_shapes(&p, v, &*a, &q, w, &*b, options);
+        let ours = cast_shapes(&p, v, &*a, &q, w, &*b, options);
+        count.add([&a, &b], ours.expect("served"), theirs.expect("served"));
+    }
+    count.check();
+}

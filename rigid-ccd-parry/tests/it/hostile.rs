@@ -1,0 +1,461 @@
+//! Inputs that break casts: no panic, no hang, no hit outside of the interval, no error without a name.
+
+use crate::scenes::{number, random};
+use parry3d::bounding_volume::{Aabb, BoundingSphere};
+use parry3d::mass_properties::MassProperties;
+use parry3d::math::{Pose, Real, Rotation, Vector};
+use parry3d::query::{
+    NonlinearRigidMotion, PointProjection, PointQuery, Ray, RayCast, RayIntersection, ShapeCastHit,
+    ShapeCastOptions, ShapeCastStatus,
+};
+use parry3d::shape::{
+    Ball, Compound, Cone, Cuboid, Cylinder, FeatureId, HeightField, Segment, Shape, ShapeType,
+    SharedShape, TriMesh, Triangle, TypedShape,
+};
+use parry3d::utils::Array2;
+use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
+use rigid_ccd_parry::f32::{
+    body, cast_shapes_nonlinear, try_cast_shapes, try_cast_shapes_nonlinear,
+};
+use rigid_ccd_parry::{CastError, Settings, ShapeError};
+
+/// Numbers that casts go wrong at.
+const ODD: [f32; 20] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.5,
+    1e-45,
+    -1e-40,
+    1e-30,
+    1e-7,
+    1e-3,
+    3.0,
+    1e3,
+    1e7,
+    -1e7,
+    1e12,
+    1e20,
+    3.4e38,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::NAN,
+];
+
+/// Returns an odd number in one of a few cases, an even one otherwise.
+fn odd(rng: &mut Pcg64Mcg, share: f32) -> f32 {
+    match rng.random::<f32>() < share {
+        true => ODD[rng.random_range(0..ODD.len())],
+        false => number(rng, -2.0, 2.0),
+    }
+}
+
+fn odd_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
+    Vector::new(odd(rng, share), odd(rng, share), odd(rng, share))
+}
+
+fn odd_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
+    let [x, y, z, w] = std::array::from_fn(|_| odd(rng, share));
+    Pose::from_parts(odd_vector(rng, share), Rotation::from_xyzw(x, y, z, w))
+}
+
+fn odd_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
+    NonlinearRigidMotion::new(
+        odd_pose(rng, share),
+        odd_vector(rng, share),
+        odd_vector(rng, share),
+        odd_vector(rng, share),
+    )
+}
+
+/// Returns a shape by its fields, which parry does not check.
+fn odd_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
+    let radius = odd(rng, share).abs();
+    match rng.random_range(0..9) {
+        0 => SharedShape::ball(odd(rng, share)),
+        1 => SharedShape::new(Cuboid {
+            half_extents: odd_vector(rng, share).abs(),
+        }),
+        2 => SharedShape::capsule(odd_vector(rng, share), odd_vector(rng, share), radius),
+        3 => SharedShape::new(Segment::new(odd_vector(rng, share), odd_vector(rng, share))),
+        4 => SharedShape::new(Triangle::new(
+            odd_vector(rng, share),
+            odd_vector(rng, share),
+            odd_vector(rng, share),
+        )),
+        5 => SharedShape::new(Cylinder {
+            half_height: odd(rng, share),
+            radius: odd(rng, share),
+        }),
+        6 => SharedShape::new(Cone {
+            half_height: odd(rng, share).abs(),
+            radius,
+        }),
+        7 => {
+            let vertices = (0..4).map(|_| odd_vector(rng, 0.3 * share)).collect();
+            let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3], [1, 1, 3]]);
+            SharedShape::new(mesh.expect("triangles"))
+        }
+        _ => SharedShape::halfspace(odd_vector(rng, share)),
+    }
+}
+
+/// Checks what holds for every hit.
+fn check(hit: &ShapeCastHit, [start, end]: [Real; 2]) {
+    let time = hit.time_of_impact;
+    assert!(
+        time >= start && time <= end,
+        "{hit:?} not from {start} to {end}"
+    );
+    let vectors = [hit.witness1, hit.witness2, hit.normal1, hit.normal2];
+    assert!(vectors.iter().all(|v| v.is_finite()), "{hit:?}");
+    let normals = [hit.normal1, hit.normal2].map(|normal| (normal.length() - 1.0).abs());
+    assert!(normals.iter().all(|off| *off < 1e-5), "{hit:?}");
+}
+
+#[test]
+fn odd_numbers_are_answered_or_refused() {
+    let (mut hits, mut misses, mut refused) = (0, 0, 0);
+    for seed in 0..20_000 {
+        let mut rng = random(seed);
+        let share = [0.01, 0.05, 0.3][seed as usize % 3];
+        let [a, b] = [0, 1].map(|_| odd_shape(&mut rng, share));
+        let found = match seed % 2 {
+            0 => {
+                let [m, n] = [0, 1].map(|_| odd_motion(&mut rng, share));
+                // Turns of millions take their time: what limits them is another test's.
+                let slow = |motion: NonlinearRigidMotion| NonlinearRigidMotion {
+                    angvel: motion
+                        .angvel
+                        .clamp(Vector::splat(-20.0), Vector::splat(20.0)),
+                    ..motion
+                };
+                let times = [odd(&mut rng, share), odd(&mut rng, share)];
+                let times = times.map(|time| if time.abs() > 1e3 { 2.0 } else { time });
+                let found =
+                    try_cast_shapes_nonlinear(&slow(m), &*a, &slow(n), &*b, times, seed % 4 == 0);
+                found.inspect(|hit| {
+                    hit.inspect(|hit| check(hit, times));
+                })
+            }
+            _ => {
+                let poses = [0, 1].map(|_| odd_pose(&mut rng, share));
+                let [v, w] = [0, 1].map(|_| odd_vector(&mut rng, share));
+                let options = ShapeCastOptions {
+                    max_time_of_impact: odd(&mut rng, share),
+                    target_distance: odd(&mut rng, share).abs(),
+                    stop_at_penetration: seed % 4 == 1,
+                    compute_impact_geometry_on_penetration: true,
+                };
+                let found = try_cast_shapes((&poses[0], v, &*a), (&poses[1], w, &*b), options);
+                found.inspect(|hit| {
+                    hit.inspect(|hit| check(hit, [0.0, options.max_time_of_impact]));
+                })
+            }
+        };
+        match found {
+            Ok(Some(_)) => hits += 1,
+            Ok(None) => misses += 1,
+            Err(error) => {
+                refused += 1;
+                assert!(!error.to_string().is_empty());
+            }
+        }
+    }
+    assert!(
+        hits > 2000 && misses > 2000 && refused > 2000,
+        "{hits} {misses} {refused}"
+    );
+}
+
+fn rests(x: f32) -> NonlinearRigidMotion {
+    NonlinearRigidMotion::constant_position(Pose::translation(x, 0.0, 0.0))
+}
+
+fn flies(x: f32, speed: f32) -> NonlinearRigidMotion {
+    NonlinearRigidMotion {
+        linvel: speed * Vector::X,
+        ..rests(x)
+    }
+}
+
+fn time(a: &dyn Shape, b: &dyn Shape, motions: [NonlinearRigidMotion; 2], end: f32) -> Option<f32> {
+    let [m, n] = &motions;
+    let hit = cast_shapes_nonlinear(m, a, n, b, 0.0, end, true).expect("served");
+    hit.map(|hit| hit.time_of_impact)
+}
+
+#[test]
+fn shapes_without_size_meet() {
+    let point = Triangle::new(Vector::ZERO, Vector::ZERO, Vector::ZERO);
+    let shapes: [SharedShape; 6] = [
+        SharedShape::ball(0.0),
+        SharedShape::cuboid(0.0, 0.0, 0.0),
+        SharedShape::capsule(Vector::ZERO, Vector::ZERO, 0.0),
+        SharedShape::new(Segment::new(Vector::ZERO, Vector::ZERO)),
+        SharedShape::new(point),
+        SharedShape::new(Cylinder::new(0.0, 0.0)),
+    ];
+    for a in &shapes {
+        for b in &shapes {
+            let found = time(&**a, &**b, [flies(-4.0, 2.0), rests(0.0)], 9.0).expect("they meet");
+            assert!(found <= 2.0 && found > 1.999999, "{found}");
+            let beside = rests(0.0);
+            let past = NonlinearRigidMotion {
+                start: Pose::translation(-4.0, 0.001, 0.0),
+                ..flies(0.0, 2.0)
+            };
+            assert_eq!(time(&**a, &**b, [past, beside], 9.0), None);
+        }
+    }
+}
+
+#[test]
+fn tiny_bodies_are_not_in_contact_at_their_own_size() {
+    for scale in [1e-6, 1e-12, 1e-20, 1e-30f32] {
+        let (ball, cube) = (Ball::new(scale), Cuboid::new(Vector::splat(scale)));
+        let found = time(&ball, &cube, [flies(-4.0 * scale, scale), rests(0.0)], 9.0);
+        let found = found.expect("they meet");
+        assert!(found <= 2.0 && found > 1.99999, "{scale:e}: {found}");
+        let past = flies(-4.0 * scale, scale);
+        let past = NonlinearRigidMotion {
+            start: Pose::translation(-4.0 * scale, 2.01 * scale, 0.0),
+            ..past
+        };
+        assert_eq!(
+            time(&ball, &cube, [past, rests(0.0)], 9.0),
+            None,
+            "{scale:e}"
+        );
+    }
+}
+
+#[test]
+fn large_scenes_and_far_origins_are_met_in_time() {
+    // Every number is exact in single precision.
+    for far in [0.0, 65536.0, 1e9, 68719476736.0f32] {
+        let (ball, cube) = (Ball::new(1.0), Cuboid::new(Vector::splat(1.0)));
+        let step = (far * 1e-6).max(8.0).log2().ceil().exp2();
+        let found = time(&ball, &cube, [flies(far - step, 1.0), rests(far)], 1e6);
+        let exact = step - 2.0;
+        let found = found.expect("they meet");
+        assert!(
+            found <= exact && found > exact - 1e-3 - 1e-6 * step,
+            "{far}: {found} {exact}"
+        );
+    }
+    for size in [1e3, 1e6, 1e9f32] {
+        let (ball, cube) = (Ball::new(size), Cuboid::new(Vector::splat(size)));
+        let found =
+            time(&ball, &cube, [flies(-4.0 * size, size), rests(0.0)], 9.0).expect("they meet");
+        assert!(found <= 2.0 && found > 1.999999, "{size:e}: {found}");
+    }
+    let beyond = try_cast_shapes_nonlinear(
+        &rests(2e12),
+        &Ball::new(1.0),
+        &rests(0.0),
+        &Ball::new(1.0),
+        [0.0, 1.0],
+        true,
+    );
+    let error = beyond.expect_err("refused");
+    assert!(
+        matches!(error, CastError::Scene(_)) && error.to_string().contains("1e12"),
+        "{error}"
+    );
+}
+
+#[test]
+fn speeds_beyond_all_scales_are_met() {
+    let ball = Ball::new(1.0);
+    for speed in [1e-30, 1e-3, 1e6, 1e15, 1e30, 3e38f32] {
+        let found = time(
+            &ball,
+            &ball,
+            [flies(-4.0, speed), rests(0.0)],
+            f32::INFINITY,
+        );
+        let (found, exact) = (found.expect("they meet"), 2.0 / f64::from(speed));
+        let found = f64::from(found);
+        assert!(
+            found <= exact && found > exact * (1.0 - 1e-5) - 1e-45,
+            "{speed:e}: {found:e}"
+        );
+        assert_eq!(
+            time(
+                &ball,
+                &ball,
+                [flies(-4.0, -speed), rests(0.0)],
+                f32::INFINITY
+            ),
+            None
+        );
+    }
+    // Two that fly along each other, at any speed.
+    let along = [flies(-4.0, 1e30), flies(0.0, 1e30)];
+    assert_eq!(time(&ball, &ball, along, f32::INFINITY), None);
+}
+
+#[test]
+fn spins_beyond_the_limit_end_as_a_limit() {
+    let cube = Cuboid::new(Vector::splat(1.0));
+    let spins = |rate: f32| NonlinearRigidMotion {
+        angvel: rate * Vector::Z,
+        ..flies(-9.0, 1.0)
+    };
+    let cast = |shape: &dyn Shape, rate| {
+        let hit = cast_shapes_nonlinear(&spins(rate), shape, &rests(0.0), &cube, 0.0, 100.0, true);
+        hit.expect("served").expect("they meet")
+    };
+    let hit = cast(&cube, 1e8);
+    assert_eq!(hit.status, ShapeCastStatus::OutOfIterations);
+    assert!(hit.time_of_impact < 7.0);
+    // A ball is the same at any spin.
+    for rate in [0.0, 1.0, 1e8, 3e38] {
+        let hit = cast(&Ball::new(1.0), rate);
+        assert_eq!(hit.status, ShapeCastStatus::Converged);
+        assert!(hit.time_of_impact <= 7.0 && hit.time_of_impact > 6.99999);
+        assert!((hit.witness1.length() - 1.0).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn errors_name_what_is_wrong() {
+    let ball = Ball::new(1.0);
+    let told = |shape: &dyn Shape| {
+        let found =
+            try_cast_shapes_nonlinear(&rests(0.0), &ball, &rests(9.0), shape, [0.0, 1.0], true);
+        found.expect_err("refused").to_string()
+    };
+    assert_eq!(
+        told(&Ball::new(f32::NAN)),
+        "shape 2: its radius is NaN, but must be at least 0 and finite"
+    );
+    assert_eq!(
+        told(&Ball::new(-1.0)),
+        "shape 2: its radius is -1, but must be at least 0 and finite"
+    );
+    let mut vertices = vec![Vector::ZERO, Vector::X, Vector::Y, Vector::Z];
+    vertices[3].y = f32::NAN;
+    let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 1, 3]]).expect("a mesh");
+    assert!(
+        told(&mesh).starts_with("shape 2: sub-shape 1: point 2"),
+        "{}",
+        told(&mesh)
+    );
+    let mut heights = Array2::repeat(3, 3, 0.0);
+    heights[(2, 2)] = f32::INFINITY;
+    let field = HeightField::new(heights, Vector::splat(1.0));
+    assert!(
+        told(&field).starts_with("shape 2: sub-shape"),
+        "{}",
+        told(&field)
+    );
+    let parts = vec![
+        (Pose::IDENTITY, SharedShape::ball(1.0)),
+        (Pose::IDENTITY, SharedShape::ball(f32::INFINITY)),
+    ];
+    assert!(told(&Compound::new(parts)).starts_with("shape 2: part 1: its radius is inf"));
+    let mut motion = rests(0.0);
+    motion.start.rotation = Rotation::from_xyzw(0.0, 0.0, 0.0, 0.0);
+    let found = try_cast_shapes_nonlinear(&motion, &ball, &rests(0.0), &ball, [0.0, 1.0], true);
+    let told = found.expect_err("refused").to_string();
+    assert_eq!(
+        told,
+        "motion 1: a quaternion of length zero names no orientation"
+    );
+}
+
+#[test]
+fn parts_of_compounds_may_nest_and_not_without_end() {
+    let nested = |depth: usize| {
+        let mut shape = SharedShape::ball(1.0);
+        for _ in 0..depth {
+            let place = Pose::translation(1.0, 0.0, 0.0);
+            let inner = Compound::new(vec![(place, shape)]);
+            shape = SharedShape::new(Wrapped(inner));
+        }
+        shape
+    };
+    let found = time(
+        &*nested(3),
+        &Ball::new(1.0),
+        [flies(-9.0, 1.0), rests(0.0)],
+        9.0,
+    );
+    // The ball is at −9 + 3.
+    let found = found.expect("they meet");
+    assert!(found <= 4.0 && found > 3.99999, "{found}");
+    let settings = Settings::default();
+    assert!(body(&*nested(16), &settings).is_ok());
+    let mut error = body(&*nested(17), &settings).expect_err("refused");
+    while let ShapeError::Part { error: inner, .. } = error {
+        error = *inner;
+    }
+    assert_eq!(error, ShapeError::Nested);
+}
+
+/// A compound that parry does not know for one, and so takes as a part of others.
+#[derive(Clone)]
+struct Wrapped(Compound);
+
+impl RayCast for Wrapped {
+    fn cast_local_ray_and_get_normal(
+        &self,
+        ray: &Ray,
+        most: Real,
+        solid: bool,
+    ) -> Option<RayIntersection> {
+        self.0.cast_local_ray_and_get_normal(ray, most, solid)
+    }
+}
+
+impl PointQuery for Wrapped {
+    fn project_local_point(&self, point: Vector, solid: bool) -> PointProjection {
+        self.0.project_local_point(point, solid)
+    }
+
+    fn project_local_point_and_get_feature(&self, point: Vector) -> (PointProjection, FeatureId) {
+        self.0.project_local_point_and_get_feature(point)
+    }
+}
+
+impl Shape for Wrapped {
+    fn compute_local_aabb(&self) -> Aabb {
+        self.0.compute_local_aabb()
+    }
+
+    fn compute_local_bounding_sphere(&self) -> BoundingSphere {
+        self.0.compute_local_bounding_sphere()
+    }
+
+    fn clone_dyn(&self) -> Box<dyn Shape> {
+        Box::new(self.clone())
+    }
+
+    fn scale_dyn(&self, scale: Vector, subdivisions: u32) -> Option<Box<dyn Shape>> {
+        self.0.scale_dyn(scale, subdivisions)
+    }
+
+    fn mass_properties(&self, density: Real) -> MassProperties {
+        self.0.mass_properties(density)
+    }
+
+    fn shape_type(&self) -> ShapeType {
+        ShapeType::Custom
+    }
+
+    fn as_typed_shape(&self) -> TypedShape<'_> {
+        TypedShape::Compound(&self.0)
+    }
+
+    fn ccd_thickness(&self) -> Real {
+        self.0.ccd_thickness()
+    }
+
+    fn ccd_angular_thickness(&self) -> Real {
+        self.0.ccd_angular_thickness()
+    }
+}

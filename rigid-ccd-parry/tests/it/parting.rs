@@ -1,0 +1,202 @@
+//! Bodies that overlap at the start, and are to be let go if they part.
+
+use crate::double::library::math::{Pose, Vector};
+use crate::double::library::query::{
+    self, NonlinearRigidMotion, ShapeCastOptions, ShapeCastStatus,
+};
+use crate::double::library::shape::{Ball, Cuboid, HalfSpace, HeightField, Shape, SharedShape};
+use crate::double::library::utils::Array2;
+use crate::double::make;
+use crate::scenes::{motions, random, shape, vector};
+use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
+
+fn options() -> ShapeCastOptions {
+    ShapeCastOptions {
+        max_time_of_impact: 5.0,
+        stop_at_penetration: false,
+        ..ShapeCastOptions::default()
+    }
+}
+
+fn at(x: f64, y: f64, z: f64) -> Pose {
+    Pose::translation(x, y, z)
+}
+
+/// Casts a shape from a pose at one that rests in the origin.
+fn cast(
+    a: &dyn Shape,
+    from: Pose,
+    velocity: Vector,
+    b: &dyn Shape,
+) -> Option<(f64, ShapeCastStatus)> {
+    let hit = cast_shapes(
+        &from,
+        velocity,
+        a,
+        &Pose::IDENTITY,
+        Vector::ZERO,
+        b,
+        options(),
+    );
+    hit.expect("served")
+        .map(|hit| (hit.time_of_impact, hit.status))
+}
+
+const PENETRATING: ShapeCastStatus = ShapeCastStatus::PenetratingOrWithinTargetDist;
+
+#[test]
+fn convex_shapes_are_let_go_as_parry_lets_them() {
+    let (mut gone, mut kept, mut others) = (0, 0, 0);
+    for seed in 0..500 {
+        let mut rng = random(seed);
+        let kinds = [
+            [0, 1, 2, 3, 8][seed as usize % 5],
+            [0, 1, 2, 3, 8][seed as usize / 5 % 5],
+        ];
+        let [a, b] = kinds.map(|kind| make::shape(&shape(&mut rng, kind)));
+        let [moves, beside] = motions(&mut rng);
+        let near = vector(&mut rng, 0.3);
+        let [p, q] = [
+            make::pose(near, moves.turned),
+            make::pose([0.0; 3], beside.turned),
+        ];
+        let velocity = make::vector(moves.velocity);
+        if query::distance(&p, &*a, &q, &*b)
+            .expect("supported")
+            .distance
+            > 0.0
+        {
+            continue;
+        }
+        let theirs = query::cast_shapes(&p, velocity, &*a, &q, Vector::ZERO, &*b, options())
+            .expect("supported");
+        let ours =
+            cast_shapes(&p, velocity, &*a, &q, Vector::ZERO, &*b, options()).expect("served");
+        match (
+            ours.map(|hit| (hit.time_of_impact, hit.status)),
+            theirs.is_some(),
+        ) {
+            (None, false) => gone += 1,
+            (Some(found), true) => {
+                assert_eq!(found, (0.0, PENETRATING));
+                kept += 1;
+            }
+            // Two directions are nearly as short.
+            _ => others += 1,
+        }
+    }
+    assert!(
+        gone > 50 && kept > 50 && others < 10,
+        "{gone} {kept} {others}"
+    );
+}
+
+#[test]
+fn a_body_slides_on_a_floor_that_it_is_in() {
+    let ball = Ball::new(0.5);
+    let floors = [
+        SharedShape::cuboid(9.0, 1.0, 9.0),
+        SharedShape::new(HalfSpace::new(Vector::Y)),
+    ];
+    for (floor, top) in floors.iter().zip([1.0, 0.0]) {
+        let within = at(-2.0, top + 0.49, 0.1);
+        let slide = Vector::new(1.0, 0.0, 0.3);
+        assert_eq!(cast(&ball, within, slide, &**floor), None);
+        assert_eq!(
+            cast(&ball, within, slide + 0.01 * Vector::Y, &**floor),
+            None
+        );
+        assert_eq!(cast(&ball, within, Vector::Y, &**floor), None);
+        assert_eq!(
+            cast(&ball, within, slide - 0.01 * Vector::Y, &**floor),
+            Some((0.0, PENETRATING))
+        );
+    }
+}
+
+#[test]
+fn on_flat_triangles_a_body_is_let_go_where_parry_lets_it() {
+    let (ball, flat) = (Ball::new(0.5), Array2::repeat(20, 20, 0.0));
+    let floor = HeightField::new(flat, Vector::new(18.0, 1.0, 18.0));
+    let (mut gone, mut kept) = (0, 0);
+    for seed in 0..200 {
+        let mut rng = random(seed);
+        let [x, _, z] = vector(&mut rng, 2.0).map(f64::from);
+        let [vx, vy, vz] = vector(&mut rng, 1.0).map(f64::from);
+        // Upwards: off the plane, and into the edges of triangles that are in it.
+        let (from, velocity) = (at(x, 0.45, z), Vector::new(vx, vy.abs(), vz));
+        let theirs = query::cast_shapes(
+            &from,
+            velocity,
+            &ball,
+            &Pose::IDENTITY,
+            Vector::ZERO,
+            &floor,
+            options(),
+        );
+        let theirs = theirs.expect("supported").map(|hit| hit.time_of_impact);
+        let ours = cast(&ball, from, velocity, &floor).map(|(time, _)| time);
+        match (ours, theirs) {
+            (None, None) => gone += 1,
+            (Some(ours), Some(theirs)) => {
+                kept += 1;
+                assert!((ours - theirs).abs() < 1e-4, "seed {seed}: {ours} {theirs}");
+            }
+            other => panic!("seed {seed}: {other:?}"),
+        }
+    }
+    assert!(gone > 50 && kept > 20, "{gone} {kept}");
+}
+
+#[test]
+fn what_is_behind_is_hit_after_what_is_left() {
+    // It leaves one box of a compound, and flies at the next one.
+    let boxes = [0.0, 4.0, 8.0].map(|x| (at(x, 0.0, 0.0), SharedShape::cuboid(0.5, 3.0, 3.0)));
+    let walls = SharedShape::compound(boxes.to_vec());
+    let ball = Ball::new(0.5);
+    let (time, status) = cast(&ball, at(0.8, 0.0, 0.0), Vector::X, &*walls).expect("the next one");
+    assert_eq!(status, ShapeCastStatus::Converged);
+    assert!(time <= 2.2 && time > 2.2 - 1e-6, "{time}");
+    assert_eq!(cast(&ball, at(-0.8, 0.0, 0.0), -Vector::X, &*walls), None);
+    assert_eq!(
+        cast(&ball, at(-0.8, 0.0, 0.0), Vector::X, &*walls),
+        Some((0.0, PENETRATING))
+    );
+    let hit = cast_shapes(
+        &at(0.8, 0.0, 0.0),
+        Vector::X,
+        &ball,
+        &Pose::IDENTITY,
+        Vector::ZERO,
+        &*walls,
+        options(),
+    );
+    assert_eq!(hit.expect("served").expect("the next one").subshape2, 1);
+    // The other way around.
+    let (still, flies) = (Vector::ZERO, Vector::X);
+    let hit = cast_shapes(
+        &Pose::IDENTITY,
+        still,
+        &*walls,
+        &at(0.8, 0.0, 0.0),
+        flies,
+        &ball,
+        options(),
+    );
+    assert_eq!(hit.expect("served").expect("the next one").subshape1, 1);
+}
+
+#[test]
+fn bodies_that_turn_are_in_contact_where_they_overlap() {
+    let cube = Cuboid::new(Vector::splat(0.5));
+    let leaves = |spin| NonlinearRigidMotion::new(at(0.9, 0.0, 0.0), Vector::ZERO, Vector::X, spin);
+    let rests = NonlinearRigidMotion::identity();
+    let cast = |spin: Vector, stop| {
+        let hit = cast_shapes_nonlinear(&leaves(spin), &cube, &rests, &cube, 0.0, 5.0, stop);
+        hit.expect("served")
+            .map(|hit| (hit.time_of_impact, hit.status))
+    };
+    assert_eq!(cast(Vector::ZERO, true), Some((0.0, PENETRATING)));
+    assert_eq!(cast(Vector::ZERO, false), None);
+    assert_eq!(cast(Vector::Y, false), Some((0.0, PENETRATING)));
+}
