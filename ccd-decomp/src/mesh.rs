@@ -1,19 +1,24 @@
 //! Triangle meshes: read, checked and repaired.
 
+pub(crate) mod affine;
+mod combine;
+mod content;
 pub(crate) mod error;
 pub(crate) mod format;
+pub(crate) mod mesh_file;
 mod outline;
 mod polygons;
 pub(crate) mod repair;
+pub(crate) mod unit;
 
 use crate::exact::predicates::is_without_area;
 use ccd_core::glam::DVec3;
 use error::{MeshError, MeshFault};
 use format::Format;
+use mesh_file::MeshFile;
 use polygons::Polygons;
 use repair::{Repairs, collapsed_faces, duplicate_faces};
 use std::collections::HashMap;
-use std::fs;
 use std::io::Read;
 use std::path::Path;
 
@@ -38,37 +43,27 @@ pub struct TriangleMesh {
     face_ids: Vec<u32>,
     /// For every vertex the first one at exactly the same point.
     positions: Vec<u32>,
+    /// The number of faces that the file has, dropped ones included.
+    face_count: u32,
     repairs: Repairs,
 }
 
 impl TriangleMesh {
-    /// Reads a mesh from a file, in the format of its extension.
+    /// Reads a mesh from a file, in the format of its extension: all its parts together. [`MeshFile`] reads one part, or
+    /// each of them, and converts units.
     ///
     /// # Errors
     /// [`MeshError`], which names the file and the element. No bytes panic.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
-        let path = path.as_ref();
-        let read = || {
-            if path.is_dir() {
-                return Err(MeshFault::Folder);
-            }
-            let format = Format::from_path(path)?;
-            let bytes = fs::read(path).map_err(MeshFault::Unreadable)?;
-            TriangleMesh::from_polygons(format.parse(&bytes)?)
-        };
-        read().map_err(|fault| fault.in_file(path))
+        MeshFile::read(path)?.into_mesh()
     }
 
     /// Reads a mesh in a given format from any reader.
     ///
     /// # Errors
     /// [`MeshError`], which names the element. No bytes panic.
-    pub fn from_reader(format: Format, mut reader: impl Read) -> Result<Self, MeshError> {
-        let mut bytes = Vec::new();
-        reader
-            .read_to_end(&mut bytes)
-            .map_err(MeshFault::Unreadable)?;
-        Ok(TriangleMesh::from_polygons(format.parse(&bytes)?)?)
+    pub fn from_reader(format: Format, reader: impl Read) -> Result<Self, MeshError> {
+        MeshFile::from_reader(format, reader)?.into_mesh()
     }
 
     /// Makes a mesh of vertices and triangles in memory.
@@ -85,11 +80,29 @@ impl TriangleMesh {
         })?)
     }
 
-    fn from_polygons(polygons: Polygons) -> Result<Self, MeshFault> {
+    fn from_polygons(mut polygons: Polygons) -> Result<Self, MeshFault> {
         polygons.check()?;
-        let positions = weld(&polygons.vertices);
         let mut repairs = Repairs::default();
-        let (all_faces, all_ids) = polygons.triangulate(&mut repairs);
+        let triangles = polygons.triangulate(&mut repairs);
+        repairs.note_unreferenced(polygons.vertices.len(), &polygons.corners);
+        let face_count = polygons.ends.len() as u32;
+        let vertices = std::mem::take(&mut polygons.vertices);
+        // The rest may be larger than what is made next.
+        drop(polygons);
+        Ok(TriangleMesh::from_triangles(
+            vertices, triangles, face_count, repairs,
+        ))
+    }
+
+    /// Makes a mesh of valid triangles, each with the number of its face, and drops those that are there twice or
+    /// collapsed.
+    fn from_triangles(
+        vertices: Vec<DVec3>,
+        (all_faces, all_ids): (Vec<[u32; 3]>, Vec<u32>),
+        face_count: u32,
+        mut repairs: Repairs,
+    ) -> Self {
+        let positions = weld(&vertices);
         let drop_duplicate = duplicate_faces(&all_faces, &positions);
         let drop_collapsed = collapsed_faces(&all_faces, &positions);
         let (mut faces, mut face_ids) = (Vec::new(), Vec::new());
@@ -101,7 +114,7 @@ impl TriangleMesh {
             } else if drop_collapsed[k] {
                 repairs.collapsed.add(id);
             } else {
-                let [a, b, c] = face.map(|v| polygons.vertices[v as usize]);
+                let [a, b, c] = face.map(|v| vertices[v as usize]);
                 if is_without_area([a, b, c]) {
                     repairs.zero_area.add(id);
                 }
@@ -109,14 +122,14 @@ impl TriangleMesh {
                 face_ids.push(id);
             }
         }
-        repairs.note_unreferenced(polygons.vertices.len(), &polygons.corners);
-        Ok(TriangleMesh {
-            vertices: polygons.vertices,
+        TriangleMesh {
+            vertices,
             faces,
             face_ids,
             positions,
+            face_count,
             repairs,
-        })
+        }
     }
 
     /// The vertices in the file's order, unreferenced ones included.

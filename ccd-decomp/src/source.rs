@@ -1,9 +1,11 @@
 //! Bodies as they are named on a command line.
 
 pub(crate) mod error;
+pub(crate) mod mesh_source;
 
 use crate::file::STORED_EXTENSION;
-use crate::mesh::TriangleMesh;
+use crate::mesh::mesh_file::files_of;
+use crate::mesh::unit::Unit;
 use crate::prepare::error::PrepareError;
 use crate::prepare::model::{Model, Prepared};
 use crate::prepare::{Detail, body_from_mesh};
@@ -11,6 +13,7 @@ use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
 use error::{BodyError, SourceError};
+use mesh_source::MeshSource;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -22,6 +25,8 @@ use std::str::FromStr;
 /// assert_eq!("sphere:0.5".parse(), Ok(BodySource::Sphere { radius: 0.5 }));
 /// assert_eq!("part.obj".parse(), Ok(BodySource::Mesh("part.obj".into())));
 /// assert_eq!("part.ccd".parse(), Ok(BodySource::Stored("part.ccd".into())));
+/// let lid = BodySource::Part { file: "scene.glb".into(), part: "lid".into() };
+/// assert_eq!("scene.glb#lid".parse(), Ok(lid));
 /// let error = "ball:0.5".parse::<BodySource>().unwrap_err();
 /// assert!(error.to_string().contains("sphere:0.5"));
 /// ```
@@ -46,7 +51,14 @@ pub enum BodySource {
     },
     /// The path of a file that ends in `.ccd`: a [stored](crate::Model::save) body.
     Stored(PathBuf),
-    /// The path of a mesh file: anything else.
+    /// `FILE#PART`: one part of a mesh file, by its name or number, see [`MeshSource`].
+    Part {
+        /// The path of the file.
+        file: PathBuf,
+        /// The name or number of the part.
+        part: String,
+    },
+    /// The path of a mesh file: anything else. All its parts are one body.
     Mesh(PathBuf),
 }
 
@@ -66,7 +78,21 @@ impl BodySource {
     /// [`BodyError::Mesh`] and [`BodyError::Store`] when the file cannot be read, [`BodyError::InFile`] when its
     /// content cannot be made into a body, [`BodyError::Input`] when a length is out of range.
     pub fn load(&self, detail: Detail) -> Result<Prepared, BodyError> {
-        Ok(match *self {
+        self.load_with(None, detail)
+    }
+
+    /// Makes the body, as [`BodySource::load`] does, with coordinates in a unit. Those of a mesh file that states
+    /// its unit are [converted](crate::MeshFile::in_unit); all other lengths are taken to be in the unit already, those
+    /// of shapes and stored bodies too.
+    ///
+    /// # Errors
+    /// Those of [`BodySource::load`].
+    pub fn load_in(&self, unit: Unit, detail: Detail) -> Result<Prepared, BodyError> {
+        self.load_with(Some(unit), detail)
+    }
+
+    fn load_with(&self, unit: Option<Unit>, detail: Detail) -> Result<Prepared, BodyError> {
+        let prepared = match *self {
             BodySource::Box { half_extents } => Prepared::primitive(Body::cuboid(half_extents)?),
             BodySource::Sphere { radius } => Prepared::primitive(Body::ball(radius)?),
             BodySource::Capsule {
@@ -74,11 +100,41 @@ impl BodySource {
                 half_height,
             } => Prepared::primitive(Body::capsule(radius, half_height)?),
             BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
-            BodySource::Mesh(ref path) => {
-                in_file(path, body_from_mesh(&TriangleMesh::read(path)?, detail))?
+            BodySource::Mesh(ref file) => {
+                let (file, part) = (file.clone(), None);
+                return load_mesh(&MeshSource { file, part }, unit, detail);
             }
+            BodySource::Part { ref file, ref part } => {
+                let (file, part) = (file.clone(), Some(part.clone()));
+                return load_mesh(&MeshSource { file, part }, unit, detail);
+            }
+        };
+        Ok(Prepared { unit, ..prepared })
+    }
+
+    /// The files that the body is read from: a glTF may have its buffers in files of their own.
+    ///
+    /// # Errors
+    /// [`BodyError::Mesh`] when a glTF cannot be read far enough to know.
+    pub fn files(&self) -> Result<Vec<PathBuf>, BodyError> {
+        Ok(match self {
+            BodySource::Box { .. } | BodySource::Sphere { .. } | BodySource::Capsule { .. } => {
+                Vec::new()
+            }
+            BodySource::Stored(path) => vec![path.clone()],
+            BodySource::Mesh(file) | BodySource::Part { file, .. } => files_of(file)?,
         })
     }
+}
+
+fn load_mesh(
+    source: &MeshSource,
+    unit: Option<Unit>,
+    detail: Detail,
+) -> Result<Prepared, BodyError> {
+    let (mesh, unit) = source.read(unit)?;
+    let prepared = in_file(source.to_string().as_ref(), body_from_mesh(&mesh, detail))?;
+    Ok(Prepared { unit, ..prepared })
 }
 
 fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
@@ -126,7 +182,13 @@ impl FromStr for BodySource {
                     shape: shape.into(),
                 })
             }
-            _ => Ok(BodySource::of_file(text.into())),
+            _ => Ok(match MeshSource::from(text) {
+                MeshSource {
+                    file,
+                    part: Some(part),
+                } => BodySource::Part { file, part },
+                MeshSource { file, part: None } => BodySource::of_file(file),
+            }),
         }
     }
 }

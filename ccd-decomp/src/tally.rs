@@ -37,6 +37,16 @@ impl<T> Tally<T> {
     }
 }
 
+impl Tally<u32> {
+    /// Adds the elements of another tally, with numbers that go on from `first`.
+    pub(crate) fn append(&mut self, other: &Self, first: u32) {
+        let room = NAMED - self.first.len();
+        let numbers = other.first.iter().map(|number| first + number);
+        self.first.extend(numbers.take(room));
+        self.count += other.count;
+    }
+}
+
 impl<T> Default for Tally<T> {
     fn default() -> Self {
         Tally {

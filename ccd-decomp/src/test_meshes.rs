@@ -72,13 +72,7 @@ pub(crate) fn tetrahedron() -> TriangleMesh {
 
 /// Several meshes as one.
 pub(crate) fn joined(parts: &[&TriangleMesh]) -> TriangleMesh {
-    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
-    for part in parts {
-        let base = vertices.len() as u32;
-        vertices.extend_from_slice(part.vertices());
-        faces.extend(part.faces().iter().map(|f| f.map(|v| v + base)));
-    }
-    mesh(vertices, &faces)
+    TriangleMesh::merge(parts.iter().copied()).unwrap()
 }
 
 /// A mesh scaled, then moved; a negative scale turns it inside out.

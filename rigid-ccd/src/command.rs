@@ -12,6 +12,7 @@ mod pieces;
 mod progress;
 mod query;
 mod size;
+mod unit;
 
 pub use bad_rows::BadRows;
 pub use files::{CannotWrite, Table, input_name, open_motions, refuse_overwriting, same_file};

@@ -27,6 +27,7 @@
 //! | move many bodies, and find who touches whom first, or at all | `Scene` |
 //! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
 //! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], `load` for a file |
+//! | make a body of each part of a file, or convert units | `load_parts`, `load_in`, `mesh::MeshFile` |
 //! | make a body from vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Problem::contacts_at`] |
@@ -56,6 +57,7 @@
 //!
 //! # Features
 //! - `meshes` (default): `load`, and `mesh` for everything that `ccd-decomp` does with meshes.
+//! - `gltf`, `3mf`: meshes from files of these formats, too; `command` has both.
 //! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
 //! - `scenes` (default): `Scene`, many moving bodies.
 //! - `vmarch`: the distance backend `Vmarch`.
@@ -101,7 +103,7 @@ pub use ccd_distance_vmarch::Vmarch;
 pub use error::Error;
 pub use hit::{Hit, HitKind};
 #[cfg(feature = "meshes")]
-pub use load::load;
+pub use load::{load, load_in, load_parts};
 pub use parallel::{ParallelSolver, QueryError, first_contacts};
 #[cfg(feature = "scenes")]
 pub use scene::{Groups, Impact, PairError, Scene, Stop};

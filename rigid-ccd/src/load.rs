@@ -1,14 +1,16 @@
 //! Bodies from files.
 
 use ccd_core::Body;
-use ccd_decomp::{BodyError, BodySource, Detail};
+use ccd_decomp::{BodyError, BodySource, Detail, MeshFile, NamedMesh, Unit, body_from_mesh};
 use std::path::Path;
 
-/// Loads a body from a mesh file (OBJ, STL, PLY, OFF) or a prepared body (`.ccd`).
+/// Loads a body from a mesh file (OBJ, STL, PLY, OFF; glTF and 3MF with the features `gltf` and `3mf`) or a prepared
+/// body (`.ccd`).
 ///
-/// Coordinates keep the unit of the file. A mesh becomes the fewest convex pieces that are exact: one
-/// hull, convex patches or triangles ([`Detail::Auto`]). To choose the pieces, or to get a report of
-/// defects, use [`mesh::body_from_mesh`](ccd_decomp::body_from_mesh).
+/// Coordinates keep the unit of the file. All parts of a file make one body: [`load_parts`] makes one of each.
+/// A mesh becomes the fewest convex pieces that are exact: one hull, convex patches or triangles
+/// ([`Detail::Auto`]). To choose the pieces, or to get a report of defects, use
+/// [`mesh::body_from_mesh`](ccd_decomp::body_from_mesh).
 ///
 /// # Errors
 /// The file cannot be read, or holds no valid mesh; the error names the file and the element.
@@ -21,4 +23,49 @@ use std::path::Path;
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
     let source = BodySource::of_file(path.as_ref().into());
     Ok(source.load(Detail::Auto)?.body)
+}
+
+/// Loads a body as [`load`] does, with coordinates in a unit. A glTF, which is in metres, and a 3MF, which states its
+/// unit, are [converted](MeshFile::in_unit); the coordinates of other files are taken to be in the unit already.
+///
+/// # Errors
+/// Those of [`load`].
+///
+/// ```
+/// use rigid_ccd::{load_in, mesh::Unit};
+/// let part = load_in("examples/bracket.obj", Unit::Millimetre)?;
+/// # Ok::<(), rigid_ccd::Error>(())
+/// ```
+pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
+    let source = BodySource::of_file(path.as_ref().into());
+    Ok(source.load_in(unit, Detail::Auto)?.body)
+}
+
+/// Loads a body from each part of a mesh file, with its name or, without one, its number from 0: the nodes with meshes
+/// of a glTF, the items of a 3MF's build, the objects or groups of an OBJ. Any other mesh is one part.
+///
+/// Vertices and faces are numbered from 0 in each part. To convert units, or to load one part, use
+/// [`mesh::MeshFile`](MeshFile).
+///
+/// # Errors
+/// The file cannot be read, or a part is no valid mesh; the error names the file, the part and the element.
+///
+/// ```
+/// let parts = rigid_ccd::load_parts("examples/bracket.obj")?;
+/// let names: Vec<&str> = parts.iter().map(|(name, _)| name.as_str()).collect();
+/// assert_eq!(names, ["bracket"]);
+/// # Ok::<(), rigid_ccd::Error>(())
+/// ```
+pub fn load_parts(path: impl AsRef<Path>) -> Result<Vec<(String, Body)>, BodyError> {
+    let path = path.as_ref();
+    let parts = MeshFile::read(path)?.into_parts()?.into_iter();
+    let loaded = parts.enumerate().map(|(number, NamedMesh { name, mesh })| {
+        let name = name.unwrap_or_else(|| number.to_string());
+        let prepared = body_from_mesh(&mesh, Detail::Auto).map_err(|error| BodyError::InFile {
+            file: format!("{}#{name}", path.display()).into(),
+            error,
+        })?;
+        Ok((name, prepared.body))
+    });
+    loaded.collect()
 }

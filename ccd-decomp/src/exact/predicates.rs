@@ -61,11 +61,27 @@ pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
 
 /// The power of two that takes a small number to about 1; 1 for any other number.
 fn scale_to_one(x: f64) -> f64 {
+    match x < 1.0 {
+        true => to_one(x),
+        false => 1.0,
+    }
+}
+
+/// The power of two that takes a positive number to about 1; 1 for any other number.
+fn to_one(x: f64) -> f64 {
     const EXPONENT: u64 = f64::INFINITY.to_bits();
-    match x > 0.0 && x < 1.0 {
+    match x > 0.0 && x.is_finite() {
         true => greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip(),
         false => 1.0,
     }
+}
+
+/// Returns the sign of the determinant of a matrix, by its columns. Each column is first scaled by a power of two
+/// until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
+/// differ by a factor of more than 1e90.
+pub(crate) fn determinant(columns: [DVec3; 3]) -> Ordering {
+    let [x, y, z] = columns.map(|column| column * to_one(column.abs().max_element()));
+    side([DVec3::ZERO, x, y], z)
 }
 
 /// Compares points by x, then y, then z. On a plane or a line this is the order along some direction.

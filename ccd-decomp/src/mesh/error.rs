@@ -24,10 +24,10 @@ pub enum MeshFault {
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
     /// The path names a folder.
-    #[error("is a folder; name a mesh in it, .obj, .stl, .ply or .off")]
+    #[error("is a folder; name a mesh in it, such as a .glb, .3mf, .obj, .stl, .ply or .off")]
     Folder,
     /// The file's extension names no known format.
-    #[error("{}; use .obj, .stl, .ply or .off", Extension(.extension))]
+    #[error("{}; use .gltf, .glb, .3mf, .obj, .stl, .ply or .off", Extension(.extension))]
     UnknownExtension {
         /// The text after the last dot; empty without a dot.
         extension: String,
@@ -39,6 +39,62 @@ pub enum MeshFault {
         what: String,
         /// The content that can be read instead.
         instead: &'static str,
+    },
+    /// The format is known, but this build does not read it.
+    #[error("is {format}, which this build cannot read; build it with the feature {feature:?}")]
+    NotBuilt {
+        /// The format.
+        format: &'static str,
+        /// The feature of this crate that reads it.
+        feature: &'static str,
+    },
+    /// A file that the mesh refers to cannot be read.
+    #[error("refers to the file {name:?}, which cannot be read: {reason}")]
+    Beside {
+        /// The file, as the mesh names it.
+        name: String,
+        /// The reason, and the remedy.
+        reason: String,
+    },
+    /// A fault of one element of a file of several.
+    #[error("{place}: {fault}")]
+    At {
+        /// The element, such as a node, a mesh or an object.
+        place: String,
+        /// Its fault.
+        fault: Box<MeshFault>,
+    },
+    /// The file has no part of that name or number.
+    #[error("has no part {part:?}; {}", Parts(.parts))]
+    NoSuchPart {
+        /// The name or number asked for.
+        part: String,
+        /// The names of the parts that there are; a part may be without one.
+        parts: Vec<Option<String>>,
+    },
+    /// Several parts have that name.
+    #[error("has {} parts {part:?}; give the number of one: {}", .numbers.len(), Numbers(.numbers))]
+    AmbiguousPart {
+        /// The name.
+        part: String,
+        /// The numbers of these parts, from 0.
+        numbers: Vec<usize>,
+    },
+    /// Instances multiply a few bytes to more than is taken.
+    #[error(
+        "makes more than {limit} vertices and corners by naming the same ones again and again; name one part, or split the file"
+    )]
+    Repeats {
+        /// The most elements that a file of this size may make.
+        limit: u64,
+    },
+    /// A compressed file unpacks to more than is taken.
+    #[error(
+        "unpacks to more than {limit} bytes, which no mesh of this size does; unpack and pack it again"
+    )]
+    Unpacks {
+        /// The most bytes that a file of this size may unpack to.
+        limit: u64,
     },
     /// The file is a pointer of Git LFS.
     #[error("{LFS_ADVICE}")]
@@ -123,6 +179,14 @@ impl MeshFault {
         MeshFault::Syntax { line, problem }
     }
 
+    /// Names the element that has the fault.
+    pub(crate) fn at(self, place: impl Into<String>) -> Self {
+        MeshFault::At {
+            place: place.into(),
+            fault: Box::new(self),
+        }
+    }
+
     pub(crate) fn in_file(self, file: impl Into<PathBuf>) -> MeshError {
         MeshError {
             file: Some(file.into()),
@@ -150,6 +214,61 @@ impl fmt::Display for Extension<'_> {
         }
     }
 }
+
+/// The most parts that a message names.
+const NAMED_PARTS: usize = 20;
+
+struct Parts<'a>(&'a [Option<String>]);
+
+impl fmt::Display for Parts<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [] => return write!(f, "it has none"),
+            [None] => return write!(f, "it has one, without a name: 0"),
+            _ => write!(f, "its parts are ")?,
+        }
+        for (number, name) in self.0.iter().enumerate().take(NAMED_PARTS) {
+            let separator = if number == 0 { "" } else { ", " };
+            match name {
+                Some(name) => write!(f, "{separator}{number} {:?}", Quote(name))?,
+                None => write!(f, "{separator}{number}")?,
+            }
+        }
+        match self.0.len() {
+            all if all > NAMED_PARTS => write!(f, " and {} more", all - NAMED_PARTS),
+            _ => Ok(()),
+        }
+    }
+}
+
+struct Numbers<'a>(&'a [usize]);
+
+impl fmt::Display for Numbers<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, number) in self.0.iter().enumerate().take(NAMED_PARTS) {
+            write!(f, "{}{number}", if k == 0 { "" } else { ", " })?;
+        }
+        match self.0.len() > NAMED_PARTS {
+            true => write!(f, ", …"),
+            false => Ok(()),
+        }
+    }
+}
+
+/// A name from a file, cut to a length that fits a message.
+pub(crate) struct Quote<'a>(pub(crate) &'a str);
+
+impl fmt::Debug for Quote<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.char_indices().nth(QUOTED_NAME) {
+            Some((end, _)) => write!(f, "{:?}", format!("{}…", &self.0[..end])),
+            None => write!(f, "{:?}", self.0),
+        }
+    }
+}
+
+/// The most characters of a name in a message.
+const QUOTED_NAME: usize = 80;
 
 struct Line(Option<usize>);
 

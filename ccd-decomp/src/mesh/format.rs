@@ -1,13 +1,18 @@
-//! File formats: bytes to polygons, without access to files.
+//! File formats: bytes to content, without access to files.
 
+#[cfg(feature = "gltf")]
+mod gltf;
 mod obj;
 mod off;
 mod ply;
 mod stl;
+#[cfg(feature = "3mf")]
+mod threemf;
 
+use super::content::Content;
 use super::error::MeshFault;
-use super::polygons::Polygons;
 use crate::messages::is_lfs_pointer;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A format that a mesh can be read from.
@@ -15,7 +20,9 @@ use std::path::Path;
 #[non_exhaustive]
 pub enum Format {
     /// Wavefront OBJ: statements `v` and `f`, in f64. Lines, points, curves, normals, texture
-    /// coordinates, colours, groups and materials are passed over.
+    /// coordinates, colours and materials are passed over.
+    ///
+    /// Its parts are its objects (`o`) or, in a file without any, its groups (`g`).
     Obj,
     /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in
     /// the order they appear; the normals are passed over.
@@ -24,6 +31,35 @@ pub enum Format {
     Ply,
     /// Object File Format, text, with or without normals and colours, which are passed over.
     Off,
+    /// glTF 2.0, text (`.gltf`) or binary (`.glb`), in metres; with the feature `gltf`.
+    ///
+    /// Its parts are the nodes of its scene that have a mesh: of the scene that is shown first or, in a file without
+    /// scenes, of all nodes. A node without a name has that of its mesh. Every primitive of triangles, strips
+    /// or fans is read, with or without indices, from floats, quantized integers or sparse accessors. Points, lines,
+    /// materials, skins, morph targets and animations are passed over: a mesh is as it is at rest, without
+    /// its skin. So is a node that is scaled to zero along all three axes, with all below it, as the
+    /// specification hides them so. Compression by Draco or meshopt, and any extension that the file requires and
+    /// that changes the shape, is an error.
+    Gltf,
+    /// 3MF, in the unit that it states; with the feature `3mf`.
+    ///
+    /// Its parts are the items of its build, each with the name of its object or its part number. Components in
+    /// other model files of the package (the production extension) are read. Materials, supports' types,
+    /// metadata and slices are passed over. Objects that are no meshes of triangles, such as beam lattices, booleans or
+    /// implicit volumes, and any extension that the file requires and that changes the shape, are errors.
+    ThreeMf,
+}
+
+/// The files beside a mesh, by the names that it has for them.
+pub(crate) type Beside = BTreeMap<String, Vec<u8>>;
+
+/// A file that a mesh refers to.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Reference {
+    /// Its path, relative to the mesh, as the mesh writes it.
+    pub(crate) name: String,
+    /// The number of bytes of it that are needed.
+    pub(crate) bytes: u64,
 }
 
 impl Format {
@@ -39,12 +75,28 @@ impl Format {
             "stl" => Ok(Format::Stl),
             "ply" => Ok(Format::Ply),
             "off" => Ok(Format::Off),
+            "gltf" | "glb" => Ok(Format::Gltf),
+            "3mf" => Ok(Format::ThreeMf),
             _ => Err(MeshFault::UnknownExtension { extension }),
         }
     }
 
-    /// Reads the vertices and faces of a file's content.
-    pub(crate) fn parse(self, bytes: &[u8]) -> Result<Polygons, MeshFault> {
+    /// Returns whether a file of this format may refer to others.
+    pub(crate) fn refers_to_files(self) -> bool {
+        self == Format::Gltf
+    }
+
+    /// Finds the files that a file's content refers to, which [`Format::parse`] needs.
+    pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
+        match self {
+            #[cfg(feature = "gltf")]
+            Format::Gltf if !is_lfs_pointer(bytes) => gltf::references(bytes),
+            _ => Ok(Vec::new()),
+        }
+    }
+
+    /// Reads a file's content. All that it refers to is in `beside`.
+    pub(crate) fn parse(self, bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
         // Some editors put a byte order mark before a text; the first keyword would be lost in it.
         let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
         if is_lfs_pointer(unmarked) {
@@ -52,11 +104,24 @@ impl Format {
         }
         match self {
             Format::Obj => obj::parse(unmarked),
-            Format::Stl => stl::parse(bytes),
-            Format::Ply => ply::parse(unmarked),
-            Format::Off => off::parse(unmarked),
+            Format::Stl => stl::parse(bytes).map(Content::from),
+            Format::Ply => ply::parse(unmarked).map(Content::from),
+            Format::Off => off::parse(unmarked).map(Content::from),
+            #[cfg(feature = "gltf")]
+            Format::Gltf => gltf::parse(unmarked, beside),
+            #[cfg(not(feature = "gltf"))]
+            Format::Gltf => Err(not_built(beside, "glTF", "gltf")),
+            #[cfg(feature = "3mf")]
+            Format::ThreeMf => threemf::parse(bytes),
+            #[cfg(not(feature = "3mf"))]
+            Format::ThreeMf => Err(not_built(beside, "3MF", "3mf")),
         }
     }
+}
+
+#[cfg(not(all(feature = "gltf", feature = "3mf")))]
+fn not_built(_: &Beside, format: &'static str, feature: &'static str) -> MeshFault {
+    MeshFault::NotBuilt { format, feature }
 }
 
 #[cfg(test)]

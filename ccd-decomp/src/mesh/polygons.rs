@@ -23,34 +23,23 @@ pub(crate) struct Polygons {
 impl Polygons {
     pub(super) fn check(&self) -> Result<(), MeshFault> {
         let (vertices, faces) = (self.vertices.len(), self.ends.len());
-        let line = |lines: &[usize], k: usize| lines.get(k).copied();
         if vertices == 0 {
             return Err(MeshFault::NoVertices);
         }
         if faces == 0 {
             return Err(MeshFault::NoFaces);
         }
-        let limits = [("vertices", vertices), ("corners", self.corners.len())];
-        for (what, count) in limits {
-            // A fan makes less than one triangle per corner; pieces name corners by u32.
-            if count >= u32::MAX as usize / 12 {
-                return Err(MeshFault::TooMany { what, count });
-            }
-        }
-        // Written so that NaN fails.
-        if let Some(vertex) = self
-            .vertices
-            .iter()
-            .position(|p| !(p.abs().max_element() <= MAX_COORDINATE && p.is_finite()))
-        {
-            let line = line(&self.vertex_lines, vertex);
-            return Err(match self.vertices[vertex].is_finite() {
-                true => MeshFault::TooLarge { vertex, line },
-                false => MeshFault::NotFinite { vertex, line },
-            });
-        }
+        check_count("vertices", vertices)?;
+        check_count("corners", self.corners.len())?;
+        check_vertices(&self.vertices, &self.vertex_lines)?;
+        self.check_corners()
+    }
+
+    /// Checks that every face has three corners or more, and that each of them is a vertex.
+    pub(super) fn check_corners(&self) -> Result<(), MeshFault> {
+        let vertices = self.vertices.len();
         for (face, corners) in self.faces().enumerate() {
-            let line = line(&self.face_lines, face);
+            let line = self.face_lines.get(face).copied();
             if corners.len() < 3 {
                 let corners = corners.len();
                 return Err(MeshFault::TooFewCorners {
@@ -72,13 +61,14 @@ impl Polygons {
         Ok(())
     }
 
-    fn faces(&self) -> impl Iterator<Item = &[i64]> {
-        let mut start = 0;
-        self.ends.iter().map(move |&end| {
-            let corners = &self.corners[start..end];
-            start = end;
-            corners
-        })
+    pub(super) fn faces(&self) -> impl Iterator<Item = &[i64]> {
+        (0..self.ends.len()).map(|face| self.face(face))
+    }
+
+    /// The corners of a face.
+    pub(super) fn face(&self, face: usize) -> &[i64] {
+        let start = face.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.corners[start..self.ends[face]]
     }
 
     /// Cuts every polygon into the fan about its first corner. If the fan has a triangle without area, or one
@@ -120,6 +110,29 @@ impl Polygons {
         }
         (faces, ids)
     }
+}
+
+/// Checks that there are no more elements than pieces can name.
+pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFault> {
+    // A fan makes less than one triangle per corner; pieces name corners by u32.
+    match count < u32::MAX as usize / 12 {
+        true => Ok(()),
+        false => Err(MeshFault::TooMany { what, count }),
+    }
+}
+
+/// Checks that all coordinates are in the range that is computed with.
+pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
+    // Written so that NaN fails.
+    let bad = |p: &DVec3| !(p.abs().max_element() <= MAX_COORDINATE && p.is_finite());
+    let Some(vertex) = vertices.iter().position(bad) else {
+        return Ok(());
+    };
+    let line = lines.get(vertex).copied();
+    Err(match vertices[vertex].is_finite() {
+        true => MeshFault::TooLarge { vertex, line },
+        false => MeshFault::NotFinite { vertex, line },
+    })
 }
 
 /// Returns whether a triangle of a fan has no area.

@@ -35,6 +35,34 @@ impl Repairs {
         self == &Repairs::default()
     }
 
+    /// The repairs that were made before there were triangles, and those that dropped any: what making the triangles
+    /// into a mesh again does not find again.
+    pub(crate) fn before_triangles(&self) -> Self {
+        Repairs {
+            zero_area: Tally::default(),
+            ..self.clone()
+        }
+    }
+
+    /// Adds the repairs of another mesh, whose vertices and faces are numbered on from these.
+    pub(crate) fn append(&mut self, other: &Self, vertex: u32, face: u32) {
+        // Exhaustive: a new kind of repair does not compile until it is added here.
+        let Repairs {
+            polygons,
+            overhanging,
+            duplicates,
+            collapsed,
+            zero_area,
+            unreferenced,
+        } = self;
+        polygons.append(&other.polygons, face);
+        overhanging.append(&other.overhanging, face);
+        duplicates.append(&other.duplicates, face);
+        collapsed.append(&other.collapsed, face);
+        zero_area.append(&other.zero_area, face);
+        unreferenced.append(&other.unreferenced, vertex);
+    }
+
     pub(crate) fn note_unreferenced(&mut self, vertices: usize, corners: &[i64]) {
         let mut referenced = vec![false; vertices];
         for &corner in corners {

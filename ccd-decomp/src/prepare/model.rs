@@ -2,6 +2,7 @@
 
 use super::error::PrepareError;
 use super::report::{PiecesKind, Report, Why};
+use crate::mesh::unit::Unit;
 use crate::tree::hull_tree::build_hull_tree;
 use ccd_core::{Body, Hierarchy, HullTree, Pieces, Volume};
 
@@ -30,6 +31,8 @@ pub struct Prepared {
     pub body: Body,
     /// The kind of its pieces, and why they are of that kind.
     pub report: Report,
+    /// The unit of its coordinates, if its file states one or one was asked for.
+    pub unit: Option<Unit>,
 }
 
 impl Model {
@@ -66,6 +69,7 @@ impl Model {
         Ok(Prepared {
             body: self.body()?,
             report: self.report,
+            unit: None,
         })
     }
 }
@@ -76,6 +80,7 @@ impl Prepared {
         Prepared {
             report: Report::new(PiecesKind::Primitive, Why::Asked, body.volume()),
             body,
+            unit: None,
         }
     }
 }

@@ -6,15 +6,17 @@ use super::Exit;
 use super::files::check_folder;
 use super::files::{CannotWrite, same_file};
 use super::pieces::PiecesArgs;
+use super::unit::UnitArgs;
 use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
-    Detail, Model, Order, PrepareError, STORED_EXTENSION, StoreFault, TriangleMesh,
+    Detail, MeshSource, Model, Order, PrepareError, STORED_EXTENSION, StoreFault, TriangleMesh,
     build_hull_tree, prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
 use statistics::Statistics;
+use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -24,9 +26,11 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
 pub(super) struct DecomposeArgs {
-    /// Mesh file: .obj, .stl, .ply or .off
+    /// Mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply or .off), or a part of one by its name or number: scene.glb#lid
     #[arg(value_name = "MESH")]
-    mesh: PathBuf,
+    mesh: OsString,
+    #[command(flatten)]
+    unit: UnitArgs,
     #[command(flatten)]
     pieces: PiecesArgs,
     /// Order in which --pieces patches grow [default: cresting]
@@ -49,6 +53,7 @@ pub(super) struct DecomposeArgs {
 const AFTER_HELP: &str = "\
 Examples:
   ccd decompose part.stl
+  ccd decompose 'scene.glb#lid' --unit mm --out lid.ccd
   ccd decompose knot.obj --pieces patches --out patches.obj
   ccd decompose knot.obj --out knot.ccd && ccd query --a knot.ccd --b knot.ccd --motions motions.csv
 
@@ -57,6 +62,7 @@ See `ccd decompose --help` for the statistics and the exit codes.";
 const AFTER_LONG_HELP: &str = "\
 Statistics, as aligned lines or, with --format json, as one object:
   mesh           the file
+  unit           unit of the coordinates, if the file states one or --unit gives it
   pieces_kind    triangles, patches, hull or vhacd
   why            reason for this kind of pieces
   triangles      number of triangles of the mesh, after repairs
@@ -116,14 +122,15 @@ enum Output<'a> {
 /// Prepares the mesh, writes the output file if any, and prints the statistics.
 pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let out = args.out.as_deref().map(Output::of).transpose()?;
-    args.check_paths(out.as_ref())?;
+    let source = MeshSource::from(args.mesh.clone());
+    check_paths(&source.file, out.as_ref())?;
     let detail = args.detail()?;
-    let mesh = TriangleMesh::read(&args.mesh)?;
+    let (mesh, unit) = source.read(args.unit.unit())?;
     let spinner = match args.quiet {
         true => Progress::hidden(),
         false => Progress::of("preparing"),
     };
-    let name = args.mesh.display().to_string();
+    let name = source.to_string();
     let start = Instant::now();
     let (model, body) = args.build(&mesh, detail).with_context(|| name.clone())?;
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
@@ -131,7 +138,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     if let Some(out) = out {
         out.write(&model)?;
     }
-    let statistics = Statistics::new(name, &model, &body, build_ms);
+    let statistics = Statistics::new((name, unit), &model, &body, build_ms);
     let printed = match args.format {
         FormatArg::Text => writeln!(io::stdout(), "{statistics}"),
         FormatArg::Json => print_json(&statistics),
@@ -143,24 +150,24 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-impl DecomposeArgs {
-    /// Checks the paths before the work, which may take long.
-    fn check_paths(&self, out: Option<&Output<'_>>) -> Result<()> {
-        if let Some(out) = out {
-            check_folder(out.path()).map_err(|source| out.failed(source))?;
-            if same_file(&self.mesh, out.path()) {
-                bail!("--out would overwrite the mesh; give --out another file");
-            }
+/// Checks the paths before the work, which may take long.
+fn check_paths(mesh: &Path, out: Option<&Output<'_>>) -> Result<()> {
+    if let Some(out) = out {
+        check_folder(out.path()).map_err(|source| out.failed(source))?;
+        if same_file(mesh, out.path()) {
+            bail!("--out would overwrite the mesh; give --out another file");
         }
-        if self.mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
-            bail!(
-                "{}: is already a prepared body; give the mesh it was made from",
-                self.mesh.display()
-            );
-        }
-        Ok(())
     }
+    if mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
+        bail!(
+            "{}: is already a prepared body; give the mesh it was made from",
+            mesh.display()
+        );
+    }
+    Ok(())
+}
 
+impl DecomposeArgs {
     fn detail(&self) -> Result<Detail> {
         match (self.pieces.detail()?, self.order) {
             (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order.into())),

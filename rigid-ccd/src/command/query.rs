@@ -87,7 +87,7 @@ fn check_paths(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
     for (option, text) in [("--a", &args.a), ("--b", &args.b)] {
         let source: BodySource = text.parse().context(option)?;
-        read.extend(pair::file(&source).map(|path| (option, path.to_owned())));
+        read.extend(pair::files(&source).into_iter().map(|path| (option, path)));
     }
     for (option, path) in &read {
         refuse_overwriting((option, path), ("--out", &args.out))?;

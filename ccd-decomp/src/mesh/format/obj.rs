@@ -1,19 +1,22 @@
 //! Wavefront OBJ.
 
+use crate::mesh::content::groups::Groups;
+use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
+use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::io::{BufRead, Read};
 use tobj::{LoadError, LoadOptions, Mesh};
 
-/// Reads the vertices and faces of an OBJ.
+/// Reads the vertices, faces and groups of an OBJ.
 ///
 /// `tobj` numbers vertices by first use and object by object, and does not report the place of an error. It is
 /// therefore given the `v` and `f` statements alone, as one object, and before them one polygon over all
 /// vertices in their order, which makes its numbers those of the file. The number of bytes that it has read
 /// when it fails gives the line.
-pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
     let statements = Statements::new(&text);
     let vertices = statements.vertex_lines.len();
@@ -30,6 +33,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         let unread = reader.get_ref().1.len();
         statements.fault(error, statements.text.len() - unread)
     })?;
+    let groups = match statements.objects.is_used() {
+        true => statements.objects.groups(),
+        false => statements.groups.groups(),
+    };
     let mut polygons = Polygons {
         vertices: mesh
             .positions
@@ -49,7 +56,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
             end += mesh.face_arities.get(k + 1).map_or(3, |&n| n as usize);
             end
         }));
-    Ok(polygons)
+    Ok(Content {
+        unit: None,
+        layout: Layout::List(polygons, groups),
+    })
 }
 
 fn load(reader: &mut impl BufRead) -> Result<Mesh, LoadError> {
@@ -67,6 +77,51 @@ struct Statements {
     text: String,
     vertex_lines: Vec<usize>,
     face_lines: Vec<usize>,
+    objects: Labels,
+    groups: Labels,
+}
+
+/// The names that one keyword gives to faces.
+#[derive(Default)]
+struct Labels {
+    /// The number of each name, from 1, in the order of the file; 0 is that of faces without a name.
+    numbers: HashMap<String, u32>,
+    now: u32,
+    of_face: Vec<u32>,
+}
+
+impl Labels {
+    fn set(&mut self, name: &str) {
+        let next = self.numbers.len() as u32 + 1;
+        self.now = match self.numbers.get(name) {
+            _ if name.is_empty() => 0,
+            Some(&number) => number,
+            None => *self.numbers.entry(name.into()).or_insert(next),
+        };
+    }
+
+    /// Returns whether a face has a name.
+    fn is_used(&self) -> bool {
+        self.of_face.iter().any(|&label| label > 0)
+    }
+
+    /// The labels that faces have, numbered by their first face.
+    fn groups(self) -> Groups {
+        let mut labels = vec![None; self.numbers.len() + 1];
+        for (name, number) in self.numbers {
+            labels[number as usize] = Some(name);
+        }
+        let mut numbers = vec![None; labels.len()];
+        let (mut names, mut of_face) = (Vec::new(), self.of_face);
+        for label in &mut of_face {
+            let known = *label as usize;
+            *label = *numbers[known].get_or_insert_with(|| {
+                names.push(labels[known].take());
+                names.len() as u32 - 1
+            });
+        }
+        Groups { names, of_face }
+    }
 }
 
 impl Statements {
@@ -74,8 +129,8 @@ impl Statements {
         let mut out = Statements::default();
         out.text.reserve(text.len());
         let mut lines = (1..).zip(text.lines());
-        while let Some((number, line)) = lines.next() {
-            let line = line.split('#').next().unwrap_or_default().trim();
+        while let Some((number, whole)) = lines.next() {
+            let line = whole.split('#').next().unwrap_or_default().trim();
             let start = out.text.len();
             let lines_of_kind = match line.split_whitespace().next() {
                 Some("v") => {
@@ -84,7 +139,18 @@ impl Statements {
                 }
                 Some("f") => {
                     out.text.push_str(line);
+                    for labels in [&mut out.objects, &mut out.groups] {
+                        labels.of_face.push(labels.now);
+                    }
                     &mut out.face_lines
+                }
+                Some("o") => {
+                    out.objects.set(name(whole));
+                    continue;
+                }
+                Some("g") => {
+                    out.groups.set(name(whole));
+                    continue;
                 }
                 _ => continue,
             };
@@ -156,6 +222,17 @@ impl Statements {
         }
         None
     }
+}
+
+/// The name after a keyword. A comment begins at a mark after a blank: names such as `lid#2` are common.
+fn name(statement: &str) -> &str {
+    let statement = statement.trim_start();
+    let name = statement.get(1..).unwrap_or_default();
+    let comment = name.match_indices('#').find(|(at, _)| {
+        let before = &name[..*at];
+        before.is_empty() || before.ends_with(char::is_whitespace)
+    });
+    name[..comment.map_or(name.len(), |(at, _)| at)].trim()
 }
 
 /// Finds the first corner of a face that does not begin with a whole number.

@@ -72,6 +72,35 @@ fn binary_ply(endian: &str) -> Vec<u8> {
     bytes
 }
 
+/// The tetrahedron of the other formats as glTF, in both forms.
+#[cfg(feature = "gltf")]
+fn gltf() -> crate::test_files::Gltf {
+    let mut gltf = crate::test_files::Gltf::new();
+    let position = gltf.floats(&POINTS);
+    let indices = gltf.indices(
+        FACES
+            .as_flattened()
+            .iter()
+            .map(|&v| v as u16)
+            .collect::<Vec<_>>()
+            .as_slice(),
+    );
+    gltf.primitive(serde_json::json!({"attributes": {"POSITION": position}, "indices": indices}));
+    gltf
+}
+
+/// The same as 3MF.
+#[cfg(feature = "3mf")]
+fn threemf() -> Vec<u8> {
+    use crate::test_files::{model, object, package};
+    let points = POINTS.map(|point| point.map(f64::from));
+    let object = object(r#"id="1""#, &points, &FACES);
+    package(&[(
+        "3D/3dmodel.model",
+        &model("", &object, r#"<item objectid="1"/>"#),
+    )])
+}
+
 fn valid() -> Vec<(Format, Vec<u8>)> {
     vec![
         (Format::Obj, OBJ.into()),
@@ -82,6 +111,12 @@ fn valid() -> Vec<(Format, Vec<u8>)> {
         (Format::Ply, binary_ply("little")),
         (Format::Ply, binary_ply("big")),
         (Format::Off, OFF.into()),
+        #[cfg(feature = "gltf")]
+        (Format::Gltf, gltf().text()),
+        #[cfg(feature = "gltf")]
+        (Format::Gltf, gltf().glb()),
+        #[cfg(feature = "3mf")]
+        (Format::ThreeMf, threemf()),
     ]
 }
 
@@ -154,6 +189,29 @@ fn a_pointer_of_git_lfs_is_recognised() {
             "{format:?}: {fault}"
         );
         assert!(fault.to_string().contains("git lfs pull"), "{fault}");
+    }
+}
+
+/// A build without a format names the feature to build it with.
+#[test]
+fn formats_that_are_not_built_are_named() {
+    for (format, feature, is_built) in [
+        (Format::Gltf, "gltf", cfg!(feature = "gltf")),
+        (Format::ThreeMf, "3mf", cfg!(feature = "3mf")),
+    ] {
+        let fault = read(format, b"anything").unwrap_err();
+        assert_eq!(
+            matches!(fault, MeshFault::NotBuilt { .. }),
+            !is_built,
+            "{fault}"
+        );
+        assert_eq!(
+            fault
+                .to_string()
+                .contains(&format!("feature \"{feature}\"")),
+            !is_built,
+            "{fault}"
+        );
     }
 }
 

@@ -1,7 +1,7 @@
 //! Statistics of a prepared mesh.
 
 use ccd_core::{Body, Volume};
-use ccd_decomp::Model;
+use ccd_decomp::{Model, Unit};
 use indicatif::HumanCount;
 use serde::Serialize;
 use std::fmt;
@@ -10,6 +10,7 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Statistics {
     mesh: String,
+    unit: Option<&'static str>,
     pieces_kind: String,
     why: String,
     triangles: usize,
@@ -28,10 +29,16 @@ pub(super) struct Statistics {
 }
 
 impl Statistics {
-    pub(super) fn new(mesh: String, model: &Model, body: &Body, build_ms: f64) -> Self {
+    pub(super) fn new(
+        (mesh, unit): (String, Option<Unit>),
+        model: &Model,
+        body: &Body,
+        build_ms: f64,
+    ) -> Self {
         let report = &model.report;
         Statistics {
             mesh,
+            unit: unit.map(Unit::symbol),
             pieces_kind: report.kind.to_string(),
             why: report.why.to_string(),
             triangles: report.triangles,
@@ -66,6 +73,7 @@ impl fmt::Display for Statistics {
         };
         let triangles = count(self.triangles);
         line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;
+        line(f, "unit", self.unit.unwrap_or_default())?;
         line(f, "remarks", &self.remarks)?;
         line(f, "pieces", &self.pieces_text())?;
         line(f, "why", &self.why)?;

@@ -3,6 +3,7 @@
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
 use crate::command::pieces::{NOT_GIVEN, PiecesArgs, value_name};
+use crate::command::unit::UnitArgs;
 use crate::table::results::Extent;
 use crate::text::Number;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, LEAST_TOLERANCE, MAX_COORDINATE};
@@ -17,13 +18,16 @@ use std::time::Duration;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
 pub(in crate::command) struct QueryArgs {
-    /// Body A: a mesh file (.obj, .stl, .ply, .off), a prepared body (.ccd, see `ccd decompose`),
-    /// box:HX,HY,HZ (half extents), sphere:R or capsule:R,HALF_HEIGHT
+    /// Body A: a mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply, .off), a part of one by its name or number
+    /// (scene.glb#lid), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R or
+    /// capsule:R,HALF_HEIGHT
     #[arg(long, value_name = "BODY")]
     pub(super) a: String,
     /// Body B, in the same forms as body A; a file given for both is loaded once
     #[arg(long, value_name = "BODY")]
     pub(super) b: String,
+    #[command(flatten)]
+    pub(super) unit: UnitArgs,
     /// Table of motions to read, CSV, or of paths if it has a column `t`; - reads standard input
     #[arg(long, value_name = "CSV")]
     pub(super) motions: PathBuf,
@@ -118,6 +122,7 @@ impl QueryArgs {
         let QueryArgs {
             a,
             b,
+            unit,
             motions: _,
             ask,
             clearance,
@@ -150,6 +155,7 @@ impl QueryArgs {
         let mut recorded = vec![
             ("--a", a.clone()),
             ("--b", b.clone()),
+            unit.recorded(),
             ("--ask", ask.to_string()),
             ("--clearance", or_not(clearance)),
             ("--oracle", oracle.to_string()),

@@ -2,15 +2,16 @@
 
 use super::args::QueryArgs;
 use crate::batch::Bodies;
+use crate::command::complain;
 use crate::command::files::same_file;
 use crate::command::progress::Progress;
 use crate::command::size::Size;
 use anyhow::{Context, Result};
 use ccd_core::Body;
-use ccd_decomp::{BodySource, Prepared, build_hull_tree};
+use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
 use std::fs::File;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::PathBuf;
 
 /// Both bodies; `b` is none when both come from the same file or primitive.
 pub(super) struct Pair {
@@ -25,14 +26,16 @@ impl Pair {
         let source = |text: &str| text.parse::<BodySource>();
         let source_a = source(&args.a).context("--a")?;
         let source_b = source(&args.b).context("--b")?;
-        let a = load(args, ("--a", &args.a), &source_a)?;
+        let (a, unit_a) = load(args, ("--a", &args.a), &source_a)?;
         let b = match same(&source_a, &source_b) {
             true => None,
             false => Some(load(args, ("--b", &args.b), &source_b)?),
         };
-        if let (Some(b), false) = (&b, args.quiet) {
+        if let (Some((b, unit_b)), false) = (&b, args.quiet) {
+            compare_units(unit_a, *unit_b);
             Size::compare(Size::of(&a), Size::of(b));
         }
+        let b = b.map(|(b, _)| b);
         let checksums = [("--a", &source_a), ("--b", &source_b)]
             .map(|(option, source)| (option, format!("{:08x}", checksum(source))));
         Ok(Pair { a, b, checksums })
@@ -46,23 +49,47 @@ impl Pair {
     }
 }
 
-fn load(args: &QueryArgs, (option, text): (&str, &str), source: &BodySource) -> Result<Body> {
+fn load(
+    args: &QueryArgs,
+    (option, text): (&str, &str),
+    source: &BodySource,
+) -> Result<(Body, Option<Unit>)> {
     let detail = args.pieces.detail()?;
     let progress = match args.quiet {
         true => Progress::hidden(),
         false => Progress::of(&format!("preparing {text}")),
     };
-    let Prepared { mut body, report } = source.load(detail).with_context(|| option.to_owned())?;
+    let loaded = match args.unit.unit() {
+        Some(unit) => source.load_in(unit, detail),
+        None => source.load(detail),
+    };
+    let Prepared {
+        mut body,
+        report,
+        unit,
+    } = loaded.with_context(|| option.to_owned())?;
     if args.schedule.uses_hull_trees() && body.hull_tree().is_none() {
         body = with_hull_tree(body).with_context(|| format!("{option} {text}"))?;
     }
     super::method(args).prepare(&body);
     drop(progress);
     if !args.quiet {
-        let size = Size::of(&body);
-        let _ = writeln!(io::stderr(), "{option} {text}: {report}, size {size}");
+        let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
+        let unit = unit.unwrap_or_default();
+        let _ = writeln!(io::stderr(), "{option} {text}: {report}, size {size}{unit}");
     }
-    Ok(body)
+    Ok((body, unit))
+}
+
+/// Warns when two files say that their units differ.
+fn compare_units(a: Option<Unit>, b: Option<Unit>) {
+    if let (Some(a), Some(b)) = (a, b)
+        && a != b
+    {
+        complain(&format!(
+            "--a is in {a}, --b in {b}, and the numbers of both are kept: give --unit {a} or --unit {b} to convert them"
+        ));
+    }
 }
 
 fn with_hull_tree(body: Body) -> Result<Body> {
@@ -71,26 +98,39 @@ fn with_hull_tree(body: Body) -> Result<Body> {
 }
 
 fn same(a: &BodySource, b: &BodySource) -> bool {
-    match (file(a), file(b)) {
-        (Some(a), Some(b)) => same_file(a, b),
+    match (a, b) {
+        (BodySource::Mesh(a), BodySource::Mesh(b))
+        | (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
+        (
+            BodySource::Part { file, part },
+            BodySource::Part {
+                file: other_file,
+                part: other_part,
+            },
+        ) => same_file(file, other_file) && part == other_part,
         _ => a == b,
     }
 }
 
-/// Returns the file that a body comes from; none for a primitive.
-pub(super) fn file(source: &BodySource) -> Option<&Path> {
-    match source {
-        BodySource::Mesh(path) | BodySource::Stored(path) => Some(path),
-        BodySource::Box { .. } | BodySource::Sphere { .. } | BodySource::Capsule { .. } => None,
-    }
+/// Returns the files that a body comes from; none for a primitive.
+pub(super) fn files(source: &BodySource) -> Vec<PathBuf> {
+    // A file that cannot be read is reported when its body is made.
+    source.files().unwrap_or_else(|_| match source {
+        BodySource::Mesh(path) | BodySource::Stored(path) => vec![path.clone()],
+        BodySource::Part { file, .. } => vec![file.clone()],
+        BodySource::Box { .. } | BodySource::Sphere { .. } | BodySource::Capsule { .. } => {
+            Vec::new()
+        }
+    })
 }
 
-/// Returns the checksum of the file of a body; 0 for a primitive or a file that cannot be read.
+/// Returns the checksum of the files of a body; 0 for a primitive or files that cannot be read.
 fn checksum(source: &BodySource) -> u32 {
     let mut sum = Crc(crc32fast::Hasher::new());
-    let file = file(source).and_then(|path| File::open(path).ok());
-    match file.map(|mut file| io::copy(&mut file, &mut sum)) {
-        Some(Ok(_)) => sum.0.finalize(),
+    let files = files(source);
+    let mut add = |path: &PathBuf| io::copy(&mut File::open(path)?, &mut sum);
+    match files.iter().try_for_each(|path| add(path).map(drop)) {
+        Ok(()) if !files.is_empty() => sum.0.finalize(),
         _ => 0,
     }
 }

@@ -38,7 +38,14 @@ fn check(format: Format, bytes: &[u8]) {
     }
 }
 
-const FORMATS: [Format; 4] = [Format::Obj, Format::Stl, Format::Ply, Format::Off];
+const FORMATS: [Format; 6] = [
+    Format::Obj,
+    Format::Stl,
+    Format::Ply,
+    Format::Off,
+    Format::Gltf,
+    Format::ThreeMf,
+];
 
 proptest! {
     #[test]
@@ -50,11 +57,12 @@ proptest! {
 
     #[test]
     fn no_change_to_a_valid_file_panics(
-        file in 0..8usize,
+        file in any::<prop::sample::Index>(),
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in any::<prop::sample::Index>(),
     ) {
-        let (format, mut bytes) = valid().swap_remove(file);
+        let mut valid = valid();
+        let (format, mut bytes) = valid.swap_remove(file.index(valid.len()));
         for (at, byte) in changes {
             let at = at.index(bytes.len());
             bytes[at] = byte;

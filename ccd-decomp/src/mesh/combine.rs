@@ -1,0 +1,122 @@
+//! Meshes made of meshes: moved, put together, measured.
+
+use super::TriangleMesh;
+use super::affine::AffineMap;
+use super::error::{MeshError, MeshFault};
+use super::polygons::{check_count, check_vertices};
+use super::repair::Repairs;
+use crate::bounds::Bounds;
+use ccd_core::glam::DVec3;
+
+impl TriangleMesh {
+    /// The image of the mesh under an affine map. Vertices and faces keep their numbers.
+    ///
+    /// A map that [mirrors](AffineMap::mirrors) turns all triangles round, so that a solid stays one. A map that
+    /// flattens may make faces without area, or several faces of the same points: they are repaired as in a file.
+    ///
+    /// # Guarantee
+    /// Every vertex is the image of a vertex, rounded as [`AffineMap::apply`] says. The triangles between them cover
+    /// the image of the surface up to that rounding: four flat corners may no longer be flat.
+    ///
+    /// # Errors
+    /// [`MeshFault::NotFinite`] and [`MeshFault::TooLarge`] name a vertex whose image is out of range.
+    ///
+    /// ```
+    /// use ccd_core::Pose;
+    /// use ccd_core::glam::{DVec3, dvec3};
+    /// use ccd_decomp::{AffineMap, TriangleMesh};
+    /// let mesh = TriangleMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]])?;
+    /// let moved = mesh.transformed(Pose::at([0.0, 0.0, 2.0])?)?;
+    /// assert_eq!(moved.vertices()[1], dvec3(1.0, 0.0, 2.0));
+    /// let inches = mesh.transformed(AffineMap::scaled(25.4, Pose::IDENTITY))?;
+    /// assert_eq!(inches.vertices()[1], dvec3(25.4, 0.0, 0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn transformed(&self, map: impl Into<AffineMap>) -> Result<Self, MeshError> {
+        let map = map.into();
+        let images = self.vertices.iter().map(|&vertex| map.apply(vertex));
+        let vertices: Vec<DVec3> = images.collect();
+        check_vertices(&vertices, &[])?;
+        let mut faces = self.faces.clone();
+        if map.mirrors() {
+            faces.iter_mut().for_each(|face| face.swap(1, 2));
+        }
+        Ok(TriangleMesh::from_triangles(
+            vertices,
+            (faces, self.face_ids.clone()),
+            self.face_count,
+            self.repairs.before_triangles(),
+        ))
+    }
+
+    /// Puts meshes together, one after the other: the vertices and faces of each are numbered on from those of
+    /// the meshes before it. Faces that a repair dropped keep their numbers, which name nothing.
+    ///
+    /// Faces with the same points are repaired as in a file. Meshes that touch in equal points are connected
+    /// there; those that overlap are the sum of their solids.
+    ///
+    /// # Errors
+    /// [`MeshFault::NoVertices`] for no mesh, [`MeshFault::TooMany`].
+    ///
+    /// ```
+    /// use ccd_core::Pose;
+    /// use ccd_core::glam::DVec3;
+    /// use ccd_decomp::TriangleMesh;
+    /// let one = TriangleMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]])?;
+    /// let other = one.transformed(Pose::at([0.0, 0.0, 1.0])?)?;
+    /// let both = TriangleMesh::merge([&one, &other])?;
+    /// assert_eq!(both.faces(), [[0, 1, 2], [3, 4, 5]]);
+    /// assert_eq!(both.face_ids(), [0, 1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn merge<'a>(meshes: impl IntoIterator<Item = &'a Self>) -> Result<Self, MeshError> {
+        let meshes: Vec<&Self> = meshes.into_iter().collect();
+        if meshes.is_empty() {
+            return Err(MeshFault::NoVertices.into());
+        }
+        check_count("vertices", total(&meshes, |mesh| mesh.vertices.len()))?;
+        check_count("corners", 3 * total(&meshes, |mesh| mesh.faces.len()))?;
+        check_count("faces", total(&meshes, |mesh| mesh.face_count as usize))?;
+        let (mut vertices, mut faces, mut ids) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut repairs, mut face_count) = (Repairs::default(), 0);
+        for mesh in meshes {
+            let first = vertices.len() as u32;
+            repairs.append(&mesh.repairs.before_triangles(), first, face_count);
+            vertices.extend(&mesh.vertices);
+            faces.extend(mesh.faces.iter().map(|face| face.map(|v| first + v)));
+            ids.extend(mesh.face_ids.iter().map(|id| face_count + id));
+            face_count += mesh.face_count;
+        }
+        Ok(TriangleMesh::from_triangles(
+            vertices,
+            (faces, ids),
+            face_count,
+            repairs,
+        ))
+    }
+
+    /// The corner of least coordinates of the box about all triangles, and that of greatest.
+    ///
+    /// ```
+    /// use ccd_core::glam::DVec3;
+    /// use ccd_decomp::TriangleMesh;
+    /// let vertices = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    /// let mesh = TriangleMesh::new(vertices, &[[0, 1, 2]])?;
+    /// // No triangle uses the last vertex.
+    /// assert_eq!(mesh.bounding_box(), [DVec3::ZERO, DVec3::X + DVec3::Y]);
+    /// # Ok::<(), ccd_decomp::MeshError>(())
+    /// ```
+    pub fn bounding_box(&self) -> [DVec3; 2] {
+        let corners = self.faces.iter().flatten();
+        let Bounds { lo, hi } = Bounds::of(corners.map(|&v| self.vertices[v as usize]));
+        [lo, hi]
+    }
+}
+
+fn total(meshes: &[&TriangleMesh], count: impl Fn(&TriangleMesh) -> usize) -> usize {
+    let counts = meshes.iter().map(|mesh| count(mesh));
+    counts.fold(0, usize::saturating_add)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,125 @@
+use crate::test_meshes::{cubes, mesh, tetrahedron};
+use crate::{AffineMap, Detail, Format, MeshFault, Topology, TriangleMesh, body_from_mesh};
+use ccd_core::glam::{DAffine3, DMat3, DQuat, DVec3, dvec3};
+use ccd_core::{Pose, Volume};
+
+fn stretched(x: f64, y: f64, z: f64) -> AffineMap {
+    DAffine3::from_scale(dvec3(x, y, z)).into()
+}
+
+fn cube() -> TriangleMesh {
+    cubes(&[[0, 0, 0]])
+}
+
+fn volume(mesh: &TriangleMesh) -> f64 {
+    Topology::of(mesh).signed_volume
+}
+
+#[test]
+fn a_mesh_is_moved_and_scaled() {
+    let pose = Pose::new([1.0, 2.0, 3.0], DQuat::from_rotation_z(0.5)).unwrap();
+    let moved = cube().transformed(AffineMap::scaled(2.0, pose)).unwrap();
+    for (image, &point) in moved.vertices().iter().zip(cube().vertices()) {
+        assert!(image.distance(pose.transform_point(2.0 * point)) < 1e-15);
+    }
+    assert_eq!(moved.faces(), cube().faces());
+    assert!((volume(&moved) - 8.0).abs() < 1e-13);
+    let same = cube().transformed(AffineMap::IDENTITY).unwrap();
+    assert_eq!(same.vertices(), cube().vertices());
+}
+
+/// A mirror image of a solid has its material on the inside.
+#[test]
+fn a_mirror_turns_the_faces_round() {
+    for map in [stretched(-1.0, 1.0, 1.0), stretched(-1.0, -2.0, -0.5)] {
+        let image = cube().transformed(map).unwrap();
+        assert!(volume(&image) > 0.9, "{map:?}");
+        let [a, b, c] = cube().faces()[5];
+        assert_eq!(image.faces()[5], [a, c, b]);
+    }
+    assert_eq!(
+        volume(&cube().transformed(stretched(-1.0, -1.0, 1.0)).unwrap()),
+        1.0
+    );
+}
+
+/// A cube that is pressed flat keeps a face on each side of it. The others collapse to edges of these.
+#[test]
+fn a_flattened_mesh_is_repaired() {
+    let flat = cube().transformed(stretched(1.0, 1.0, 0.0)).unwrap();
+    assert_eq!(flat.repairs().collapsed.count(), 8);
+    assert_eq!(flat.faces().len(), 4);
+    assert_eq!(volume(&flat), 0.0);
+    assert!(body_from_mesh(&flat, Detail::Auto).is_ok());
+    // A point is still something to touch.
+    let point = cube().transformed(stretched(0.0, 0.0, 0.0)).unwrap();
+    assert_eq!(point.faces().len(), 1);
+    assert_eq!(point.bounding_box(), [DVec3::ZERO; 2]);
+    assert!(body_from_mesh(&point, Detail::Auto).is_ok());
+}
+
+#[test]
+fn images_out_of_range_are_refused() {
+    let fault = |map: AffineMap| cube().transformed(map).unwrap_err().fault;
+    let far = fault(AffineMap::from(Pose::at([2e12, 0.0, 0.0]).unwrap()));
+    assert!(
+        matches!(far, MeshFault::TooLarge { vertex: 0, .. }),
+        "{far}"
+    );
+    for bad in [f64::NAN, f64::INFINITY, 1e308] {
+        let matrix = DMat3::from_cols(DVec3::splat(bad), DVec3::splat(-bad), DVec3::Z);
+        let fault = fault(DAffine3::from_mat3(matrix).into());
+        let named = matches!(
+            fault,
+            MeshFault::NotFinite { .. } | MeshFault::TooLarge { .. }
+        );
+        assert!(named, "{bad}: {fault}");
+    }
+}
+
+#[test]
+fn numbers_go_on_in_merged_meshes() {
+    // Faces 0 and 1 are a polygon, 2 is dropped, and 3 is the next one.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\nf 1 1 2\nf 4 3 2\n";
+    let one = TriangleMesh::from_reader(Format::Obj, text.as_bytes()).unwrap();
+    assert_eq!(one.face_ids(), [0, 0, 2]);
+    let other = one.transformed(Pose::at([0.0, 0.0, 1.0]).unwrap()).unwrap();
+    let both = TriangleMesh::merge([&one, &other, &one]).unwrap();
+    assert_eq!(both.vertices().len(), 15);
+    // The last mesh is at the place of the first: its faces are there already.
+    assert_eq!(both.face_ids(), [0, 0, 2, 3, 3, 5]);
+    assert_eq!(both.faces()[4], [5, 7, 8]);
+    let repairs = both.repairs();
+    assert_eq!(repairs.polygons.first(), [0, 3, 6]);
+    assert_eq!(repairs.collapsed.first(), [1, 4, 7]);
+    assert_eq!(repairs.unreferenced.first(), [4, 9, 14]);
+    assert_eq!(repairs.duplicates.first(), [6, 6, 8]);
+    let error = TriangleMesh::merge([]).unwrap_err();
+    assert!(matches!(error.fault, MeshFault::NoVertices), "{error}");
+}
+
+/// Two halves of a cube that share a square of points are one solid once the squares between them are gone, and two
+/// that touch while they are there.
+#[test]
+fn merged_solids_are_solid() {
+    let moved = cube()
+        .transformed(Pose::at([1.0, 0.0, 0.0]).unwrap())
+        .unwrap();
+    let both = TriangleMesh::merge([&cube(), &moved]).unwrap();
+    assert_eq!(both.faces().len(), 24);
+    assert_eq!(volume(&both), 2.0);
+    let apart = cube()
+        .transformed(Pose::at([3.0, 0.0, 0.0]).unwrap())
+        .unwrap();
+    let both = TriangleMesh::merge([&cube(), &apart]).unwrap();
+    let body = body_from_mesh(&both, Detail::Auto).unwrap().body;
+    assert_eq!(body.volume(), Volume::Solid);
+}
+
+#[test]
+fn the_box_is_about_the_faces() {
+    assert_eq!(tetrahedron().bounding_box(), [DVec3::ZERO, DVec3::ONE]);
+    let vertices = vec![DVec3::ZERO, DVec3::X, -DVec3::Y, 5.0 * DVec3::Z];
+    let corners = mesh(vertices, &[[0, 1, 2]]).bounding_box();
+    assert_eq!(corners, [-DVec3::Y, DVec3::X]);
+}

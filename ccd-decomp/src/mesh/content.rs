@@ -1,0 +1,99 @@
+//! What a file holds: faces in groups, or shapes that are placed.
+
+pub(crate) mod allowance;
+pub(crate) mod assembly;
+pub(crate) mod groups;
+
+use super::error::MeshFault;
+use super::polygons::Polygons;
+use super::unit::{Conversion, Unit};
+use assembly::Assembly;
+use groups::Groups;
+
+/// The content of a file, as a reader found it.
+#[derive(Debug)]
+pub(crate) struct Content {
+    /// The unit of the coordinates, if the file or its format says so.
+    pub(crate) unit: Option<Unit>,
+    pub(crate) layout: Layout,
+}
+
+/// The ways in which a file holds its faces.
+#[derive(Debug)]
+pub(crate) enum Layout {
+    /// One list of vertices and faces. A part is a group of the faces.
+    List(Polygons, Groups),
+    /// Shapes, each of which may be placed more than once.
+    Assembly(Assembly),
+}
+
+impl Content {
+    /// The number of parts.
+    pub(crate) fn parts(&self) -> usize {
+        match &self.layout {
+            Layout::List(_, groups) => groups.names.len(),
+            Layout::Assembly(assembly) => assembly.parts.len(),
+        }
+    }
+
+    /// The name of a part, if it has one.
+    pub(crate) fn name(&self, part: usize) -> Option<&str> {
+        match &self.layout {
+            Layout::List(_, groups) => groups.names[part].as_deref(),
+            Layout::Assembly(assembly) => assembly.parts[part].name.as_deref(),
+        }
+    }
+
+    /// The faces of one part, with its own numbers of vertices and faces.
+    pub(crate) fn part(&self, part: usize, conversion: Conversion) -> Result<Polygons, MeshFault> {
+        match &self.layout {
+            Layout::List(polygons, groups) => {
+                Ok(converted(groups.part(polygons, part)?, conversion))
+            }
+            Layout::Assembly(assembly) => assembly.expanded(part..part + 1, conversion),
+        }
+    }
+
+    /// The faces of each part, in this way.
+    pub(crate) fn all_parts(&self, conversion: Conversion) -> Result<Vec<Polygons>, MeshFault> {
+        match &self.layout {
+            Layout::List(polygons, groups) => {
+                let parts = groups.all(polygons)?.into_iter();
+                Ok(parts.map(|part| converted(part, conversion)).collect())
+            }
+            Layout::Assembly(assembly) => {
+                let parts = 0..assembly.parts.len();
+                assembly.check_size(parts.clone())?;
+                let alone = parts.map(|part| assembly.expanded(part..part + 1, conversion));
+                alone.collect()
+            }
+        }
+    }
+
+    /// All faces: those of a list with their numbers in the file, those of parts one part after the other.
+    pub(crate) fn whole(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
+        match self.layout {
+            Layout::List(polygons, _) => Ok(converted(polygons, conversion)),
+            Layout::Assembly(assembly) => assembly.expanded(0..assembly.parts.len(), conversion),
+        }
+    }
+}
+
+fn converted(mut polygons: Polygons, conversion: Conversion) -> Polygons {
+    if conversion != Conversion::NONE {
+        for vertex in &mut polygons.vertices {
+            *vertex = conversion.apply(*vertex);
+        }
+    }
+    polygons
+}
+
+/// A file of one list without groups.
+impl From<Polygons> for Content {
+    fn from(polygons: Polygons) -> Self {
+        Content {
+            unit: None,
+            layout: Layout::List(polygons, Groups::one()),
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Shapes that are placed, once or more often, as parts of a scene.
+
+use super::allowance::Allowance;
+use crate::mesh::affine::AffineMap;
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
+use crate::mesh::unit::Conversion;
+use std::ops::Range;
+
+/// Objects, and the parts that are made of them.
+///
+/// # Guarantee
+/// No object holds itself. Every number names an object. Every part has a face.
+#[derive(Debug)]
+pub(crate) struct Assembly {
+    objects: Vec<Object>,
+    pub(crate) parts: Vec<Part>,
+    /// The vertices, corners and placements of each object, those of its members included.
+    sizes: Vec<u64>,
+    allowance: Allowance,
+}
+
+/// A shape of its own, and other objects.
+#[derive(Debug, Default)]
+pub(crate) struct Object {
+    /// Triangles whose corners are all among its vertices; it may be empty.
+    pub(crate) shape: Polygons,
+    pub(crate) members: Vec<Placed>,
+}
+
+/// An object in a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    pub(crate) object: usize,
+    pub(crate) map: AffineMap,
+}
+
+/// A part of the scene.
+#[derive(Debug)]
+pub(crate) struct Part {
+    pub(crate) name: Option<String>,
+    pub(crate) placed: Placed,
+}
+
+/// An object that is a member of itself, directly or not.
+pub(crate) struct Circle {
+    pub(crate) object: usize,
+}
+
+impl Assembly {
+    /// Puts parts together; those without faces are left out.
+    pub(crate) fn new(
+        objects: Vec<Object>,
+        mut parts: Vec<Part>,
+        allowance: Allowance,
+    ) -> Result<Self, Circle> {
+        let order = members_first(&objects)?;
+        let (mut sizes, mut has_faces) = (vec![0_u64; objects.len()], vec![false; objects.len()]);
+        for k in order {
+            let Object { shape, members } = &objects[k];
+            let own = 1 + shape.vertices.len() as u64 + shape.corners.len() as u64;
+            let within = members.iter().map(|member| sizes[member.object]);
+            sizes[k] = within.fold(own, u64::saturating_add);
+            let mut below = members.iter().map(|member| has_faces[member.object]);
+            has_faces[k] = !shape.ends.is_empty() || below.any(|has| has);
+        }
+        parts.retain(|part| has_faces[part.placed.object]);
+        Ok(Assembly {
+            objects,
+            parts,
+            sizes,
+            allowance,
+        })
+    }
+
+    /// The triangles of some parts, one part after the other.
+    pub(super) fn expanded(
+        &self,
+        parts: Range<usize>,
+        conversion: Conversion,
+    ) -> Result<Polygons, MeshFault> {
+        self.check_size(parts.clone())?;
+        let mut all = Polygons::default();
+        let parts = self.parts[parts].iter();
+        let mut waiting: Vec<Placed> = parts.rev().map(|part| part.placed).collect();
+        while let Some(Placed { object, map }) = waiting.pop() {
+            let Object { shape, members } = &self.objects[object];
+            add(&mut all, shape, &map, conversion);
+            waiting.extend(members.iter().rev().map(|member| Placed {
+                object: member.object,
+                map: map.after(&member.map),
+            }));
+        }
+        Ok(all)
+    }
+
+    /// Checks that some parts are together no larger than the file may make them.
+    pub(super) fn check_size(&self, parts: Range<usize>) -> Result<(), MeshFault> {
+        let mut allowance = self.allowance;
+        let mut sizes = self.parts[parts]
+            .iter()
+            .map(|part| self.sizes[part.placed.object]);
+        sizes.try_for_each(|size| allowance.take(size))
+    }
+}
+
+/// Adds the image of a shape. A map that mirrors turns the triangles round, so that a solid stays one.
+fn add(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conversion) {
+    let first = all.vertices.len() as i64;
+    let image = |&point| conversion.apply(map.apply(point));
+    all.vertices.extend(shape.vertices.iter().map(image));
+    let mirrors = map.mirrors();
+    for triangle in shape.faces() {
+        let start = all.corners.len();
+        all.corners
+            .extend(triangle.iter().map(|corner| first + corner));
+        if mirrors {
+            all.corners[start + 1..].reverse();
+        }
+        all.ends.push(all.corners.len());
+    }
+}
+
+/// Finds an order of the objects in which each comes after its members.
+fn members_first(objects: &[Object]) -> Result<Vec<usize>, Circle> {
+    let mut owners = vec![Vec::new(); objects.len()];
+    let mut waits_for = vec![0_usize; objects.len()];
+    for (k, object) in objects.iter().enumerate() {
+        waits_for[k] = object.members.len();
+        for member in &object.members {
+            owners[member.object].push(k);
+        }
+    }
+    let mut order: Vec<usize> = (0..objects.len()).filter(|&k| waits_for[k] == 0).collect();
+    let mut next = 0;
+    while let Some(&done) = order.get(next) {
+        next += 1;
+        for &owner in &owners[done] {
+            waits_for[owner] -= 1;
+            if waits_for[owner] == 0 {
+                order.push(owner);
+            }
+        }
+    }
+    match circle(objects, &waits_for) {
+        None => Ok(order),
+        Some(object) => Err(Circle { object }),
+    }
+}
+
+/// Finds an object of a circle: from any that still waits, on to a member that waits, until one comes again.
+fn circle(objects: &[Object], waits_for: &[usize]) -> Option<usize> {
+    let mut object = waits_for.iter().position(|&count| count > 0)?;
+    let mut seen = vec![false; objects.len()];
+    while !std::mem::replace(&mut seen[object], true) {
+        let mut members = objects[object].members.iter();
+        object = members.find(|member| waits_for[member.object] > 0)?.object;
+    }
+    Some(object)
+}
+
+#[cfg(test)]
+mod tests;

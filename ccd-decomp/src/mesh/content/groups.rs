@@ -1,0 +1,84 @@
+//! Named groups of the faces of a list.
+
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
+
+/// The groups of a list of faces. Each face is in one, and each group has a face.
+#[derive(Debug)]
+pub(crate) struct Groups {
+    pub(crate) names: Vec<Option<String>>,
+    /// The group of each face; empty where all faces are in the first one.
+    pub(crate) of_face: Vec<u32>,
+}
+
+impl Groups {
+    /// One group without a name, of all faces.
+    pub(crate) fn one() -> Self {
+        Groups {
+            names: vec![None],
+            of_face: Vec::new(),
+        }
+    }
+
+    /// Copies the faces of one group, and the vertices that they use, in the order of the list.
+    pub(super) fn part(&self, list: &Polygons, group: usize) -> Result<Polygons, MeshFault> {
+        let mut faces = self.faces(list);
+        Ok(Copier::new(list)?.copy(&faces.swap_remove(group)))
+    }
+
+    /// Copies each group in this way.
+    pub(super) fn all(&self, list: &Polygons) -> Result<Vec<Polygons>, MeshFault> {
+        let mut copier = Copier::new(list)?;
+        let faces = self.faces(list);
+        Ok(faces.iter().map(|faces| copier.copy(faces)).collect())
+    }
+
+    /// The faces of each group.
+    fn faces(&self, list: &Polygons) -> Vec<Vec<u32>> {
+        let mut faces = vec![Vec::new(); self.names.len()];
+        for face in 0..list.ends.len() {
+            let group = self.of_face.get(face).copied().unwrap_or(0);
+            faces[group as usize].push(face as u32);
+        }
+        faces
+    }
+}
+
+/// Copies faces of a list, with numbers of their own.
+struct Copier<'a> {
+    list: &'a Polygons,
+    /// The number that each vertex has in the copy; only those of the copy's vertices mean anything.
+    numbers: Vec<i64>,
+}
+
+impl<'a> Copier<'a> {
+    fn new(list: &'a Polygons) -> Result<Self, MeshFault> {
+        list.check_corners()?;
+        Ok(Copier {
+            list,
+            numbers: vec![0; list.vertices.len()],
+        })
+    }
+
+    fn copy(&mut self, faces: &[u32]) -> Polygons {
+        let Copier { list, numbers } = self;
+        let mut part = Polygons::default();
+        for &face in faces {
+            part.corners.extend(list.face(face as usize));
+            part.ends.push(part.corners.len());
+            part.face_lines.extend(list.face_lines.get(face as usize));
+        }
+        let mut used: Vec<usize> = part.corners.iter().map(|&v| v as usize).collect();
+        used.sort_unstable();
+        used.dedup();
+        for vertex in used {
+            numbers[vertex] = part.vertices.len() as i64;
+            part.vertices.push(list.vertices[vertex]);
+            part.vertex_lines.extend(list.vertex_lines.get(vertex));
+        }
+        for corner in &mut part.corners {
+            *corner = numbers[*corner as usize];
+        }
+        part
+    }
+}

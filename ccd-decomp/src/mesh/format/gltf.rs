@@ -1,0 +1,94 @@
+//! glTF 2.0, text and binary.
+//!
+//! The crate `gltf` is not used: it rounds the transforms of nodes to f32, takes positions for floats where they are
+//! quantized integers, and panics at sparse accessors that are cut short.
+
+mod accessor;
+mod buffers;
+mod container;
+mod extensions;
+mod nodes;
+mod primitive;
+mod schema;
+mod transform;
+
+use super::{Beside, Reference};
+use crate::mesh::content::allowance::Allowance;
+use crate::mesh::content::assembly::Assembly;
+use crate::mesh::content::{Content, Layout};
+use crate::mesh::error::{MeshFault, Quote};
+use crate::mesh::unit::Unit;
+use accessor::Accessors;
+use buffers::Buffers;
+use container::Container;
+use nodes::Scene;
+use schema::{BufferList, Root};
+use std::collections::BTreeMap;
+
+/// Reads the parts of a glTF.
+pub(super) fn parse(bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
+    if bytes.is_empty() {
+        return Err(MeshFault::NoVertices);
+    }
+    let container = Container::of(bytes)?;
+    let root = Root::read(container.json)?;
+    extensions::check_required(&root)?;
+    let buffers = Buffers::new(&root, container.binary, beside)?;
+    let all_bytes = bytes.len() + beside.values().map(Vec::len).sum::<usize>();
+    let allowance = Allowance::of(all_bytes as u64);
+    let accessors = Accessors::new(&root, &buffers, allowance);
+    let Scene { objects, parts } = nodes::scene(&root, accessors)?;
+    // A mesh has no members.
+    let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
+        MeshFault::syntax(None, format!("mesh {} holds itself", circle.object))
+    })?;
+    Ok(Content {
+        unit: Some(Unit::Metre),
+        layout: Layout::Assembly(assembly),
+    })
+}
+
+/// Finds the buffers that are in files of their own.
+pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
+    if bytes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let list = BufferList::read(Container::of(unmarked)?.json)?;
+    let mut needed = BTreeMap::new();
+    for (k, buffer) in list.buffers.iter().enumerate() {
+        let reference = buffers::reference(buffer);
+        if let Some(Reference { name, bytes }) =
+            reference.map_err(|fault| fault.at(name("buffer", k, None)))?
+        {
+            let most = needed.entry(name).or_insert(bytes);
+            *most = bytes.max(*most);
+        }
+    }
+    let references = needed.into_iter();
+    Ok(references
+        .map(|(name, bytes)| Reference { name, bytes })
+        .collect())
+}
+
+/// The name of an element in messages.
+fn name(kind: &str, number: usize, name: Option<&str>) -> String {
+    match name {
+        Some(name) => format!("{kind} {number} {:?}", Quote(name)),
+        None => format!("{kind} {number}"),
+    }
+}
+
+/// Finds an element by its number.
+fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
+    list.get(number).ok_or_else(|| {
+        let count = list.len();
+        MeshFault::syntax(
+            None,
+            format!("names {kind} {number}, but there are {count}, numbered from 0"),
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,279 @@
+//! Accessors: lists of numbers in buffers.
+
+use super::buffers::Buffers;
+use super::schema::{self, Root, Sparse};
+use super::{element, name};
+use crate::mesh::content::allowance::Allowance;
+use crate::mesh::error::MeshFault;
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+
+/// Reads accessors, as many numbers as the file may ask for.
+pub(super) struct Accessors<'a> {
+    root: &'a Root,
+    buffers: &'a Buffers<'a>,
+    allowance: Allowance,
+}
+
+/// The kinds of numbers in a buffer, by their numbers in a glTF.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+/// Elements at equal distances.
+struct Rows<'a> {
+    bytes: &'a [u8],
+    stride: usize,
+    size: usize,
+    count: usize,
+}
+
+impl<'a> Accessors<'a> {
+    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, allowance: Allowance) -> Self {
+        Accessors {
+            root,
+            buffers,
+            allowance,
+        }
+    }
+
+    /// Returns whether an accessor has bytes of its own.
+    pub(super) fn has_bytes(&self, accessor: usize) -> bool {
+        let about = self.root.accessors.get(accessor);
+        about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
+    }
+
+    /// Takes so many elements of what the file may ask for.
+    pub(super) fn take(&mut self, count: usize) -> Result<(), MeshFault> {
+        self.allowance.take(count as u64)
+    }
+
+    /// Reads the points of an accessor of vectors of three numbers.
+    pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
+        let root = self.root;
+        let about = element(&root.accessors, "accessor", accessor)?;
+        self.points_of(about)
+            .map_err(|fault| fault.at(name("accessor", accessor, None)))
+    }
+
+    fn points_of(&mut self, about: &schema::Accessor) -> Result<Vec<DVec3>, MeshFault> {
+        check_kind(about, "VEC3")?;
+        self.allowance.take(about.count)?;
+        let component = Component::of(about.component_type)?;
+        let size = 3 * component.size();
+        let point = |row: &[u8]| {
+            let mut numbers = row.chunks_exact(component.size());
+            let mut next = || {
+                numbers
+                    .next()
+                    .map_or(f64::NAN, |bytes| component.number(bytes, about.normalized))
+            };
+            DVec3::new(next(), next(), next())
+        };
+        let mut points: Vec<DVec3> = match self.rows(about, size)? {
+            Some(rows) => rows.iter().map(point).collect(),
+            // The allowance bounds the number.
+            None => vec![DVec3::ZERO; about.count as usize],
+        };
+        if let Some(sparse) = &about.sparse {
+            let numbers = self.sparse_indices(sparse, points.len())?;
+            let values = self.sparse_values(sparse, size)?;
+            for (number, row) in numbers.into_iter().zip(values.iter()) {
+                points[number] = point(row);
+            }
+        }
+        Ok(points)
+    }
+
+    /// Reads the numbers of an accessor of whole numbers.
+    pub(super) fn numbers(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
+        let root = self.root;
+        let about = element(&root.accessors, "accessor", accessor)?;
+        self.numbers_of(about)
+            .map_err(|fault| fault.at(name("accessor", accessor, None)))
+    }
+
+    fn numbers_of(&mut self, about: &schema::Accessor) -> Result<Vec<u32>, MeshFault> {
+        check_kind(about, "SCALAR")?;
+        self.allowance.take(about.count)?;
+        let component = Component::of_index(about.component_type)?;
+        let size = component.size();
+        let mut numbers: Vec<u32> = match self.rows(about, size)? {
+            Some(rows) => rows.iter().map(|row| component.whole(row)).collect(),
+            None => vec![0; about.count as usize],
+        };
+        if let Some(sparse) = &about.sparse {
+            let places = self.sparse_indices(sparse, numbers.len())?;
+            let values = self.sparse_values(sparse, size)?;
+            for (place, row) in places.into_iter().zip(values.iter()) {
+                numbers[place] = component.whole(row);
+            }
+        }
+        Ok(numbers)
+    }
+
+    /// The elements of an accessor; none for one that is zero but for its sparse elements.
+    fn rows(&self, about: &schema::Accessor, size: usize) -> Result<Option<Rows<'a>>, MeshFault> {
+        match (about.buffer_view, &about.sparse) {
+            (Some(view), _) => {
+                let stride = self.buffers.stride(view);
+                self.rows_at(view, about.byte_offset, (about.count, size), stride)
+                    .map(Some)
+            }
+            (None, Some(_)) => Ok(None),
+            (None, None) => Err(MeshFault::syntax(None, "has no buffer view".into())),
+        }
+    }
+
+    fn rows_at(
+        &self,
+        view: usize,
+        offset: u64,
+        (count, size): (u64, usize),
+        stride: Option<u64>,
+    ) -> Result<Rows<'a>, MeshFault> {
+        let bytes = self.buffers.view(view, offset)?;
+        let stride = stride.unwrap_or(size as u64);
+        if stride < size as u64 {
+            let problem = format!("has elements of {size} bytes every {stride} bytes");
+            return Err(MeshFault::syntax(None, problem));
+        }
+        let before_last = stride.checked_mul(count.saturating_sub(1));
+        let end = before_last.and_then(|before| before.checked_add(size as u64));
+        if count > 0 && end.is_none_or(|end| end > bytes.len() as u64) {
+            let missing = format!("all {count} elements of {size} bytes in buffer view {view}");
+            return Err(MeshFault::Truncated { missing });
+        }
+        // All are within the bytes, if there are any.
+        Ok(Rows {
+            bytes,
+            stride: stride as usize,
+            size,
+            count: count as usize,
+        })
+    }
+
+    /// Reads which elements of a list of some length a sparse accessor replaces.
+    fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
+        self.allowance.take(sparse.count)?;
+        let about = &sparse.indices;
+        let component = Component::of_index(about.component_type)?;
+        let layout = (sparse.count, component.size());
+        let rows = self.rows_at(about.buffer_view, about.byte_offset, layout, None)?;
+        let checked = |row| match component.whole(row) as usize {
+            number if number < length => Ok(number),
+            number => {
+                let problem = format!("replaces element {number} of {length}");
+                Err(MeshFault::syntax(None, problem))
+            }
+        };
+        rows.iter().map(checked).collect()
+    }
+
+    fn sparse_values(&self, sparse: &Sparse, size: usize) -> Result<Rows<'a>, MeshFault> {
+        let about = &sparse.values;
+        let layout = (sparse.count, size);
+        self.rows_at(about.buffer_view, about.byte_offset, layout, None)
+    }
+}
+
+fn check_kind(about: &schema::Accessor, kind: &str) -> Result<(), MeshFault> {
+    match about.kind == kind {
+        true => Ok(()),
+        false => {
+            let problem = format!("is of type {:?} instead of {kind}", about.kind);
+            Err(MeshFault::syntax(None, problem))
+        }
+    }
+}
+
+impl<'a> Rows<'a> {
+    fn iter(&self) -> impl Iterator<Item = &'a [u8]> {
+        let Rows {
+            bytes,
+            stride,
+            size,
+            count,
+        } = *self;
+        (0..count).map(move |k| &bytes[k * stride..][..size])
+    }
+}
+
+impl Component {
+    fn of(number: u32) -> Result<Self, MeshFault> {
+        Ok(match number {
+            5120 => Component::I8,
+            5121 => Component::U8,
+            5122 => Component::I16,
+            5123 => Component::U16,
+            5125 => Component::U32,
+            5126 => Component::F32,
+            _ => {
+                let problem = format!("has components of type {number}, which there is not");
+                return Err(MeshFault::syntax(None, problem));
+            }
+        })
+    }
+
+    /// The kind of a number of an element.
+    fn of_index(number: u32) -> Result<Self, MeshFault> {
+        match Component::of(number)? {
+            unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
+            _ => {
+                let problem = format!("has components of type {number} instead of whole numbers");
+                Err(MeshFault::syntax(None, problem))
+            }
+        }
+    }
+
+    fn size(self) -> usize {
+        match self {
+            Component::I8 | Component::U8 => 1,
+            Component::I16 | Component::U16 => 2,
+            Component::U32 | Component::F32 => 4,
+        }
+    }
+
+    /// A coordinate. A normalized integer stands for a fraction of its largest value.
+    fn number(self, bytes: &[u8], normalized: bool) -> f64 {
+        let number = self.exact(bytes);
+        let largest: f64 = match self {
+            _ if !normalized => return number,
+            Component::I8 => i8::MAX.into(),
+            Component::U8 => u8::MAX.into(),
+            Component::I16 => i16::MAX.into(),
+            Component::U16 => u16::MAX.into(),
+            Component::U32 => u32::MAX.into(),
+            Component::F32 => return number,
+        };
+        greater(number / largest, -1.0)
+    }
+
+    fn exact(self, bytes: &[u8]) -> f64 {
+        match self {
+            Component::I8 => i8::from_le_bytes(array(bytes)).into(),
+            Component::I16 => i16::from_le_bytes(array(bytes)).into(),
+            Component::F32 => f32::from_le_bytes(array(bytes)).into(),
+            Component::U8 | Component::U16 | Component::U32 => self.whole(bytes).into(),
+        }
+    }
+
+    fn whole(self, bytes: &[u8]) -> u32 {
+        match self {
+            Component::U8 => u8::from_le_bytes(array(bytes)).into(),
+            Component::U16 => u16::from_le_bytes(array(bytes)).into(),
+            _ => u32::from_le_bytes(array(bytes)),
+        }
+    }
+}
+
+/// The first bytes; those that are not there are zero.
+fn array<const N: usize>(bytes: &[u8]) -> [u8; N] {
+    bytes.first_chunk().copied().unwrap_or([0; N])
+}

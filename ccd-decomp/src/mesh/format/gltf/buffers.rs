@@ -1,0 +1,183 @@
+//! The bytes that a glTF's accessors are read from.
+
+use super::schema::{Buffer, Root};
+use super::{element, extensions, name};
+use crate::mesh::error::MeshFault;
+use crate::mesh::format::{Beside, Reference};
+use base64::Engine;
+use base64::engine::general_purpose::GeneralPurpose;
+use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
+use std::borrow::Cow;
+
+/// The buffers of a file; none for one that has no bytes, as those that only a compression fills.
+pub(super) struct Buffers<'a> {
+    root: &'a Root,
+    bytes: Vec<Option<Cow<'a, [u8]>>>,
+}
+
+impl<'a> Buffers<'a> {
+    pub(super) fn new(
+        root: &'a Root,
+        binary: Option<&'a [u8]>,
+        beside: &'a Beside,
+    ) -> Result<Self, MeshFault> {
+        let found = |(k, buffer)| {
+            let binary = binary.filter(|_| k == 0);
+            content(buffer, binary, beside).map_err(|fault| fault.at(name("buffer", k, None)))
+        };
+        let bytes: Result<_, _> = root.buffers.iter().enumerate().map(found).collect();
+        Ok(Buffers {
+            root,
+            bytes: bytes?,
+        })
+    }
+
+    /// The bytes of a view of a buffer, from an offset on.
+    pub(super) fn view(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
+        let about = element(&self.root.buffer_views, "buffer view", view)?;
+        if about.extensions.meshopt.is_some() && self.is_empty(about.buffer) {
+            return Err(extensions::meshopt());
+        }
+        let found = || {
+            let buffer = element(&self.bytes, "buffer", about.buffer)?;
+            let Some(buffer) = buffer else {
+                let problem = format!("buffer {} has neither bytes nor a file", about.buffer);
+                return Err(MeshFault::syntax(None, problem));
+            };
+            let start = about.byte_offset.checked_add(offset);
+            let end = about.byte_offset.checked_add(about.byte_length);
+            let range = start
+                .zip(end)
+                .filter(|&(_, end)| end <= buffer.len() as u64);
+            // Both ends are within the buffer.
+            let within = range.and_then(|(start, end)| buffer.get(start as usize..end as usize));
+            within.ok_or_else(|| {
+                let (bytes, buffer) = (buffer.len(), about.buffer);
+                let problem = format!("reaches beyond buffer {buffer}, which has {bytes} bytes");
+                MeshFault::syntax(None, problem)
+            })
+        };
+        found().map_err(|fault: MeshFault| fault.at(name("buffer view", view, None)))
+    }
+
+    /// The distance from one element of a view to the next, if it says so.
+    pub(super) fn stride(&self, view: usize) -> Option<u64> {
+        self.root.buffer_views.get(view)?.byte_stride
+    }
+
+    fn is_empty(&self, buffer: usize) -> bool {
+        matches!(self.bytes.get(buffer), None | Some(None))
+    }
+}
+
+fn content<'a>(
+    buffer: &'a Buffer,
+    binary: Option<&'a [u8]>,
+    beside: &'a Beside,
+) -> Result<Option<Cow<'a, [u8]>>, MeshFault> {
+    let bytes: Cow<'_, [u8]> = match &buffer.uri {
+        None => match binary {
+            Some(binary) => binary.into(),
+            None => return Ok(None),
+        },
+        Some(uri) => match data(uri) {
+            Some(data) => decode(data?)?.into(),
+            None => {
+                let name = decoded(uri)?;
+                let beside = beside.get(&name).map(Vec::as_slice);
+                beside.ok_or_else(|| alone(name))?.into()
+            }
+        },
+    };
+    match (bytes.len() as u64) < buffer.byte_length {
+        true => Err(MeshFault::Truncated {
+            missing: format!("byte {} of {}", bytes.len(), buffer.byte_length),
+        }),
+        false => Ok(Some(bytes)),
+    }
+}
+
+fn alone(name: String) -> MeshFault {
+    MeshFault::Beside {
+        name,
+        reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
+            .into(),
+    }
+}
+
+/// The file that a buffer is in, if it is in one of its own.
+pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault> {
+    let outside = buffer.uri.as_ref().filter(|uri| data(uri).is_none());
+    let reference = outside.map(|uri| {
+        Ok(Reference {
+            name: decoded(uri)?,
+            bytes: buffer.byte_length,
+        })
+    });
+    reference.transpose()
+}
+
+/// The text of a URI that holds the data itself; none for any other URI.
+fn data(uri: &str) -> Option<Result<&str, MeshFault>> {
+    let rest = match uri.split_at_checked(5) {
+        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("data:") => rest,
+        _ => return None,
+    };
+    Some(match rest.split_once(',') {
+        Some((kind, data)) if kind.to_ascii_lowercase().ends_with(";base64") => Ok(data),
+        _ => Err(MeshFault::syntax(None, "its data is not in base64".into())),
+    })
+}
+
+fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
+    // Some programs leave out the padding at the end.
+    const LENIENT: GeneralPurposeConfig = GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true);
+    const ENGINE: GeneralPurpose = GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT);
+    let decoded = ENGINE.decode(data);
+    decoded.map_err(|error| MeshFault::syntax(None, format!("its base64 is not valid: {error}")))
+}
+
+/// The path of a file as a URI names it: with `%20` for a blank, and so on.
+fn decoded(uri: &str) -> Result<String, MeshFault> {
+    let problem = |what| {
+        Err(MeshFault::syntax(
+            None,
+            format!("its URI {:?} {what}", crate::mesh::error::Quote(uri)),
+        ))
+    };
+    // The path of a drive is none of a glTF either.
+    if uri.contains(':') {
+        return problem("is no path in the folder of the mesh");
+    }
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let Some((&byte, after)) = rest.split_first() {
+        rest = after;
+        if byte != b'%' {
+            bytes.push(byte);
+            continue;
+        }
+        let digits = rest
+            .get(..2)
+            .and_then(|digits| std::str::from_utf8(digits).ok());
+        let Some(byte) = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok()) else {
+            return problem("has a % without two digits");
+        };
+        bytes.push(byte);
+        rest = &rest[2..];
+    }
+    match String::from_utf8(bytes) {
+        Ok(path) => Ok(without_dots(&path)),
+        Err(_) => problem("is no UTF-8"),
+    }
+}
+
+/// A path without the steps that lead nowhere, so that a file has one name. It stays absolute, or upward, if it is.
+fn without_dots(path: &str) -> String {
+    let root = if path.starts_with('/') { "/" } else { "" };
+    let steps = path.split('/').filter(|step| !matches!(*step, "" | "."));
+    let steps: Vec<&str> = steps.collect();
+    format!("{root}{}", steps.join("/"))
+}

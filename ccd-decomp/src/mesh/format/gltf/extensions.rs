@@ -1,0 +1,67 @@
+//! Extensions that a file requires: those that leave shapes as they are, and those that cannot be read.
+
+use super::schema::Root;
+use crate::mesh::error::MeshFault;
+
+/// The beginnings of the names of extensions about looks, light, sound and data about data.
+const HARMLESS: [&str; 14] = [
+    "KHR_materials_",
+    "KHR_texture_",
+    "EXT_texture_",
+    "MSFT_texture_",
+    "MSFT_packing_",
+    "EXT_lights_",
+    "KHR_lights_",
+    "KHR_audio",
+    "KHR_animation_pointer",
+    "KHR_xmp",
+    "KHR_node_",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
+    "EXT_instance_features",
+];
+
+/// Positions as integers; these are read.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+const DRACO: &str = "KHR_draco_mesh_compression";
+
+/// Refuses a file that cannot be understood without an extension that is unknown here, as the specification demands.
+pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
+    let known =
+        |name: &str| name == QUANTIZATION || HARMLESS.iter().any(|prefix| name.starts_with(prefix));
+    let mut required = root.extensions_required.iter();
+    match required.find(|name| !known(name)).map(String::as_str) {
+        None => Ok(()),
+        Some(DRACO) => Err(draco()),
+        Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt()),
+        Some(name) => {
+            let quote = crate::mesh::error::Quote(name);
+            Err(MeshFault::Unsupported {
+                what: format!("what the extension {quote:?} says"),
+                instead: "glTF without this extension",
+            })
+        }
+    }
+}
+
+pub(super) fn draco() -> MeshFault {
+    MeshFault::Unsupported {
+        what: format!("meshes compressed by Draco ({DRACO})"),
+        instead: "glTF without compression",
+    }
+}
+
+pub(super) fn meshopt() -> MeshFault {
+    MeshFault::Unsupported {
+        what: "buffers compressed by meshopt (EXT_meshopt_compression)".into(),
+        instead: "glTF without compression",
+    }
+}
+
+pub(super) fn instancing() -> MeshFault {
+    MeshFault::Unsupported {
+        what: "instances in a buffer (EXT_mesh_gpu_instancing)".into(),
+        instead: "glTF with a node for each instance",
+    }
+}

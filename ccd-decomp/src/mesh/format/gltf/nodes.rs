@@ -1,0 +1,135 @@
+//! The nodes of a scene, and the parts that they are.
+
+use super::accessor::Accessors;
+use super::schema::{Node, Root};
+use super::{element, extensions, name, primitive, transform};
+use crate::mesh::affine::AffineMap;
+use crate::mesh::content::assembly::{Object, Part, Placed};
+use crate::mesh::error::MeshFault;
+use std::collections::HashMap;
+
+/// The meshes that a scene uses, and its nodes that use them.
+pub(super) struct Scene {
+    pub(super) objects: Vec<Object>,
+    pub(super) parts: Vec<Part>,
+}
+
+/// Reads the scene that is to be shown, or else the first one; without scenes, all nodes; without nodes, all meshes.
+pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, MeshFault> {
+    let mut walk = Walk::new(root, accessors);
+    match (root.scene, root.scenes.first()) {
+        (Some(scene), _) => walk.below(&element(&root.scenes, "scene", scene)?.nodes)?,
+        (None, Some(first)) => walk.below(&first.nodes)?,
+        (None, None) if root.nodes.is_empty() => walk.meshes_alone()?,
+        (None, None) => walk.all()?,
+    }
+    Ok(walk.scene)
+}
+
+/// A walk down the nodes. It reads each mesh where it is first met.
+struct Walk<'a> {
+    root: &'a Root,
+    accessors: Accessors<'a>,
+    /// The object of each mesh that was met.
+    known: HashMap<usize, usize>,
+    visited: Vec<bool>,
+    scene: Scene,
+}
+
+impl<'a> Walk<'a> {
+    fn new(root: &'a Root, accessors: Accessors<'a>) -> Self {
+        Walk {
+            root,
+            accessors,
+            known: HashMap::new(),
+            visited: vec![false; root.nodes.len()],
+            scene: Scene {
+                objects: Vec::new(),
+                parts: Vec::new(),
+            },
+        }
+    }
+
+    /// Visits some nodes, and all below them, each one before those below it.
+    fn below(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
+        let top = |&node: &usize| (node, AffineMap::IDENTITY);
+        let mut waiting: Vec<(usize, AffineMap)> = tops.iter().rev().map(top).collect();
+        while let Some((number, above)) = waiting.pop() {
+            let node = element(&self.root.nodes, "node", number)?;
+            let place = || name("node", number, node.name.as_deref());
+            // Nodes form a tree. This also ends at nodes in a circle.
+            if std::mem::replace(&mut self.visited[number], true) {
+                let problem = "is below itself, or below two others".into();
+                return Err(MeshFault::syntax(None, problem).at(place()));
+            }
+            let own = transform::of_node(node).map_err(|fault| fault.at(place()))?;
+            let map = above.after(&own);
+            if own.is_point() {
+                continue;
+            }
+            self.add(node, map).map_err(|fault| fault.at(place()))?;
+            waiting.extend(node.children.iter().rev().map(|&child| (child, map)));
+        }
+        Ok(())
+    }
+
+    /// Visits all nodes, from those that are below none.
+    fn all(&mut self) -> Result<(), MeshFault> {
+        let mut is_below = vec![false; self.root.nodes.len()];
+        for &child in self.root.nodes.iter().flat_map(|node| &node.children) {
+            element(&self.root.nodes, "node", child)?;
+            is_below[child] = true;
+        }
+        let tops: Vec<usize> = (0..is_below.len())
+            .filter(|&node| !is_below[node])
+            .collect();
+        if tops.is_empty() {
+            let problem = "is below itself".into();
+            return Err(MeshFault::syntax(None, problem).at(name("node", 0, None)));
+        }
+        self.below(&tops)
+    }
+
+    fn meshes_alone(&mut self) -> Result<(), MeshFault> {
+        (0..self.root.meshes.len()).try_for_each(|mesh| self.place(mesh, None, AffineMap::IDENTITY))
+    }
+
+    fn add(&mut self, node: &Node, map: AffineMap) -> Result<(), MeshFault> {
+        let Some(mesh) = node.mesh else {
+            return Ok(());
+        };
+        if node.extensions.instancing.is_some() {
+            return Err(extensions::instancing());
+        }
+        self.place(mesh, node.name.clone(), map)
+    }
+
+    fn place(
+        &mut self,
+        mesh: usize,
+        label: Option<String>,
+        map: AffineMap,
+    ) -> Result<(), MeshFault> {
+        let about = element(&self.root.meshes, "mesh", mesh)?;
+        let object = match self.known.get(&mesh) {
+            Some(&object) => object,
+            None => {
+                let place = || name("mesh", mesh, about.name.as_deref());
+                let shape = primitive::shape(about, &mut self.accessors)
+                    .map_err(|fault| fault.at(place()))?;
+                let members = Vec::new();
+                self.scene.objects.push(Object { shape, members });
+                *self
+                    .known
+                    .entry(mesh)
+                    .or_insert(self.scene.objects.len() - 1)
+            }
+        };
+        // An empty name is none.
+        let given = |name: &String| !name.is_empty();
+        let name = label.filter(given).or(about.name.clone().filter(given));
+        let placed = Placed { object, map };
+        self.scene.parts.push(Part { name, placed });
+        Ok(())
+    }
+}

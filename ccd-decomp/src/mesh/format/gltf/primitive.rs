@@ -1,0 +1,139 @@
+//! Meshes: their primitives as triangles.
+
+use super::accessor::Accessors;
+use super::schema::{Mesh, Primitive};
+use super::{extensions, name};
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
+use std::collections::HashMap;
+
+/// Reads the triangles of a mesh, one primitive after the other. Primitives of the same positions share their
+/// vertices.
+pub(super) fn shape(mesh: &Mesh, accessors: &mut Accessors<'_>) -> Result<Polygons, MeshFault> {
+    let mut shape = Polygons::default();
+    let mut known = HashMap::new();
+    for (k, primitive) in mesh.primitives.iter().enumerate() {
+        add(primitive, &mut shape, &mut known, accessors)
+            .map_err(|fault| fault.at(name("primitive", k, None)))?;
+    }
+    Ok(shape)
+}
+
+/// The vertices of an accessor in the shape: the first one, and their number.
+#[derive(Clone, Copy)]
+struct Vertices {
+    first: usize,
+    count: usize,
+}
+
+/// The ways in which corners make triangles.
+#[derive(Clone, Copy)]
+enum Mode {
+    Triangles,
+    Strip,
+    Fan,
+}
+
+fn add(
+    primitive: &Primitive,
+    shape: &mut Polygons,
+    known: &mut HashMap<usize, Vertices>,
+    accessors: &mut Accessors<'_>,
+) -> Result<(), MeshFault> {
+    let Some(mode) = Mode::of(primitive.mode)? else {
+        return Ok(());
+    };
+    // Without positions there is nothing to be seen, says the specification.
+    let Some(position) = primitive.attributes.position else {
+        return Ok(());
+    };
+    if primitive.extensions.draco.is_some() && !accessors.has_bytes(position) {
+        return Err(extensions::draco());
+    }
+    let vertices = match known.get(&position) {
+        Some(&vertices) => vertices,
+        None => {
+            let points = accessors.points(position)?;
+            check_finite(&points)?;
+            let vertices = Vertices {
+                first: shape.vertices.len(),
+                count: points.len(),
+            };
+            shape.vertices.extend(points);
+            *known.entry(position).or_insert(vertices)
+        }
+    };
+    let corners = match primitive.indices {
+        Some(indices) => accessors.numbers(indices)?,
+        None => {
+            accessors.take(vertices.count)?;
+            (0..vertices.count as u32).collect()
+        }
+    };
+    mode.check(corners.len())?;
+    for (face, triangle) in mode.triangles(&corners).enumerate() {
+        if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices.count) {
+            return Err(MeshFault::NoSuchVertex {
+                face,
+                line: None,
+                vertex: vertex.into(),
+                vertices: vertices.count,
+                base: 0,
+            });
+        }
+        let corners = triangle.map(|v| vertices.first as i64 + i64::from(v));
+        shape.corners.extend(corners);
+        shape.ends.push(shape.corners.len());
+    }
+    Ok(())
+}
+
+/// Checks the points of a file before they are moved, where they still have their numbers.
+fn check_finite(points: &[ccd_core::glam::DVec3]) -> Result<(), MeshFault> {
+    match points.iter().position(|point| !point.is_finite()) {
+        Some(vertex) => Err(MeshFault::NotFinite { vertex, line: None }),
+        None => Ok(()),
+    }
+}
+
+impl Mode {
+    /// The mode by its number; none for points and lines.
+    fn of(number: Option<u32>) -> Result<Option<Self>, MeshFault> {
+        match number {
+            Some(0..=3) => Ok(None),
+            None | Some(4) => Ok(Some(Mode::Triangles)),
+            Some(5) => Ok(Some(Mode::Strip)),
+            Some(6) => Ok(Some(Mode::Fan)),
+            Some(mode) => {
+                let problem = format!("is of mode {mode}, which there is not");
+                Err(MeshFault::syntax(None, problem))
+            }
+        }
+    }
+
+    fn check(self, corners: usize) -> Result<(), MeshFault> {
+        match self {
+            Mode::Triangles if !corners.is_multiple_of(3) => {
+                let problem = format!("has {corners} corners, which make no whole triangles");
+                Err(MeshFault::syntax(None, problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The triangles, all turned alike: every other one of a strip is turned round.
+    fn triangles(self, corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+        let count = match self {
+            Mode::Triangles => corners.len() / 3,
+            Mode::Strip | Mode::Fan => corners.len().saturating_sub(2),
+        };
+        (0..count).map(move |k| {
+            let at = match self {
+                Mode::Triangles => [3 * k, 3 * k + 1, 3 * k + 2],
+                Mode::Strip => [k, k + 1 + k % 2, k + 2 - k % 2],
+                Mode::Fan => [k + 1, k + 2, 0],
+            };
+            at.map(|corner| corners[corner])
+        })
+    }
+}

@@ -1,0 +1,37 @@
+//! The place of a node in the one above it.
+
+use super::schema::Node;
+use crate::mesh::affine::AffineMap;
+use crate::mesh::error::MeshFault;
+use ccd_core::Pose;
+use ccd_core::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
+
+/// The map from a node's coordinates to those of the node above it.
+pub(super) fn of_node(node: &Node) -> Result<AffineMap, MeshFault> {
+    let Some(matrix) = node.matrix else {
+        return of_parts(node);
+    };
+    let matrix = DMat4::from_cols_array(&matrix);
+    match matrix.row(3) == DVec4::W && matrix.is_finite() {
+        true => Ok(DAffine3::from_mat4(matrix).into()),
+        false => {
+            let problem = "has a matrix that is not affine: its last row is not 0 0 0 1";
+            Err(MeshFault::syntax(None, problem.into()))
+        }
+    }
+}
+
+/// First the scale, then the rotation, then the translation.
+fn of_parts(node: &Node) -> Result<AffineMap, MeshFault> {
+    let scale = node.scale.map_or(DVec3::ONE, DVec3::from_array);
+    let rotation = node.rotation.unwrap_or(DQuat::IDENTITY.to_array());
+    let translation = node.translation.unwrap_or([0.0; 3]);
+    let pose = Pose::new(translation, rotation).map_err(|error| {
+        MeshFault::syntax(
+            None,
+            format!("has a rotation or translation that is none: {error}"),
+        )
+    })?;
+    let matrix = DMat3::from_quat(pose.rotation()) * DMat3::from_diagonal(scale);
+    Ok(DAffine3::from_mat3_translation(matrix, pose.translation()).into())
+}

@@ -1,0 +1,314 @@
+//! A model of a package: its objects, and the items of its build.
+
+use super::transform;
+use super::xml::{Element, Step, Xml};
+use crate::mesh::affine::AffineMap;
+use crate::mesh::error::{MeshFault, Quote};
+use crate::mesh::polygons::Polygons;
+use crate::mesh::unit::Unit;
+use ccd_core::glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::BufRead;
+use std::str::FromStr;
+
+/// What a model part of the package holds.
+#[derive(Debug, Default)]
+pub(super) struct Model {
+    pub(super) unit: Option<Unit>,
+    pub(super) objects: Vec<ModelObject>,
+    pub(super) items: Vec<Use>,
+}
+
+#[derive(Debug)]
+pub(super) struct ModelObject {
+    pub(super) id: u32,
+    /// Its name or, without one, its part number.
+    pub(super) name: Option<String>,
+    pub(super) shape: Shape,
+}
+
+/// The shape of an object.
+#[derive(Debug)]
+pub(super) enum Shape {
+    Mesh(Polygons),
+    Components(Vec<Use>),
+    /// What an extension says, by the name of its element.
+    Foreign(String),
+}
+
+/// The use of an object by a component or an item.
+#[derive(Debug)]
+pub(super) struct Use {
+    pub(super) object: u32,
+    pub(super) map: AffineMap,
+    /// The model that the object is in; none for the same one.
+    pub(super) path: Option<String>,
+    pub(super) part_number: Option<String>,
+}
+
+/// The ends of the names of extensions that leave shapes as they are.
+const HARMLESS: [&str; 4] = [
+    "/production/2015/06",
+    "/material/2015/02",
+    "/slice/2015/07",
+    "/trianglesets/2021/07",
+];
+
+/// The elements that matter; all others are passed over with what they hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Tag {
+    Model,
+    Resources,
+    Object,
+    Mesh,
+    Vertices,
+    Triangles,
+    Components,
+    Build,
+    Other,
+}
+
+/// Reads a model.
+pub(super) fn read<R: BufRead>(xml: &mut Xml<R>) -> Result<Model, MeshFault> {
+    let mut model = Model::default();
+    let mut open: Vec<Tag> = Vec::new();
+    loop {
+        match xml.next()? {
+            Step::Start(element) => {
+                let within = open.last().copied();
+                let tag = model.start(within, &element);
+                open.push(tag.map_err(|fault| model.at(&open, fault))?);
+            }
+            Step::End => {
+                if open.last() == Some(&Tag::Mesh) {
+                    let checked = model.check_mesh();
+                    checked.map_err(|fault| model.at(&open, fault))?;
+                }
+                open.pop();
+            }
+            Step::Between => {}
+            Step::Done => return Ok(model),
+        }
+    }
+}
+
+/// The name of an object in messages.
+pub(super) fn place(path: Option<&str>, id: u32, name: Option<&str>) -> String {
+    let path = path.map_or_else(String::new, |path| format!("{:?}: ", Quote(path)));
+    match name {
+        Some(name) => format!("{path}object {id} {:?}", Quote(name)),
+        None => format!("{path}object {id}"),
+    }
+}
+
+impl Model {
+    /// The models that this one refers to, each once.
+    pub(super) fn paths(&self) -> BTreeSet<String> {
+        let components = self
+            .objects
+            .iter()
+            .filter_map(|object| match &object.shape {
+                Shape::Components(components) => Some(components),
+                _ => None,
+            });
+        let uses = components.flatten().chain(&self.items);
+        uses.filter_map(|used| used.path.clone()).collect()
+    }
+
+    /// Names the object that a fault is in.
+    fn at(&self, open: &[Tag], fault: MeshFault) -> MeshFault {
+        match self.objects.last() {
+            Some(object) if open.get(2) == Some(&Tag::Object) => {
+                fault.at(place(None, object.id, object.name.as_deref()))
+            }
+            _ => fault,
+        }
+    }
+
+    /// Takes up the start of an element within another one.
+    fn start(&mut self, within: Option<Tag>, element: &Element<'_>) -> Result<Tag, MeshFault> {
+        match (within, element.name()) {
+            (None, "model") => self.begin(element).map(|()| Tag::Model),
+            (None, _) => {
+                let name = format!("begins with {:?} instead of a model", Quote(element.name()));
+                Err(MeshFault::syntax(None, name))
+            }
+            (Some(Tag::Model), "resources") => Ok(Tag::Resources),
+            (Some(Tag::Model), "build") => Ok(Tag::Build),
+            (Some(Tag::Build), "item") => self.add_item(element),
+            (Some(Tag::Resources), "object") => self.add_object(element),
+            (Some(Tag::Object), name) => Ok(self.shape_of(name)),
+            (Some(Tag::Mesh), "vertices") => Ok(Tag::Vertices),
+            (Some(Tag::Mesh), "triangles") => Ok(Tag::Triangles),
+            (Some(Tag::Mesh), name @ "beamlattice") => Ok(self.foreign(name)),
+            (Some(Tag::Vertices), "vertex") => self.add_vertex(element),
+            (Some(Tag::Triangles), "triangle") => self.add_triangle(element),
+            (Some(Tag::Components), "component") => self.add_component(element),
+            _ => Ok(Tag::Other),
+        }
+    }
+
+    fn begin(&mut self, element: &Element<'_>) -> Result<(), MeshFault> {
+        let [unit, required] = element.values(["unit", "requiredextensions"])?;
+        self.unit = unit.map(|unit| named_unit(&unit)).transpose()?;
+        let mut namespaces = BTreeMap::new();
+        element.each(|prefix, name, value| {
+            if prefix == Some("xmlns") {
+                namespaces.insert(name.to_owned(), value.into_owned());
+            }
+        })?;
+        for prefix in required.unwrap_or_default().split_whitespace() {
+            let namespace = namespaces.get(prefix).map_or(prefix, String::as_str);
+            if !HARMLESS.iter().any(|end| namespace.ends_with(end)) {
+                return Err(MeshFault::Unsupported {
+                    what: format!("what the extension {:?} says", Quote(namespace)),
+                    instead: "3MF without this extension",
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn add_object(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
+        let [id, name, part_number] = element.values(["id", "name", "partnumber"])?;
+        let id = number(id.as_deref(), "an object", "id")?;
+        let given = |name: &str| !name.is_empty();
+        let name = name.filter(|name| given(name)).or(part_number);
+        self.objects.push(ModelObject {
+            id,
+            name: name.filter(|name| given(name)).map(Into::into),
+            shape: Shape::Foreign("nothing".into()),
+        });
+        Ok(Tag::Object)
+    }
+
+    /// Takes up the element that says which shape an object has.
+    fn shape_of(&mut self, name: &str) -> Tag {
+        let Some(object) = self.objects.last_mut() else {
+            return Tag::Other;
+        };
+        let (shape, tag) = match name {
+            "mesh" => (Shape::Mesh(Polygons::default()), Tag::Mesh),
+            "components" => (Shape::Components(Vec::new()), Tag::Components),
+            "metadatagroup" => return Tag::Other,
+            other => (Shape::Foreign(other.into()), Tag::Other),
+        };
+        object.shape = shape;
+        tag
+    }
+
+    /// Takes up an element of a mesh that makes it more than its triangles.
+    fn foreign(&mut self, name: &str) -> Tag {
+        if let Some(object) = self.objects.last_mut() {
+            object.shape = Shape::Foreign(name.into());
+        }
+        Tag::Other
+    }
+
+    fn mesh(&mut self) -> Option<&mut Polygons> {
+        match &mut self.objects.last_mut()?.shape {
+            Shape::Mesh(polygons) => Some(polygons),
+            _ => None,
+        }
+    }
+
+    fn add_vertex(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
+        if let Some(mesh) = self.mesh() {
+            let vertex = mesh.vertices.len();
+            let values = element.values(["x", "y", "z"])?;
+            let mut point = DVec3::ZERO;
+            for (axis, value) in values.iter().enumerate() {
+                let name = ["x", "y", "z"][axis];
+                point[axis] = number(value.as_deref(), &format_args!("vertex {vertex}"), name)?;
+            }
+            if !point.is_finite() {
+                return Err(MeshFault::NotFinite { vertex, line: None });
+            }
+            mesh.vertices.push(point);
+        }
+        Ok(Tag::Other)
+    }
+
+    fn add_triangle(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
+        if let Some(mesh) = self.mesh() {
+            let face = mesh.ends.len();
+            let values = element.values(["v1", "v2", "v3"])?;
+            for (value, name) in values.iter().zip(["v1", "v2", "v3"]) {
+                let what = format_args!("triangle {face}");
+                let corner: u32 = number(value.as_deref(), &what, name)?;
+                mesh.corners.push(corner.into());
+            }
+            mesh.ends.push(mesh.corners.len());
+        }
+        Ok(Tag::Other)
+    }
+
+    /// Checks the corners of a mesh that is complete: a file may name vertices before they come.
+    fn check_mesh(&mut self) -> Result<(), MeshFault> {
+        self.mesh().map_or(Ok(()), |mesh| mesh.check_corners())
+    }
+
+    fn add_component(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
+        let used = Use::of(element, "a component")?;
+        if let Some(ModelObject {
+            shape: Shape::Components(components),
+            ..
+        }) = self.objects.last_mut()
+        {
+            components.push(used);
+        }
+        Ok(Tag::Other)
+    }
+
+    fn add_item(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
+        self.items.push(Use::of(element, "an item")?);
+        Ok(Tag::Other)
+    }
+}
+
+impl Use {
+    fn of(element: &Element<'_>, what: &str) -> Result<Self, MeshFault> {
+        let names = ["objectid", "transform", ":path", "partnumber"];
+        let [object, transform, path, part_number] = element.values(names)?;
+        let map = transform.map(|transform| transform::parse(&transform));
+        Ok(Use {
+            object: number(object.as_deref(), what, "objectid")?,
+            map: map.transpose()?.unwrap_or(AffineMap::IDENTITY),
+            path: path.map(Into::into),
+            part_number: part_number.map(Into::into),
+        })
+    }
+}
+
+fn named_unit(name: &str) -> Result<Unit, MeshFault> {
+    Ok(match name {
+        "micron" => Unit::Micrometre,
+        "millimeter" => Unit::Millimetre,
+        "centimeter" => Unit::Centimetre,
+        "meter" => Unit::Metre,
+        "inch" => Unit::Inch,
+        "foot" => Unit::Foot,
+        _ => {
+            let problem = format!("is in the unit {:?}, which there is not", Quote(name));
+            return Err(MeshFault::syntax(None, problem));
+        }
+    })
+}
+
+/// Reads a number from an attribute of some element.
+fn number<T: FromStr>(
+    value: Option<&str>,
+    what: &(impl std::fmt::Display + ?Sized),
+    name: &str,
+) -> Result<T, MeshFault> {
+    let Some(value) = value else {
+        return Err(MeshFault::syntax(None, format!("{what} has no {name}")));
+    };
+    value.trim().parse().map_err(|_| {
+        let problem = format!(
+            "{what} has {:?} instead of a number as its {name}",
+            Quote(value)
+        );
+        MeshFault::syntax(None, problem)
+    })
+}

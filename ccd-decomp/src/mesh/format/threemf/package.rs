@@ -1,0 +1,197 @@
+//! The zip of a 3MF, and the relationships of its parts.
+
+use super::model::{self, Model};
+use super::xml::{Step, Xml};
+use crate::mesh::error::{MeshFault, Quote};
+use crate::tolerance::{UNPACKED, UNPACKED_RATIO};
+use flate2::bufread::DeflateDecoder;
+use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
+use std::collections::BTreeMap;
+use std::io::{self, BufReader, Read};
+
+/// An open package. It unpacks no more bytes than a file of its size may have.
+pub(super) struct Package<'a> {
+    archive: ZipSliceArchive<&'a [u8]>,
+    entries: BTreeMap<String, Entry>,
+    limit: u64,
+    left: u64,
+}
+
+#[derive(Clone, Copy)]
+struct Entry {
+    way: ZipArchiveEntryWayfinder,
+    method: CompressionMethod,
+    encrypted: bool,
+}
+
+/// Where the first model is named, and where it usually is.
+const RELATIONSHIPS: &str = "_rels/.rels";
+const USUAL_MODEL: &str = "3D/3dmodel.model";
+
+/// The end of the type of the relationship to it.
+const MODEL_TYPE: &str = "/3dmodel";
+
+/// The unpacked bytes that are held at a time.
+const BUFFER: usize = 1 << 16;
+
+impl<'a> Package<'a> {
+    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, MeshFault> {
+        let archive = ZipArchive::from_slice(bytes).map_err(|error| unzip(&error))?;
+        let mut entries = BTreeMap::new();
+        let mut records = archive.entries();
+        while let Some(record) = records.next_entry().map_err(|error| unzip(&error))? {
+            let path = String::from_utf8_lossy(record.file_path().as_ref()).into_owned();
+            entries.entry(normalized(&path)).or_insert(Entry {
+                way: record.wayfinder(),
+                method: record.compression_method(),
+                encrypted: record.flags().is_encrypted(),
+            });
+        }
+        let limit = UNPACKED + UNPACKED_RATIO.saturating_mul(bytes.len() as u64);
+        Ok(Package {
+            archive,
+            entries,
+            limit,
+            left: limit,
+        })
+    }
+
+    /// The number of bytes that were unpacked so far.
+    pub(super) fn unpacked(&self) -> u64 {
+        self.limit - self.left
+    }
+
+    /// The path of the first model.
+    pub(super) fn first_model(&mut self) -> Result<String, MeshFault> {
+        if !self.entries.contains_key(RELATIONSHIPS) {
+            return match self.entries.contains_key(&normalized(USUAL_MODEL)) {
+                true => Ok(USUAL_MODEL.into()),
+                false => {
+                    let problem =
+                        format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
+                    Err(MeshFault::syntax(None, problem))
+                }
+            };
+        }
+        let found = self.read(RELATIONSHIPS, |xml| {
+            loop {
+                let element = match xml.next()? {
+                    Step::Start(element) if element.name() == "Relationship" => element,
+                    Step::Done => return Ok(None),
+                    _ => continue,
+                };
+                let [kind, target] = element.values(["Type", "Target"])?;
+                let is_model = kind.is_some_and(|kind| kind.ends_with(MODEL_TYPE));
+                if let Some(target) = target.filter(|_| is_model) {
+                    return Ok(Some(target.into_owned()));
+                }
+            }
+        });
+        let found = found.map_err(|fault| fault.at(format!("{RELATIONSHIPS:?}")))?;
+        found.ok_or_else(|| {
+            let problem = format!("its {RELATIONSHIPS:?} names no model");
+            MeshFault::syntax(None, problem)
+        })
+    }
+
+    /// Reads a model of the package.
+    #[expect(
+        clippy::redundant_closure,
+        reason = "a function has one lifetime, a closure any"
+    )]
+    pub(super) fn model(&mut self, path: &str) -> Result<Model, MeshFault> {
+        self.read(path, |xml| model::read(xml))
+    }
+
+    fn read<T>(
+        &mut self,
+        path: &str,
+        parse: impl FnOnce(&mut Xml<BufReader<Unpacking<'_>>>) -> Result<T, MeshFault>,
+    ) -> Result<T, MeshFault> {
+        let Package {
+            archive,
+            entries,
+            limit,
+            left,
+        } = self;
+        let Some(entry) = entries.get(&normalized(path)) else {
+            return Err(MeshFault::syntax(None, "is not in the package".into()));
+        };
+        let limit = *limit;
+        let unpacking = Unpacking::new(archive, entry, left)?;
+        let mut xml = Xml::new(BufReader::with_capacity(BUFFER, unpacking));
+        let parsed = parse(&mut xml);
+        match xml.into_inner().get_ref().is_exceeded {
+            true => Err(MeshFault::Unpacks { limit }),
+            false => parsed,
+        }
+    }
+}
+
+/// The content of an entry, unpacked as it is read, and checked at its end.
+struct Unpacking<'a> {
+    content: Box<dyn Read + 'a>,
+    left: &'a mut u64,
+    is_exceeded: bool,
+}
+
+impl<'a> Unpacking<'a> {
+    fn new(
+        archive: &'a ZipSliceArchive<&'a [u8]>,
+        entry: &Entry,
+        left: &'a mut u64,
+    ) -> Result<Self, MeshFault> {
+        if entry.encrypted {
+            return Err(MeshFault::Unsupported {
+                what: "an encrypted model".into(),
+                instead: "3MF without encryption",
+            });
+        }
+        let found = archive
+            .get_entry(entry.way)
+            .map_err(|error| unzip(&error))?;
+        let content: Box<dyn Read + 'a> = match entry.method {
+            CompressionMethod::STORE => Box::new(found.verifying_reader(found.data())),
+            CompressionMethod::DEFLATE => {
+                Box::new(found.verifying_reader(DeflateDecoder::new(found.data())))
+            }
+            other => {
+                return Err(MeshFault::Unsupported {
+                    what: format!("an entry compressed by method {}", other.as_u16()),
+                    instead: "3MF compressed by deflate",
+                });
+            }
+        };
+        Ok(Unpacking {
+            content,
+            left,
+            is_exceeded: false,
+        })
+    }
+}
+
+impl Read for Unpacking<'_> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let read = self.content.read(out)?;
+        match self.left.checked_sub(read as u64) {
+            Some(left) => {
+                *self.left = left;
+                Ok(read)
+            }
+            None => {
+                self.is_exceeded = true;
+                Err(io::Error::other("there is more than a mesh may have"))
+            }
+        }
+    }
+}
+
+/// A path as it is compared: names of parts are equal in capitals and not.
+pub(super) fn normalized(path: &str) -> String {
+    path.trim_start_matches('/').to_lowercase()
+}
+
+fn unzip(error: &rawzip::Error) -> MeshFault {
+    let error = error.to_string();
+    MeshFault::syntax(None, format!("its zip is not whole: {:?}", Quote(&error)))
+}

@@ -1,0 +1,201 @@
+//! What a 3MF may hold, and that it is read as the specification says. What it must not hold is in `faults`.
+
+mod faults;
+
+use crate::test_files::{Entry, model, object, package, zip};
+use crate::{Format, MeshError, MeshFile, TriangleMesh, Unit};
+use ccd_core::glam::{DVec3, dvec3};
+use rawzip::CompressionMethod;
+use rstest::rstest;
+
+const POINTS: [[f64; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+fn tetrahedron(attributes: &str) -> String {
+    object(attributes, &POINTS, &FACES)
+}
+
+fn one(model: &str) -> Vec<u8> {
+    package(&[("3D/3dmodel.model", model)])
+}
+
+fn file(bytes: &[u8]) -> MeshFile {
+    MeshFile::from_reader(Format::ThreeMf, bytes).unwrap()
+}
+
+fn read(bytes: &[u8]) -> TriangleMesh {
+    file(bytes).into_mesh().unwrap()
+}
+
+fn error(bytes: &[u8]) -> MeshError {
+    let read = TriangleMesh::from_reader(Format::ThreeMf, bytes);
+    read.err().expect("a fault")
+}
+
+fn points() -> Vec<DVec3> {
+    POINTS.iter().map(|&point| point.into()).collect()
+}
+
+#[test]
+fn a_model_is_read() {
+    let model = model("", &tetrahedron(r#"id="1""#), r#"<item objectid="1"/>"#);
+    let mesh = read(&one(&model));
+    assert_eq!(mesh.vertices(), points());
+    assert_eq!(mesh.faces(), FACES);
+    assert!(mesh.repairs().is_empty());
+}
+
+#[rstest]
+#[case("", Unit::Millimetre, 1.0)]
+#[case("unit=\"micron\"", Unit::Micrometre, 0.001)]
+#[case("unit=\"millimeter\"", Unit::Millimetre, 1.0)]
+#[case("unit=\"centimeter\"", Unit::Centimetre, 10.0)]
+#[case("unit=\"inch\"", Unit::Inch, 25.4)]
+#[case("unit=\"foot\"", Unit::Foot, 304.8)]
+#[case("unit=\"meter\"", Unit::Metre, 1000.0)]
+fn the_unit_is_stated(#[case] attribute: &str, #[case] unit: Unit, #[case] millimetres: f64) {
+    let bytes = one(&model(
+        attribute,
+        &tetrahedron(r#"id="1""#),
+        r#"<item objectid="1"/>"#,
+    ));
+    assert_eq!(file(&bytes).unit(), Some(unit));
+    assert_eq!(read(&bytes).vertices()[1], DVec3::X);
+    let mesh = file(&bytes).in_unit(Unit::Millimetre).into_mesh().unwrap();
+    assert_eq!(mesh.vertices()[1], dvec3(millimetres, 0.0, 0.0));
+}
+
+/// The unit applies after the transforms, whose translations are in it too.
+#[test]
+fn translations_are_in_the_unit() {
+    let item = r#"<item objectid="1" transform="1 0 0 0 1 0 0 0 1 3 0 0"/>"#;
+    let bytes = one(&model("unit=\"meter\"", &tetrahedron(r#"id="1""#), item));
+    let mesh = file(&bytes).in_unit(Unit::Centimetre).into_mesh().unwrap();
+    assert_eq!(mesh.vertices()[1], dvec3(400.0, 0.0, 0.0));
+}
+
+/// The numbers of a transform are the rows of a matrix from the right.
+#[test]
+fn items_and_components_are_placed() {
+    let objects = tetrahedron(r#"id="1" name="tip""#)
+        + r#"<object id="2" name="pair"><components>
+            <component objectid="1"/>
+            <component objectid="1" transform="0 2 0 -1 0 0 0 0 1 5 0 0"/>
+        </components></object>"#;
+    let items = r#"<item objectid="2" transform="1 0 0 0 1 0 0 0 1 0 0 7"/><item objectid="1" partnumber="A7"/>"#;
+    let bytes = one(&model("", &objects, items));
+    let mesh = read(&bytes);
+    assert_eq!(mesh.vertices().len(), 12);
+    assert_eq!(mesh.vertices()[..2], [dvec3(0., 0., 7.), dvec3(1., 0., 7.)]);
+    // x is mapped to 2 y, y to -x, and then x is moved by 5.
+    assert_eq!(
+        mesh.vertices()[4..8],
+        [
+            dvec3(5., 0., 7.),
+            dvec3(5., 2., 7.),
+            dvec3(4., 0., 7.),
+            dvec3(5., 0., 8.)
+        ]
+    );
+    assert_eq!(mesh.vertices()[8..], points());
+    let file = file(&bytes);
+    assert_eq!(
+        file.part_names().collect::<Vec<_>>(),
+        [Some("pair"), Some("tip")]
+    );
+    assert_eq!(file.part("pair").unwrap().faces().len(), 8);
+}
+
+#[test]
+fn mirrored_components_turn_the_faces_round() {
+    let objects = tetrahedron(r#"id="1""#)
+        + r#"<object id="2"><components><component objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/></components></object>"#;
+    let once = read(&one(&model("", &objects, r#"<item objectid="2"/>"#)));
+    assert_eq!(once.faces()[0], [0, 1, 2]);
+    let twice = r#"<item objectid="2" transform="1 0 0 0 -2 0 0 0 1 0 0 0"/>"#;
+    assert_eq!(read(&one(&model("", &objects, twice))).faces()[0], FACES[0]);
+}
+
+#[test]
+fn parts_have_the_names_of_objects_or_their_part_numbers() {
+    let objects = tetrahedron(r#"id="1" name="a &lt; b" partnumber="7""#)
+        + &tetrahedron(r#"id="2" partnumber="8""#)
+        + &tetrahedron(r#"id="3" name="""#);
+    let items = r#"<item objectid="1" partnumber="X"/><item objectid="2" partnumber="Y"/><item objectid="3" partnumber="Z"/><item objectid="3"/>"#;
+    let file = file(&one(&model("", &objects, items)));
+    let names: Vec<_> = file.part_names().collect();
+    assert_eq!(names, [Some("a < b"), Some("8"), Some("Z"), None]);
+}
+
+/// Objects that no item uses are not made.
+#[test]
+fn only_the_build_is_read() {
+    let beams = r#"<object id="3"><mesh><vertices/><triangles/><b:beamlattice/></mesh></object>"#;
+    let objects = tetrahedron(r#"id="1""#) + &tetrahedron(r#"id="2" type="other""#) + beams;
+    let mesh = read(&one(&model("", &objects, r#"<item objectid="1"/>"#)));
+    assert_eq!(mesh.faces().len(), 4);
+}
+
+/// The production extension: objects in models of their own, here with other capitals and a path from the root.
+#[test]
+fn models_of_the_package_are_read() {
+    let parts = model(
+        "",
+        &tetrahedron(r#"id="1" name="deep""#),
+        r#"<item objectid="1"/>"#,
+    );
+    let root = model(
+        r#"unit="inch" requiredextensions="p""#,
+        r#"<object id="1" name="top"><components><component p:path="/3D/Objects/Parts.model" objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 1"/></components></object>"#,
+        r#"<item objectid="1"/><item objectid="1" p:path="/3D/objects/parts.model"/>"#,
+    );
+    let bytes = package(&[
+        ("3D/3dmodel.model", &root),
+        ("3D/Objects/parts.model", &parts),
+    ]);
+    let file = file(&bytes);
+    assert_eq!(
+        file.part_names().collect::<Vec<_>>(),
+        [Some("top"), Some("deep")]
+    );
+    assert_eq!(file.unit(), Some(Unit::Inch));
+    assert_eq!(file.part("top").unwrap().vertices()[0], DVec3::Z);
+    assert_eq!(file.part("deep").unwrap().vertices(), points());
+}
+
+/// Vertices after the triangles, blanks, comments, and what other namespaces add.
+#[test]
+fn the_order_and_other_elements_do_not_matter() {
+    let model = model(
+        r#"requiredextensions=" ""#,
+        r#"<basematerials id="9"><base name="red" displaycolor="red"/></basematerials>
+        <object id="1" p:UUID="x"><metadatagroup><metadata name="vertex">x</metadata></metadatagroup><!-- a mesh -->
+        <mesh><triangles><triangle v1="0" v2=" 1 " v3="2"/></triangles>
+        <trianglesets><triangleset><ref index="0"/></triangleset></trianglesets>
+        <vertices><vertex x=" 0 " y="-0" z="0" b:x="7"/><vertex z="0" y="1e0" x="1"></vertex><vertex x="0" y="+2." z="0"/></vertices>
+        </mesh></object>"#,
+        r#"<item objectid=" 1 " transform=" 1 0 0  0 1 0 0 0 1 0 0 0 " printable="1"><metadatagroup/></item>"#,
+    );
+    let mesh = read(&one(&model));
+    assert_eq!(
+        mesh.vertices(),
+        [DVec3::ZERO, dvec3(1., 1., 0.), dvec3(0., 2., 0.)]
+    );
+    assert_eq!(mesh.faces(), [[0, 1, 2]]);
+}
+
+#[test]
+fn a_package_without_relationships_has_the_usual_model() {
+    let model = model("", &tetrahedron(r#"id="1""#), r#"<item objectid="1"/>"#);
+    for path in ["3D/3dmodel.model", "3d/3DModel.model"] {
+        let entry = Entry {
+            path,
+            content: model.as_bytes(),
+            method: CompressionMethod::STORE,
+        };
+        assert_eq!(read(&zip(&[entry])).faces().len(), 4);
+    }
+    // Another place needs to be named.
+    let bytes = package(&[("elsewhere.model", &model)]);
+    assert_eq!(read(&bytes).faces().len(), 4);
+}

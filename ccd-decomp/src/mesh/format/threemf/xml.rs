@@ -1,0 +1,136 @@
+//! XML, element by element.
+
+use crate::mesh::error::{MeshFault, Quote};
+use quick_xml::XmlVersion;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::reader::Reader;
+use std::borrow::Cow;
+use std::io::BufRead;
+
+/// A text that is read one element after the other. What is between them is passed over.
+pub(super) struct Xml<R> {
+    reader: Reader<R>,
+    buffer: Vec<u8>,
+    depth: usize,
+}
+
+/// The next thing of a text.
+pub(super) enum Step<'a> {
+    /// An element begins.
+    Start(Element<'a>),
+    /// The innermost element ends.
+    End,
+    /// Text or a comment.
+    Between,
+    /// The text ends, and with it all elements.
+    Done,
+}
+
+/// The start of an element.
+pub(super) struct Element<'a>(BytesStart<'a>);
+
+impl<R: BufRead> Xml<R> {
+    pub(super) fn new(reader: R) -> Self {
+        let mut reader = Reader::from_reader(reader);
+        let config = reader.config_mut();
+        config.expand_empty_elements = true;
+        // Texts are passed over, and so is what is wrong with them.
+        config.allow_dangling_amp = true;
+        Xml {
+            reader,
+            buffer: Vec::new(),
+            depth: 0,
+        }
+    }
+
+    pub(super) fn into_inner(self) -> R {
+        self.reader.into_inner()
+    }
+
+    pub(super) fn next(&mut self) -> Result<Step<'_>, MeshFault> {
+        self.buffer.clear();
+        let event = self.reader.read_event_into(&mut self.buffer);
+        match event.map_err(|error| fault(&error, self.reader.buffer_position()))? {
+            Event::Start(start) => {
+                self.depth += 1;
+                Ok(Step::Start(Element(start)))
+            }
+            Event::End(_) => {
+                self.depth = self.depth.saturating_sub(1);
+                Ok(Step::End)
+            }
+            Event::DocType(_) => {
+                let problem = "has a document type, which a 3MF must not have";
+                Err(MeshFault::syntax(None, problem.into()))
+            }
+            Event::Eof if self.depth > 0 => {
+                let missing = "its XML".into();
+                Err(MeshFault::Truncated { missing })
+            }
+            Event::Eof => Ok(Step::Done),
+            _ => Ok(Step::Between),
+        }
+    }
+}
+
+impl<'a> Element<'a> {
+    /// The name without prefix.
+    pub(super) fn name(&self) -> &str {
+        self.0.local_name().into_inner()
+    }
+
+    /// The values of some attributes: of those without prefix or, for a name that begins with a colon, with any.
+    pub(super) fn values<const N: usize>(
+        &self,
+        names: [&str; N],
+    ) -> Result<[Option<Cow<'_, str>>; N], MeshFault> {
+        let mut values = [const { None }; N];
+        self.each(|prefix, local, value| {
+            let is = |name: &&str| match name.strip_prefix(':') {
+                Some(name) => prefix.is_some() && name == local,
+                None => prefix.is_none() && *name == local,
+            };
+            if let Some(k) = names.iter().position(is) {
+                values[k] = Some(value);
+            }
+        })?;
+        Ok(values)
+    }
+
+    /// Visits all attributes: prefix, name without it, and value.
+    pub(super) fn each<'s>(
+        &'s self,
+        mut visit: impl FnMut(Option<&str>, &str, Cow<'s, str>),
+    ) -> Result<(), MeshFault> {
+        for attribute in self.0.attributes() {
+            let attribute = attribute.map_err(|error| problem(&error))?;
+            let value = attribute.normalized_value(XmlVersion::Explicit1_0);
+            let prefix = attribute.key.prefix();
+            let prefix = prefix.as_ref().map(|prefix| prefix.as_ref());
+            let local = attribute.key.local_name();
+            visit(
+                prefix,
+                local.as_ref(),
+                value.map_err(|error| problem(&error))?,
+            );
+        }
+        Ok(())
+    }
+}
+
+fn fault(error: &quick_xml::Error, position: u64) -> MeshFault {
+    let error = error.to_string();
+    let problem = format!(
+        "its XML is not valid before byte {position}: {:?}",
+        Quote(&error)
+    );
+    MeshFault::syntax(None, problem)
+}
+
+fn problem(error: &dyn std::fmt::Display) -> MeshFault {
+    let error = error.to_string();
+    MeshFault::syntax(
+        None,
+        format!("its XML has a bad attribute: {:?}", Quote(&error)),
+    )
+}

@@ -1,0 +1,275 @@
+//! Mesh files: their parts, and their unit.
+
+use super::TriangleMesh;
+use super::content::Content;
+use super::error::{MeshError, MeshFault, Quote};
+use super::format::{Beside, Format, Reference};
+use super::unit::{Conversion, Unit};
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// A mesh file that has been read: its parts, by name or number, and its unit.
+///
+/// The parts of a glTF are its nodes with meshes, those of a 3MF the items of its build, those of an OBJ its objects or
+/// groups: [`Format`] says more. Any other file is one part. Parts are numbered from 0, and one without a face is left
+/// out.
+///
+/// ```
+/// use ccd_decomp::{Format, MeshFile};
+/// let text = "o base\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no lid\nv 0 0 1\nf 1 2 4\nf 2 3 4\n";
+/// let file = MeshFile::from_reader(Format::Obj, text.as_bytes())?;
+/// assert_eq!(file.part("lid")?.faces().len(), 2);
+/// let error = file.part("top").unwrap_err();
+/// assert_eq!(error.to_string(), r#"has no part "top"; its parts are 0 "base", 1 "lid""#);
+/// assert_eq!(file.into_mesh()?.faces().len(), 3);
+/// # Ok::<(), ccd_decomp::MeshError>(())
+/// ```
+#[derive(Debug)]
+pub struct MeshFile {
+    content: Content,
+    unit: Option<Unit>,
+    conversion: Conversion,
+    path: Option<PathBuf>,
+}
+
+/// A part of a file.
+#[derive(Clone, Debug)]
+pub struct NamedMesh {
+    /// The name, if it has one. Several parts of a file may have the same.
+    pub name: Option<String>,
+    /// The triangles. Vertices and faces are numbered from 0 in each part.
+    pub mesh: TriangleMesh,
+}
+
+impl MeshFile {
+    /// Reads a file in the format of its extension, and the buffers that a glTF has in files beside it.
+    ///
+    /// # Errors
+    /// [`MeshError`], which names the file and the element. No bytes panic, and few bytes take little memory.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
+        let path = path.as_ref();
+        let read = || {
+            let (format, bytes) = open(path)?;
+            let references = format.references(&bytes)?.into_iter();
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let beside: Result<Beside, _> = references
+                .map(|reference| Ok((reference.name.clone(), neighbour(folder, &reference)?)))
+                .collect();
+            format.parse(&bytes, &beside?)
+        };
+        match read() {
+            Ok(content) => Ok(MeshFile::of(content, Some(path.into()))),
+            Err(fault) => Err(fault.in_file(path)),
+        }
+    }
+
+    /// Reads a file in a given format from any reader. All that it needs has to be in it.
+    ///
+    /// # Errors
+    /// [`MeshError`], which names the element. No bytes panic, and few bytes take little memory.
+    pub fn from_reader(format: Format, mut reader: impl Read) -> Result<Self, MeshError> {
+        let mut bytes = Vec::new();
+        reader
+            .read_to_end(&mut bytes)
+            .map_err(MeshFault::Unreadable)?;
+        Ok(MeshFile::of(format.parse(&bytes, &Beside::new())?, None))
+    }
+
+    fn of(content: Content, path: Option<PathBuf>) -> Self {
+        MeshFile {
+            unit: content.unit,
+            content,
+            conversion: Conversion::NONE,
+            path,
+        }
+    }
+
+    /// The unit of the coordinates: the one that was [asked for](MeshFile::in_unit), else that of the file. OBJ, STL,
+    /// PLY and OFF have none.
+    pub fn unit(&self) -> Option<Unit> {
+        self.unit
+    }
+
+    /// Converts the coordinates to a unit. Those of a file without a unit are taken to be in it already.
+    ///
+    /// # Guarantee
+    /// Between metric units a coordinate is the exact product or quotient by a power of ten, rounded to nearest. It is
+    /// exact where a glTF is converted from metres to centimetres, millimetres or micrometres and no node moves the
+    /// mesh: its floats have room for it. From and to inches and feet it is rounded up to twice.
+    ///
+    /// ```
+    /// use ccd_decomp::{Format, MeshFile, Unit};
+    /// let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    /// let file = MeshFile::from_reader(Format::Obj, text.as_bytes())?.in_unit(Unit::Inch);
+    /// assert_eq!(file.unit(), Some(Unit::Inch));
+    /// assert_eq!(file.into_mesh()?.vertices()[1].x, 1.0);
+    /// # Ok::<(), ccd_decomp::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn in_unit(mut self, unit: Unit) -> Self {
+        self.conversion = match self.content.unit {
+            Some(stated) => Conversion::new(stated, unit),
+            None => Conversion::NONE,
+        };
+        self.unit = Some(unit);
+        self
+    }
+
+    /// The names of the parts, in the order of their numbers.
+    pub fn part_names(&self) -> impl ExactSizeIterator<Item = Option<&str>> {
+        (0..self.content.parts()).map(|part| self.content.name(part))
+    }
+
+    /// The triangles of the part of a name or, if no part has that name, of that number.
+    ///
+    /// # Errors
+    /// [`MeshFault::NoSuchPart`] with all names, [`MeshFault::AmbiguousPart`] when several parts have the name; all
+    /// that is wrong with the part.
+    pub fn part(&self, name_or_number: &str) -> Result<TriangleMesh, MeshError> {
+        let made = || {
+            let part = self.find(name_or_number)?;
+            let polygons = self.content.part(part, self.conversion);
+            polygons
+                .and_then(TriangleMesh::from_polygons)
+                .map_err(|fault| fault.at(self.place(part)))
+        };
+        made().map_err(|fault| self.error(fault))
+    }
+
+    /// The triangles of each part.
+    ///
+    /// # Errors
+    /// [`MeshFault::At`] with the number and the name of a part, and what is wrong with it.
+    pub fn into_parts(self) -> Result<Vec<NamedMesh>, MeshError> {
+        let parts = self.content.all_parts(self.conversion);
+        let parts = parts.map_err(|fault| self.error(fault))?.into_iter();
+        let named = parts.enumerate().map(|(part, polygons)| {
+            let mesh = TriangleMesh::from_polygons(polygons)
+                .map_err(|fault| self.error(fault.at(self.place(part))))?;
+            let name = self.content.name(part).map(str::to_owned);
+            Ok(NamedMesh { name, mesh })
+        });
+        named.collect()
+    }
+
+    /// The triangles of all parts together, one part after the other. Those of an OBJ keep the numbers of the
+    /// file.
+    ///
+    /// # Errors
+    /// All that is wrong with the mesh.
+    pub fn into_mesh(self) -> Result<TriangleMesh, MeshError> {
+        let MeshFile {
+            content,
+            conversion,
+            path,
+            ..
+        } = self;
+        let whole = content.whole(conversion);
+        whole
+            .and_then(TriangleMesh::from_polygons)
+            .map_err(|fault| error(fault, path.as_deref()))
+    }
+
+    fn find(&self, name_or_number: &str) -> Result<usize, MeshFault> {
+        let has_name = |name: Option<&str>| name == Some(name_or_number);
+        let names = self.part_names().enumerate();
+        let named: Vec<usize> = names
+            .filter_map(|(part, name)| has_name(name).then_some(part))
+            .collect();
+        let number = || name_or_number.parse::<usize>().ok();
+        match named[..] {
+            [part] => Ok(part),
+            [] => number()
+                .filter(|&number| number < self.content.parts())
+                .ok_or_else(|| MeshFault::NoSuchPart {
+                    part: name_or_number.into(),
+                    parts: self.part_names().map(|name| name.map(Into::into)).collect(),
+                }),
+            _ => Err(MeshFault::AmbiguousPart {
+                part: name_or_number.into(),
+                numbers: named,
+            }),
+        }
+    }
+
+    /// The name of a part in messages.
+    fn place(&self, part: usize) -> String {
+        match self.content.name(part) {
+            Some(name) => format!("part {part} {:?}", Quote(name)),
+            None => format!("part {part}"),
+        }
+    }
+
+    fn error(&self, fault: MeshFault) -> MeshError {
+        error(fault, self.path.as_deref())
+    }
+}
+
+/// The files that a mesh is read from: its own, and those that it refers to.
+pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
+    let found = || {
+        if !Format::from_path(path).is_ok_and(Format::refers_to_files) {
+            return Ok(vec![path.to_owned()]);
+        }
+        let (format, bytes) = open(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut files = vec![path.to_owned()];
+        for reference in format.references(&bytes)? {
+            files.push(folder.join(relative(&reference.name)?));
+        }
+        Ok(files)
+    };
+    found().map_err(|fault: MeshFault| fault.in_file(path))
+}
+
+fn error(fault: MeshFault, path: Option<&Path>) -> MeshError {
+    match path {
+        Some(path) => fault.in_file(path),
+        None => fault.into(),
+    }
+}
+
+fn open(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
+    if path.is_dir() {
+        return Err(MeshFault::Folder);
+    }
+    let format = Format::from_path(path)?;
+    let bytes = fs::read(path).map_err(MeshFault::Unreadable)?;
+    Ok((format, bytes))
+}
+
+/// Reads a file that a mesh refers to: no more of it than the mesh needs, and only a regular file, as a pipe might
+/// never end.
+fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault> {
+    let Reference { name, bytes } = reference;
+    let path = folder.join(relative(name)?);
+    let read = || {
+        if !fs::metadata(&path)?.is_file() {
+            return Err(std::io::Error::other("it is no file"));
+        }
+        let mut content = Vec::new();
+        File::open(&path)?.take(*bytes).read_to_end(&mut content)?;
+        Ok(content)
+    };
+    read().map_err(|error| MeshFault::Beside {
+        name: name.clone(),
+        reason: format!("{error}; put it where the mesh is"),
+    })
+}
+
+/// Checks that a reference stays in the folder of the mesh, or below it.
+fn relative(name: &str) -> Result<PathBuf, MeshFault> {
+    let path = PathBuf::from(name);
+    let stays = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    match path.components().all(stays) && path.file_name().is_some() {
+        true => Ok(path),
+        false => Err(MeshFault::Beside {
+            name: name.into(),
+            reason: "it is not in the folder of the mesh; put it there".into(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,129 @@
+//! Units of length, and the change from one to another.
+
+use ccd_core::glam::DVec3;
+use std::fmt;
+use std::str::FromStr;
+
+/// A unit of length.
+///
+/// ```
+/// use ccd_decomp::Unit;
+/// assert_eq!("mm".parse(), Ok(Unit::Millimetre));
+/// assert_eq!(Unit::Inch.to_string(), "in");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// `um`, a millionth of a metre; 3MF calls it a micron.
+    Micrometre,
+    /// `mm`, a thousandth of a metre.
+    Millimetre,
+    /// `cm`, a hundredth of a metre.
+    Centimetre,
+    /// `m`.
+    Metre,
+    /// `in`, 25.4 millimetres.
+    Inch,
+    /// `ft`, twelve inches.
+    Foot,
+}
+
+/// A text that names no unit.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no unit {name:?}; use um, mm, cm, m, in or ft")]
+pub struct UnknownUnit {
+    /// The text.
+    pub name: String,
+}
+
+impl Unit {
+    /// All units, in the order of their names in messages.
+    pub const ALL: [Unit; 6] = [
+        Unit::Micrometre,
+        Unit::Millimetre,
+        Unit::Centimetre,
+        Unit::Metre,
+        Unit::Inch,
+        Unit::Foot,
+    ];
+
+    /// The usual sign, in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Unit::Micrometre => "um",
+            Unit::Millimetre => "mm",
+            Unit::Centimetre => "cm",
+            Unit::Metre => "m",
+            Unit::Inch => "in",
+            Unit::Foot => "ft",
+        }
+    }
+
+    /// Its length in micrometres. All units have a whole number of them.
+    fn micrometres(self) -> u32 {
+        match self {
+            Unit::Micrometre => 1,
+            Unit::Millimetre => 1_000,
+            Unit::Centimetre => 10_000,
+            Unit::Metre => 1_000_000,
+            Unit::Inch => 25_400,
+            Unit::Foot => 304_800,
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.symbol())
+    }
+}
+
+impl FromStr for Unit {
+    type Err = UnknownUnit;
+
+    fn from_str(text: &str) -> Result<Self, UnknownUnit> {
+        let named = Unit::ALL.into_iter().find(|unit| unit.symbol() == text);
+        named.ok_or_else(|| UnknownUnit { name: text.into() })
+    }
+}
+
+/// The change of coordinates from one unit to another: a product with a whole number, then a quotient by one.
+///
+/// Either is 1 between metric units, where a coordinate is therefore rounded once. A float of 32 bits stays exact
+/// towards a smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between
+/// metric units and inches or feet a coordinate is rounded up to twice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Conversion {
+    times: f64,
+    over: f64,
+}
+
+impl Conversion {
+    pub(crate) const NONE: Conversion = Conversion {
+        times: 1.0,
+        over: 1.0,
+    };
+
+    pub(crate) fn new(from: Unit, to: Unit) -> Self {
+        let (from, to) = (from.micrometres(), to.micrometres());
+        let common = greatest_common_divisor(from, to);
+        Conversion {
+            times: f64::from(from / common),
+            over: f64::from(to / common),
+        }
+    }
+
+    /// Converts a point; exact where nothing is to be converted.
+    pub(crate) fn apply(self, point: DVec3) -> DVec3 {
+        point * self.times / self.over
+    }
+}
+
+fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+#[cfg(test)]
+mod tests;

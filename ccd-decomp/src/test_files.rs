@@ -1,0 +1,231 @@
+//! Files for tests: glTF and 3MF, made in memory.
+
+#[cfg(feature = "gltf")]
+pub(crate) use gltf::Gltf;
+#[cfg(feature = "3mf")]
+pub(crate) use threemf::{Entry, model, object, package, zip};
+
+/// Files on disk for one test; they are removed when it ends.
+pub(crate) struct Folder(pub(crate) std::path::PathBuf);
+
+impl Folder {
+    pub(crate) fn new(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("ccd-decomp-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+        Folder(folder)
+    }
+
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> std::path::PathBuf {
+        let path = self.0.join(name);
+        std::fs::write(&path, bytes).expect("a temporary file");
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+#[cfg(feature = "gltf")]
+mod gltf {
+    use base64::Engine;
+    use base64::engine::general_purpose::STANDARD;
+    use serde_json::{Value, json};
+
+    /// A glTF under construction. Its fields are those of the JSON.
+    pub(crate) struct Gltf {
+        pub(crate) json: Value,
+        pub(crate) binary: Vec<u8>,
+    }
+
+    impl Gltf {
+        /// One mesh with the given primitives, in one node without a name.
+        pub(crate) fn new() -> Self {
+            let json = json!({
+                "asset": {"version": "2.0"},
+                "scenes": [{"nodes": [0]}],
+                "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": []}],
+                "accessors": [],
+                "bufferViews": [],
+                "buffers": [],
+            });
+            let binary = Vec::new();
+            Gltf { json, binary }
+        }
+
+        /// A triangle with a corner at the origin, in one node.
+        pub(crate) fn triangle() -> Self {
+            let mut gltf = Gltf::new();
+            let position = gltf.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+            gltf.primitive(json!({"attributes": {"POSITION": position}}));
+            gltf
+        }
+
+        pub(crate) fn set(mut self, key: &str, value: Value) -> Self {
+            self.json[key] = value;
+            self
+        }
+
+        pub(crate) fn push(&mut self, list: &str, value: Value) -> usize {
+            let list = self.json[list].as_array_mut().expect("a list");
+            list.push(value);
+            list.len() - 1
+        }
+
+        pub(crate) fn primitive(&mut self, value: Value) {
+            let list = self.json["meshes"][0]["primitives"].as_array_mut();
+            list.expect("a list").push(value);
+        }
+
+        /// Adds bytes as a view of the buffer.
+        pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
+            while !self.binary.len().is_multiple_of(4) {
+                self.binary.push(0);
+            }
+            let offset = self.binary.len();
+            self.binary.extend(bytes);
+            let view = json!({"buffer": 0, "byteOffset": offset, "byteLength": bytes.len()});
+            self.push("bufferViews", view)
+        }
+
+        pub(crate) fn floats(&mut self, points: &[[f32; 3]]) -> usize {
+            let bytes: Vec<u8> = points
+                .iter()
+                .flatten()
+                .flat_map(|x| x.to_le_bytes())
+                .collect();
+            let view = self.view(&bytes);
+            let about = json!({"bufferView": view, "componentType": 5126, "count": points.len(), "type": "VEC3"});
+            self.push("accessors", about)
+        }
+
+        pub(crate) fn indices(&mut self, numbers: &[u16]) -> usize {
+            let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+            let view = self.view(&bytes);
+            let about = json!({"bufferView": view, "componentType": 5123, "count": numbers.len(), "type": "SCALAR"});
+            self.push("accessors", about)
+        }
+
+        /// The binary form.
+        pub(crate) fn glb(&self) -> Vec<u8> {
+            let mut json = self.json.clone();
+            if json["buffers"] == json!([]) {
+                json["buffers"] = json!([{"byteLength": self.binary.len()}]);
+            }
+            let mut text = json.to_string().into_bytes();
+            text.resize(text.len().next_multiple_of(4), b' ');
+            let mut binary = self.binary.clone();
+            binary.resize(binary.len().next_multiple_of(4), 0);
+            let mut bytes = b"glTF\x02\0\0\0".to_vec();
+            bytes.extend((28 + text.len() as u32 + binary.len() as u32).to_le_bytes());
+            for (kind, chunk) in [(b"JSON", text), (b"BIN\0", binary)] {
+                bytes.extend((chunk.len() as u32).to_le_bytes());
+                bytes.extend(kind);
+                bytes.extend(chunk);
+            }
+            bytes
+        }
+
+        /// The text form, with the buffer at a URI.
+        pub(crate) fn text_at(&self, uri: &str) -> Vec<u8> {
+            let mut json = self.json.clone();
+            json["buffers"] = json!([{"byteLength": self.binary.len(), "uri": uri}]);
+            json.to_string().into_bytes()
+        }
+
+        /// The text form, with the buffer in it.
+        pub(crate) fn text(&self) -> Vec<u8> {
+            let data = STANDARD.encode(&self.binary);
+            self.text_at(&format!("data:application/octet-stream;base64,{data}"))
+        }
+    }
+}
+
+#[cfg(feature = "3mf")]
+mod threemf {
+    use rawzip::{CompressionMethod, ZipArchiveWriter};
+    use std::io::Write;
+
+    /// A file of a zip.
+    pub(crate) struct Entry<'a> {
+        pub(crate) path: &'a str,
+        pub(crate) content: &'a [u8],
+        pub(crate) method: CompressionMethod,
+    }
+
+    pub(crate) fn zip(entries: &[Entry<'_>]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut archive = ZipArchiveWriter::new(&mut bytes);
+        for entry in entries {
+            let file = archive.new_file(entry.path);
+            let (mut writer, config) = file
+                .compression_method(entry.method)
+                .start()
+                .expect("memory takes all bytes");
+            let fill = |to: &mut dyn Write| to.write_all(entry.content);
+            let descriptor = if entry.method == CompressionMethod::DEFLATE {
+                let level = flate2::Compression::default();
+                let encoder = flate2::write::DeflateEncoder::new(&mut writer, level);
+                let mut packed = config.wrap(encoder);
+                fill(&mut packed).expect("memory takes all bytes");
+                let (encoder, descriptor) = packed.finish().expect("memory takes all bytes");
+                encoder.finish().expect("memory takes all bytes");
+                descriptor
+            } else {
+                let mut plain = config.wrap(&mut writer);
+                fill(&mut plain).expect("memory takes all bytes");
+                plain.finish().expect("memory takes all bytes").1
+            };
+            writer.finish(descriptor).expect("memory takes all bytes");
+        }
+        archive.finish().expect("memory takes all bytes");
+        bytes
+    }
+
+    /// A package of models; the first one is its own.
+    pub(crate) fn package(models: &[(&str, &str)]) -> Vec<u8> {
+        let relationships = format!(
+            r#"<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/Metadata/thumbnail.png" Id="rel0" Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/><Relationship Target="/{}" Id="rel1" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#,
+            models[0].0
+        );
+        let mut entries = vec![Entry {
+            path: "_rels/.rels",
+            content: relationships.as_bytes(),
+            method: CompressionMethod::STORE,
+        }];
+        entries.extend(models.iter().map(|(path, content)| Entry {
+            path,
+            content: content.as_bytes(),
+            method: CompressionMethod::DEFLATE,
+        }));
+        zip(&entries)
+    }
+
+    /// A model of some objects and items, with attributes of its own.
+    pub(crate) fn model(attributes: &str, objects: &str, items: &str) -> String {
+        format!(
+            r#"<?xml version="1.0" encoding="UTF-8"?>
+<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06" xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" {attributes}>
+<metadata name="Title">A &amp; B</metadata>
+<resources>{objects}</resources>
+<build>{items}</build>
+</model>"#
+        )
+    }
+
+    /// An object that is a mesh.
+    pub(crate) fn object(attributes: &str, points: &[[f64; 3]], faces: &[[u32; 3]]) -> String {
+        let vertex = |[x, y, z]: &[f64; 3]| format!(r#"<vertex x="{x}" y="{y}" z="{z}"/>"#);
+        let triangle =
+            |[a, b, c]: &[u32; 3]| format!(r#"<triangle v1="{a}" v2="{b}" v3="{c}" pid="1"/>"#);
+        let vertices: String = points.iter().map(vertex).collect();
+        let triangles: String = faces.iter().map(triangle).collect();
+        format!(
+            "<object {attributes}><mesh><vertices>{vertices}</vertices>\
+             <triangles>{triangles}</triangles></mesh></object>"
+        )
+    }
+}
