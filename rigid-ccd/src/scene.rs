@@ -30,7 +30,8 @@ pub use stops::Stop;
 /// # Guarantee
 /// That of [`first_contact`](crate::first_contact), for all pairs together. The answers are those of the pairs
 /// asked one by one, the same bits on any number of threads, unless a [deadline](Config::deadline) or a stop flag
-/// ends a search.
+/// ends a search. Pairs that boxes tell apart are free, also where one by one they would reach a limit, or be refused
+/// for their distance.
 ///
 /// ```
 /// use rigid_ccd::{Body, Motion, Pose, Scene};
@@ -257,15 +258,13 @@ impl<'a> Scene<'a> {
             swept.unwrap_or(EVERYWHERE)
         };
         let boxes: Vec<SweptBox> = self.members.iter().map(swept).collect();
-        let mut pairs = pairs::meeting(&boxes);
-        pairs.retain(|&[a, b]| {
+        pairs::meeting(&boxes, |[a, b]| {
             let pair = [&self.members[a], &self.members[b]];
             pair.iter()
                 .any(|member| member.mobility == Mobility::Moving)
                 && pair[0].groups.pairs_with(pair[1].groups)
                 && self.asked.as_ref().is_none_or(|asked| asked(a, b))
-        });
-        pairs
+        })
     }
 }
 

@@ -127,8 +127,9 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
 
     /// Searches to the end of a time, and returns the clock that is reached, or the outcome with its tolerance.
     fn search(&mut self, oracle: &mut O, until: f64) -> ControlFlow<(Outcome, f64), f64> {
-        // Rounded up, so that the time of the clock that is reached is not before it.
-        let until = (self.problem.clock(until) * (1.0 + 4.0 * f64::EPSILON)).next_up();
+        // The time of the clock that is reached is rounded down, but not to before the time asked for.
+        let clock = self.problem.clock(until.next_up());
+        let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
         loop {
             let outcome = match self.run(oracle, until) {
                 ControlFlow::Continue(s) => return ControlFlow::Continue(s),

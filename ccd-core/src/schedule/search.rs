@@ -105,6 +105,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         let common = Common::new(problem);
         loop {
             if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
+                question.arrive(problem, s)?;
                 return ControlFlow::Continue(s);
             }
             self.visit(&common, look, question)?;

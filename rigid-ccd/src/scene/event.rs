@@ -70,12 +70,37 @@ impl Event {
         }
     }
 
+    /// Of bodies of which nothing is known.
+    pub(super) fn unresolved(bodies: [usize; 2]) -> Self {
+        Event {
+            time: 0.0,
+            bodies,
+            what: What::Unresolved(Limit::Undecided),
+        }
+    }
+
     /// Returns the event of bodies that were asked from a time on; rounded so that it is never late.
     pub(super) fn later(self, from: f64) -> Self {
-        Event {
-            time: greater(from, (from + self.time).next_down()),
-            ..self
-        }
+        let time = match from > 0.0 {
+            true => greater(from, (from + self.time).next_down()),
+            false => self.time,
+        };
+        Event { time, ..self }
+    }
+
+    /// Returns the event at the start.
+    pub(super) fn at_once(self) -> Self {
+        Event { time: 0.0, ..self }
+    }
+
+    /// Returns whether the bodies are in contact, and not certainly as far apart as that.
+    pub(super) fn is_nearer_than(&self, distance: f64) -> bool {
+        let contact = match &self.what {
+            What::Hit(hit) => hit.contact.as_ref(),
+            What::Unresolved(_) | What::Refused(_) => None,
+        };
+        // Written so that NaN is nearer.
+        contact.is_some_and(|contact| !(contact.separation.lower >= distance))
     }
 
     /// Returns whether the bodies overlap at the start.

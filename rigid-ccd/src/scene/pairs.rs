@@ -5,11 +5,11 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 
-/// Returns the pairs of boxes that meet, in order, each with the lower index first.
+/// Returns the pairs of boxes that meet and are asked for, in order, each with the lower index first.
 ///
 /// # Guarantee
 /// All pairs, whatever the tree is like: a box that it does not hold is compared with all others.
-pub(super) fn meeting(boxes: &[SweptBox]) -> Vec<[usize; 2]> {
+pub(super) fn meeting(boxes: &[SweptBox], asked: impl Fn([usize; 2]) -> bool) -> Vec<[usize; 2]> {
     let corner = |point: ccd_core::glam::DVec3| Vector::from_array(point.to_array());
     let leaves = boxes
         .iter()
@@ -18,12 +18,16 @@ pub(super) fn meeting(boxes: &[SweptBox]) -> Vec<[usize; 2]> {
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);
     let mut pairs = Vec::new();
     tree.traverse_bvtt_single_tree::<false>(&mut BvhWorkspace::default(), &mut |a, b| {
-        pairs.push(ordered(a as usize, b as usize));
+        let pair = ordered(a as usize, b as usize);
+        if asked(pair) {
+            pairs.push(pair);
+        }
     });
     for (lost, leaf) in leaves.iter().enumerate() {
         if !holds(&tree, lost, leaf) {
             let others = (0..boxes.len()).filter(|&other| other != lost);
-            pairs.extend(others.map(|other| ordered(lost, other)));
+            let others = others.map(|other| ordered(lost, other));
+            pairs.extend(others.filter(|&pair| asked(pair)));
         }
     }
     pairs.retain(|&[a, b]| boxes[a].meets(&boxes[b]));

@@ -5,6 +5,8 @@ use super::goal::Goal;
 use super::pairs::ordered;
 use super::settings::Clock;
 use super::{Mobility, PairError, Scene};
+use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
+use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::tolerance::STRETCH_F64;
 use ccd_core::vector::length;
@@ -38,7 +40,8 @@ impl Scene<'_> {
     /// A motion or the duration is out of range.
     ///
     /// # Complexity
-    /// That of all contacts, and as much again for the pairs of each body that stops.
+    /// That of all contacts, and as much again for the pairs of each body that stops. Bodies that touch at the start
+    /// cost more: see [`StartPolicy::Leave`].
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Pose, Scene};
@@ -54,20 +57,24 @@ impl Scene<'_> {
     /// ```
     pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
         let given = self.settings.config;
-        // Half of the tolerance is a distance to keep: what rests comes nearer by rounding only, step by step.
-        let half = 0.5 * given.tolerance;
-        self.settings.config = Config {
-            margin: given.margin + half,
-            tolerance: half,
-            start: StartPolicy::Leave,
-            ..given
-        };
+        self.settings.config = keeping_half(&given);
         let clock = self.settings.clock(duration);
         let pairs = self.pairs(duration);
         let events = self.race(&pairs, &clock, &Goal::All);
         let stops = Stopping::new(self, &pairs, clock).run(events);
         self.settings.config = given;
         stops
+    }
+}
+
+/// Makes half of the tolerance a distance to keep: step by step, what rests comes no nearer.
+fn keeping_half(given: &Config) -> Config {
+    let half = 0.5 * given.tolerance;
+    Config {
+        margin: lesser(given.margin + half, MAX_COORDINATE),
+        tolerance: greater(half, LEAST_TOLERANCE),
+        start: StartPolicy::Leave,
+        ..*given
     }
 }
 
@@ -120,10 +127,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
                     self.others[a].retain(|&other| other != b);
                     self.others[b].retain(|&other| other != a);
                 }
-                false => coming.push(Reverse(Coming {
-                    moving: event.bodies.map(|index| self.moves(index)),
-                    event,
-                })),
+                false => coming.push(Reverse(self.coming(event, 0.0))),
             }
         }
         while let Some(Reverse(Coming { event, moving })) = coming.pop() {
@@ -166,13 +170,24 @@ impl<'s, 'a> Stopping<'s, 'a> {
     fn from(&mut self, time: f64, bodies: [usize; 2]) -> Option<Coming> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::answered(bodies, &answer)?,
-            Err(error) => Event::refused(bodies, error),
+            // Where a body has got to is out of range: it goes no farther.
+            Err(_) => Event::unresolved(bodies),
         };
-        let moving = bodies.map(|index| self.moves(index));
-        Some(Coming {
-            event: event.later(time),
-            moving,
-        })
+        Some(self.coming(event, time))
+    }
+
+    /// Returns what comes to bodies that were asked from a time on. Bodies that rest on each other, and are nearer
+    /// than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
+    fn coming(&self, event: Event, from: f64) -> Coming {
+        let kept = self.scene.settings.config.margin;
+        let event = match event.is_nearer_than(kept) {
+            true => event.at_once(),
+            false => event,
+        };
+        Coming {
+            moving: event.bodies.map(|index| self.moves(index)),
+            event: event.later(from),
+        }
     }
 
     fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
@@ -184,7 +199,9 @@ impl<'s, 'a> Stopping<'s, 'a> {
             duration: self.clock.duration - time,
             ..self.clock
         };
-        let rounding = pair.iter().map(|moving| rounding(moving, rest.duration));
+        let rounding = pair
+            .iter()
+            .map(|moving| rounding(moving, self.clock.duration));
         let problem = self.scene.settings.problem(pair, &rest, rounding.sum())?;
         Ok(self.schedule.solve(&problem, &mut self.oracle))
     }

@@ -346,3 +346,69 @@ fn deadlines_and_flags_end_scenes_with_safe_times() {
     stop.store(false, Ordering::Relaxed);
     assert!(stopped.first_contact(1.0).is_ok());
 }
+
+/// What is inside a solid overlaps it at the start, before anything else happens.
+#[test]
+fn a_body_inside_a_solid_is_first() {
+    let shell = crate::load("tests/data/knot216.obj").unwrap();
+    let (ball, grain) = (Body::ball(0.5).unwrap(), Body::ball(1e-3).unwrap());
+    let mut scene = Scene::with_threads(NonZeroUsize::MIN);
+    // The others are far from the knot, and meet soon.
+    let far = |x: f64| Pose::at([x, 100.0, 0.0]).unwrap();
+    scene.add_fixed(&ball, far(0.0));
+    scene.add(
+        &ball,
+        Motion::new(far(1.01), [-9.0, 0.0, 0.0], [0.0; 3]).unwrap(),
+    );
+    scene.add_fixed(&shell, Pose::IDENTITY);
+    let inside = middle_of_tube(&shell);
+    let grain = scene.add(
+        &grain,
+        Motion::new(Pose::at(inside).unwrap(), [1.0, 0.0, 0.0], [0.0; 3]).unwrap(),
+    );
+    let first = scene.first_contact(1.0).unwrap().unwrap();
+    assert_eq!((first.bodies, first.hit.time), ([2, grain], 0.0));
+    assert!(matches!(first.hit.kind, HitKind::Overlapping(_)));
+    assert_eq!(scene.contacts(1.0).len(), 2);
+}
+
+/// A point inside of a solid, behind one of its triangles.
+fn middle_of_tube(body: &Body) -> DVec3 {
+    let piece = body.pieces().get(0);
+    let [a, b, c] = [0, 1, 2].map(|k| piece.points[k]);
+    let outwards = (b - a).cross(c - a).normalize();
+    (a + b + c) / 3.0 - 0.02 * outwards
+}
+
+/// Times so short that they round to a few units of the least number.
+#[test]
+fn the_shortest_durations_end() {
+    let size = 1e-20;
+    let ball = Body::ball(0.5 * size).unwrap();
+    let rod = Body::cuboid([0.1 * size, 0.1 * size, 2.0 * size]).unwrap();
+    let config = Config {
+        tolerance: 1e-3 * size,
+        ..Config::default()
+    };
+    let mut met = 0;
+    for units in 1..100u64 {
+        let duration = f64::from_bits(units);
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN).with_config(config);
+        for k in 0..4 {
+            let height = 3.0 * size * f64::from(k);
+            let pose = |x: f64, y: f64| Pose::at([x * size, height + y * size, 0.0]).unwrap();
+            let flies = |speed: f64| [speed * size / duration, 0.0, 0.0];
+            scene.add(
+                &ball,
+                Motion::new(pose(-2.0, 0.0), flies(4.0), [0.0; 3]).unwrap(),
+            );
+            scene.add(
+                &rod,
+                Motion::new(pose(2.0, 0.4), flies(-2.0), [0.0; 3]).unwrap(),
+            );
+        }
+        met += usize::from(scene.first_contact(duration).unwrap().is_some());
+        assert_eq!(scene.first_contact_of_each(duration).len(), 8);
+    }
+    assert!(met > 50, "{met}");
+}

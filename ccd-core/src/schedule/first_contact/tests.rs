@@ -1,7 +1,11 @@
 //! In whatever steps: the answer of the best-first schedule.
 
 use super::*;
+use crate::body::pieces::Pieces;
+use crate::body::{Body, Volume};
+use crate::config::Config;
 use crate::motion::Motion;
+use crate::motion::pose::Pose;
 use crate::schedule::Schedule;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, distance, rng, scene};
@@ -93,18 +97,19 @@ fn a_search_goes_no_further_than_it_is_asked() {
 fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     let mut rng = rng(3);
     let mut reached = 0;
-    for duration in [1e-290, 1e-9, 0.3, 7.0, 1e200] {
+    for duration in [5e-324, 6e-323, 1e-320, 1e-290, 1e-9, 0.3, 7.0, 1e200] {
         for _ in 0..100 {
             let scene = scene(&mut rng, Kind::Sliding, 12);
             let slowed = |k: usize| {
                 let motion = scene.motions[k];
                 let velocity = motion.velocity() / duration;
+                let velocity = velocity.clamp(DVec3::splat(-1e300), DVec3::splat(1e300));
                 let slow = Motion::about(motion.start(), velocity, DVec3::ZERO, motion.centre());
                 (&scene.bodies[k], slow.unwrap())
             };
             let problem = Problem::new(slowed(0), slowed(1), duration, &scene.config).unwrap();
             let mut search = FirstContact::new(problem, BestFirst::default());
-            for exponent in [-320, -17, -9, -3, -1] {
+            for exponent in [-320, -17, -9, -3, -1, -1, -1] {
                 let until = duration * rng.random_range(0.5..1.5) * 10f64.powi(exponent);
                 if let Progress::ApartUntil(time) = search.advance(&mut Exhaustive, until) {
                     assert!(time >= until, "{time:e} {until:e} {duration:e}");
@@ -114,4 +119,59 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
         }
     }
     assert!(reached > 500, "{reached}");
+}
+
+/// No pair of pieces meets, and no time passes without a look at what is inside.
+#[test]
+fn a_body_inside_the_other_is_no_body_apart() {
+    let room = room(4.0);
+    let ball = Body::ball(0.5).unwrap();
+    let flies = Motion::new(Pose::IDENTITY, DVec3::X, DVec3::ZERO).unwrap();
+    for motion in [Motion::STILL, flies] {
+        let [a, b] = [(&ball, motion), (&room, Motion::STILL)];
+        let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
+        for until in [0.0, 1e-9, 0.1, 2.0] {
+            let mut search = FirstContact::new(problem.clone(), BestFirst::default());
+            let progress = search.advance(&mut Exhaustive, until);
+            assert!(
+                matches!(
+                    progress,
+                    Progress::Answered(Answer {
+                        outcome: Outcome::Overlapping { .. },
+                        ..
+                    })
+                ),
+                "{until}: {progress:?}"
+            );
+        }
+    }
+}
+
+/// A solid cube of twelve triangles.
+fn room(half: f64) -> Body {
+    let corner = |k: u32| {
+        let sign = |bit: u32| if k >> bit & 1 == 1 { half } else { -half };
+        DVec3::new(sign(0), sign(1), sign(2))
+    };
+    let corners: Vec<DVec3> = (0..8).map(corner).collect();
+    let faces = [
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ];
+    let ids: Vec<u32> = (0..12).collect();
+    Body::new(
+        &Pieces::triangles(&corners, &faces, &ids).unwrap(),
+        Volume::Solid,
+    )
+    .unwrap()
 }

@@ -4,8 +4,9 @@ use super::super::tests::{bodies, parts};
 use super::*;
 use crate::{Body, HitKind, Pose, Solver};
 use ccd_core::Config;
+use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
@@ -194,4 +195,61 @@ fn what_is_out_of_range_or_unresolved_is_told_or_stops() {
         scene.first_contact(1.0).unwrap().unwrap().hit.kind,
         HitKind::Touching
     );
+}
+
+/// Over a wide floor distances are rounded by more. What is pressed onto it would sink by that in each step.
+#[test]
+fn what_is_pressed_does_not_sink_by_rounding() {
+    let mut rng = Pcg64::seed_from_u64(7);
+    let mut any = move || DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
+    let ball = Body::ball(0.5).unwrap();
+    for (half, tolerance) in [(5.0, 1e-10), (1e3, 1e-7), (1e4, 1e-6), (1e7, 1e-3)] {
+        let floor = Body::cuboid([half, half, 1.0]).unwrap();
+        let config = Config {
+            tolerance,
+            ..Config::default()
+        };
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN).with_config(config);
+        scene.add_fixed(&floor, Pose::at([0.0, 0.0, -1.0]).unwrap());
+        let mut pose = Pose::at([0.3, 0.1, 0.51]).unwrap();
+        let index = scene.add(&ball, Motion::still(pose));
+        for step in 0..1_000 {
+            let way = any();
+            let motion = Motion::new(pose, [way.x, way.y, -0.5], any()).unwrap();
+            scene.set_motion(index, motion);
+            pose = motion.pose(scene.stops(1.0 / 60.0).unwrap()[index].time);
+            let gap = pose.translation().z - 0.5;
+            assert!(
+                gap > 0.4 * tolerance,
+                "{half:e} {tolerance:e}: {gap:e} in step {step}"
+            );
+        }
+        // It lifts off.
+        scene.set_motion(index, Motion::new(pose, [0.0, 0.0, 0.5], [0.0; 3]).unwrap());
+        assert_eq!(scene.stops(1.0).unwrap()[index].by, None);
+    }
+}
+
+#[test]
+fn settings_at_their_limits_are_taken() {
+    let ball = Body::ball(0.5).unwrap();
+    let far = |x: f64| Pose::at([x, 0.0, 0.0]).unwrap();
+    for (tolerance, margin) in [(1e-100, 0.0), (1e12, 0.0), (1e-3, 1e12)] {
+        let config = Config {
+            tolerance,
+            margin,
+            ..Config::default()
+        };
+        let mut scene = Scene::new().with_config(config);
+        scene.add_fixed(&ball, far(0.0));
+        scene.add(&ball, Motion::still(far(3.0)));
+        assert!(scene.stops(1.0).is_ok(), "{tolerance:e} {margin:e}");
+    }
+    // Where bodies have got to, a motion may not begin.
+    let mut scene = Scene::new();
+    let flies = |x: f64, speed: f64| Motion::new(far(x), [speed, 0.0, 0.0], [0.0; 3]).unwrap();
+    scene.add(&ball, flies(1e12 - 10.0, 20.0));
+    scene.add(&ball, flies(1e12, 1.0));
+    scene.add(&ball, flies(1e12 - 30.0, 21.0));
+    assert!(scene.stops(2.0).is_ok());
 }
