@@ -9,10 +9,12 @@ use ccd_core::tolerance::U64;
 /// It is what parry's own casts stop at, ten units of rounding of single precision, rounded down. Twice as much
 /// reports twice as early; a thousandth of it takes a few percent longer, for contacts that single precision can
 /// not tell apart.
+#[cfg(feature = "f32")]
 pub(crate) const CONTACT_F32: f64 = 1e-6;
 
 /// The default distance at which double precision is in contact, in the scene's unit of length. parry's casts stop
 /// at 2e-15, which no proof in double precision can reach.
+#[cfg(feature = "f64")]
 pub(crate) const CONTACT_F64: f64 = 1e-9;
 
 /// The default tolerance is at most this part of the smaller body's radius: bodies of a micrometre, in metres, are

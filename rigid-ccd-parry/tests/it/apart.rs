@@ -6,6 +6,7 @@ use crate::double::library::shape::TypedShape;
 use crate::double::make::SharedShape;
 use crate::scenes::{KINDS, motions, random, shape};
 use crate::{double, single};
+use ccd_core::order::lesser;
 use rigid_ccd_parry::{Settings, f32 as ours32, f64 as ours64};
 
 /// A scene in both precisions.
@@ -47,12 +48,12 @@ impl Scene {
             let found = distance(&(p * *at), &**a, &(q * *beside), &**b);
             found.expect("supported").distance
         };
-        pairs.map(of_pair).fold(Real::INFINITY, Real::min)
+        pairs.map(of_pair).fold(Real::INFINITY, lesser)
     }
 
     /// Returns whether the shapes stay apart at sampled times.
     fn is_apart_until(&self, end: Real) -> bool {
-        (0..200).all(|k| self.distance(end * Real::from(k) / 200.0) > 0.0)
+        (0..60).all(|k| self.distance(end * Real::from(k) / 60.0) > 0.0)
     }
 }
 

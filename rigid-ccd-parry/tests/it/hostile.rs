@@ -1,16 +1,12 @@
 //! Inputs that break casts: no panic, no hang, no hit outside of the interval, no error without a name.
 
 use crate::scenes::{number, random};
-use parry3d::bounding_volume::{Aabb, BoundingSphere};
-use parry3d::mass_properties::MassProperties;
+use ccd_core::order::greater;
 use parry3d::math::{Pose, Real, Rotation, Vector};
-use parry3d::query::{
-    NonlinearRigidMotion, PointProjection, PointQuery, Ray, RayCast, RayIntersection, ShapeCastHit,
-    ShapeCastOptions, ShapeCastStatus,
-};
+use parry3d::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions, ShapeCastStatus};
 use parry3d::shape::{
-    Ball, Compound, Cone, Cuboid, Cylinder, FeatureId, HeightField, Segment, Shape, ShapeType,
-    SharedShape, TriMesh, Triangle, TypedShape,
+    Ball, Compound, Cone, Cuboid, Cylinder, HeightField, Segment, Shape, SharedShape, TriMesh,
+    Triangle,
 };
 use parry3d::utils::Array2;
 use rand::RngExt;
@@ -237,7 +233,7 @@ fn large_scenes_and_far_origins_are_met_in_time() {
     // Every number is exact in single precision.
     for far in [0.0, 65536.0, 1e9, 68719476736.0f32] {
         let (ball, cube) = (Ball::new(1.0), Cuboid::new(Vector::splat(1.0)));
-        let step = (far * 1e-6).max(8.0).log2().ceil().exp2();
+        let step = greater(far * 1e-6, 8.0).log2().ceil().exp2();
         let found = time(&ball, &cube, [flies(far - step, 1.0), rests(far)], 1e6);
         let exact = step - 2.0;
         let found = found.expect("they meet");
@@ -366,96 +362,4 @@ fn errors_name_what_is_wrong() {
         told,
         "motion 1: a quaternion of length zero names no orientation"
     );
-}
-
-#[test]
-fn parts_of_compounds_may_nest_and_not_without_end() {
-    let nested = |depth: usize| {
-        let mut shape = SharedShape::ball(1.0);
-        for _ in 0..depth {
-            let place = Pose::translation(1.0, 0.0, 0.0);
-            let inner = Compound::new(vec![(place, shape)]);
-            shape = SharedShape::new(Wrapped(inner));
-        }
-        shape
-    };
-    let found = time(
-        &*nested(3),
-        &Ball::new(1.0),
-        [flies(-9.0, 1.0), rests(0.0)],
-        9.0,
-    );
-    // The ball is at −9 + 3.
-    let found = found.expect("they meet");
-    assert!(found <= 4.0 && found > 3.99999, "{found}");
-    let settings = Settings::default();
-    assert!(body(&*nested(16), &settings).is_ok());
-    let mut error = body(&*nested(17), &settings).expect_err("refused");
-    while let ShapeError::Part { error: inner, .. } = error {
-        error = *inner;
-    }
-    assert_eq!(error, ShapeError::Nested);
-}
-
-/// A compound that parry does not know for one, and so takes as a part of others.
-#[derive(Clone)]
-struct Wrapped(Compound);
-
-impl RayCast for Wrapped {
-    fn cast_local_ray_and_get_normal(
-        &self,
-        ray: &Ray,
-        most: Real,
-        solid: bool,
-    ) -> Option<RayIntersection> {
-        self.0.cast_local_ray_and_get_normal(ray, most, solid)
-    }
-}
-
-impl PointQuery for Wrapped {
-    fn project_local_point(&self, point: Vector, solid: bool) -> PointProjection {
-        self.0.project_local_point(point, solid)
-    }
-
-    fn project_local_point_and_get_feature(&self, point: Vector) -> (PointProjection, FeatureId) {
-        self.0.project_local_point_and_get_feature(point)
-    }
-}
-
-impl Shape for Wrapped {
-    fn compute_local_aabb(&self) -> Aabb {
-        self.0.compute_local_aabb()
-    }
-
-    fn compute_local_bounding_sphere(&self) -> BoundingSphere {
-        self.0.compute_local_bounding_sphere()
-    }
-
-    fn clone_dyn(&self) -> Box<dyn Shape> {
-        Box::new(self.clone())
-    }
-
-    fn scale_dyn(&self, scale: Vector, subdivisions: u32) -> Option<Box<dyn Shape>> {
-        self.0.scale_dyn(scale, subdivisions)
-    }
-
-    fn mass_properties(&self, density: Real) -> MassProperties {
-        self.0.mass_properties(density)
-    }
-
-    fn shape_type(&self) -> ShapeType {
-        ShapeType::Custom
-    }
-
-    fn as_typed_shape(&self) -> TypedShape<'_> {
-        TypedShape::Compound(&self.0)
-    }
-
-    fn ccd_thickness(&self) -> Real {
-        self.0.ccd_thickness()
-    }
-
-    fn ccd_angular_thickness(&self) -> Real {
-        self.0.ccd_angular_thickness()
-    }
 }
