@@ -86,5 +86,26 @@ fn bodies_are_looked_at_until_they_are_through_or_away() {
     let away = horizon(at([0.0, 3.0, 0.0], [5.0, 2.0, 0.0], [1.0; 3], 1.0));
     assert_eq!(away, Horizon::Whole(0.0));
     let slides = horizon(at([0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [1.0; 3], 1.0));
-    assert!(matches!(slides, Horizon::Part(_)), "{slides:?}");
+    let Horizon::Whole(turn) = slides else {
+        panic!("it repeats itself");
+    };
+    assert!(turn > 3.6 && turn < 3.7, "{turn}");
+    assert_eq!(
+        horizon(at([0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [0.0; 3], 1.0)),
+        Horizon::Whole(0.0)
+    );
+}
+
+#[test]
+fn what_may_be_along_a_tilted_plane_is_followed_for_a_while() {
+    let plane = HalfSpace::new(DVec3::new(1.0, 1.0, 1.0)).expect("a normal");
+    let ground = at([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
+    // Rounding does not tell whether it comes down.
+    let along = at([3.0, 3.0, 3.0], [5.0, -2.0, -3.0], [0.0; 3], 1.0);
+    let horizon = plane.horizon(ground, along, 0.25, f64::INFINITY);
+    assert!(
+        matches!(horizon, Horizon::Part(duration) if duration > 1e6),
+        "{horizon:?}"
+    );
+    assert_eq!(plane.horizon(ground, along, 0.25, 1e3), Horizon::Whole(1e3));
 }

@@ -11,10 +11,8 @@ use parry3d::shape::{
 use parry3d::utils::Array2;
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
-use rigid_ccd_parry::f32::{
-    body, cast_shapes_nonlinear, try_cast_shapes, try_cast_shapes_nonlinear,
-};
-use rigid_ccd_parry::{CastError, Settings, ShapeError};
+use rigid_ccd_parry::CastError;
+use rigid_ccd_parry::f32::{cast_shapes_nonlinear, try_cast_shapes, try_cast_shapes_nonlinear};
 
 /// Numbers that casts go wrong at.
 const ODD: [f32; 20] = [
@@ -361,5 +359,73 @@ fn errors_name_what_is_wrong() {
     assert_eq!(
         told,
         "motion 1: a quaternion of length zero names no orientation"
+    );
+}
+
+#[test]
+fn a_speed_that_both_have_costs_no_digits() {
+    // Two ships in orbit, of which one closes in slowly. All numbers are exact in single precision.
+    let ball = Ball::new(1.0);
+    let orbit = 8192.0 * Vector::new(1.0, -2.0, 3.0);
+    let near = NonlinearRigidMotion {
+        linvel: orbit + 0.125 * Vector::X,
+        ..rests(-10.0)
+    };
+    let ahead = NonlinearRigidMotion {
+        linvel: orbit,
+        ..rests(0.0)
+    };
+    let found = time(&ball, &ball, [near, ahead], f32::INFINITY).expect("they meet");
+    assert!(found <= 64.0 && found > 64.0 - 2e-5, "{found}");
+    assert_eq!(
+        time(
+            &ball,
+            &ball,
+            [ahead, ahead.append_translation(3.0 * Vector::Y)],
+            1e30
+        ),
+        None
+    );
+}
+
+#[test]
+fn a_body_slides_above_a_half_space_for_ever() {
+    let (ball, ground) = (Ball::new(1.0), SharedShape::halfspace(Vector::Y));
+    let slides = |height: f32, speed: f32, spin: f32| NonlinearRigidMotion {
+        start: Pose::translation(0.0, height, 0.0),
+        linvel: Vector::new(speed, 0.0, -0.3 * speed),
+        angvel: spin * Vector::X,
+        local_center: 0.25 * Vector::Z,
+    };
+    for speed in [0.0, 1.0, 1e6, 1e30] {
+        for spin in [0.0, 1.0] {
+            let found = time(
+                &ball,
+                &*ground,
+                [slides(1.5, speed, spin), rests(0.0)],
+                f32::MAX,
+            );
+            // At the highest speed a turn leads farther than the plane is known.
+            let known = speed < 1e30 || spin == 0.0;
+            assert_eq!(found.is_none(), known, "{speed:e} {spin}");
+        }
+        let found = time(
+            &ball,
+            &*ground,
+            [slides(1.0, speed, 0.0), rests(0.0)],
+            f32::MAX,
+        );
+        assert_eq!(found, Some(0.0), "{speed:e}");
+    }
+    // It turns about a point beside its middle, and comes down by a quarter.
+    let found = time(
+        &ball,
+        &*ground,
+        [slides(1.2, 1.0, 1.0), rests(0.0)],
+        f32::MAX,
+    );
+    assert!(
+        found.is_some_and(|time| time > 0.1 && time < 6.3),
+        "{found:?}"
     );
 }
