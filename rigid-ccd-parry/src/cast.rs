@@ -1,16 +1,16 @@
 //! A cast in double precision, made a question for the engine.
 
 use crate::half_space::HalfSpace;
-use crate::horizon::{Horizon, Reaching};
+use crate::horizon::{Horizon, Reaching, way};
 use crate::interval::Interval;
 use crate::leaving::parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{Ending, Found, Scene};
-use crate::tolerance::{BEYOND, SHARE_OF_SIZE};
+use crate::tolerance::{BEYOND, RELATIVE, SHARE_OF_SIZE};
 use crate::{CastError, Prepared, Settings};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
-use ccd_core::{Config, InputError, Motion, StartPolicy, Stray, Trajectory};
+use ccd_core::{Config, InputError, Motion, StartPolicy, Stray, Stretch, Trajectory};
 use rigid_ccd::Solver;
 use std::sync::Arc;
 
@@ -62,7 +62,7 @@ struct Started {
 impl Cast<'_> {
     /// Finds the first contact in the interval.
     pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
-        let started = [self.started(0)?, self.started(1)?];
+        let started = self.started()?;
         match self.operands {
             [Operand::Body(a), Operand::Body(b)] => self.of_bodies([a, b], started, solver),
             [Operand::HalfSpace(plane), Operand::Body(body)] => {
@@ -85,7 +85,8 @@ impl Cast<'_> {
         let started = [0, 1].map(|k| started[k].without_spin_of(bodies[k]));
         let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
         let slack = |k: usize| bodies[k].slack() + slack(started[k].stray, &sides[k]);
-        let config = self.config(&bodies, slack(0) + slack(1))?;
+        let rounded = self.rounded(way(&sides, self.target + self.tolerance(&bodies)));
+        let config = self.config(&bodies, slack(0) + slack(1) + rounded)?;
         let within = config.margin + config.tolerance;
         let scene = Scene {
             bodies,
@@ -119,15 +120,15 @@ impl Cast<'_> {
         let reach = |horizon: Horizon| plane.reach(of_plane, side, within, horizon.duration());
         let horizon = plane.horizon(of_plane, side, within, wanted);
         // The box is off by what the motion is at its farthest point, for which there is room.
-        let off = started[index].stray.at(4.0 * reach(horizon));
-        let slack = body.slack() + slack(stray, &side) + off;
+        let reach = reach(horizon);
+        let away = length(of_plane.about - of_plane.motion.centre());
+        let off = started[index].stray.at(4.0 * reach + away);
+        let slack = body.slack() + slack(stray, &side) + off + self.rounded(reach);
         let config = self.config(&[body], slack)?;
-        let stand_in = plane
-            .stand_in(of_plane, 2.0 * reach(horizon))
-            .map_err(|error| {
-                let which = index as u8 + 1;
-                CastError::Shape { which, error }
-            })?;
+        let stand_in = plane.stand_in(of_plane, 2.0 * reach).map_err(|error| {
+            let which = index as u8 + 1;
+            CastError::Shape { which, error }
+        })?;
         let (mut bodies, mut motions) = ([&stand_in, body], [of_plane.motion, side.motion]);
         if index == 1 {
             bodies.reverse();
@@ -152,7 +153,7 @@ impl Cast<'_> {
             Some(found)
                 if found.ending == Ending::Overlap
                     && self.start == StartPolicy::Leave
-                    && scene.is_straight() =>
+                    && scene.is_let_go() =>
             {
                 parting(scene, found, solver)
             }
@@ -160,14 +161,37 @@ impl Cast<'_> {
         }
     }
 
-    /// Returns the motion from the start of the interval on.
-    fn started(&self, index: usize) -> Result<Started, CastError> {
-        Started::new(&self.motions[index], self.interval.start()).map_err(|error| {
-            CastError::Motion {
-                which: index as u8 + 1,
-                error,
-            }
-        })
+    /// Returns the motions from the start of the interval on, as seen by one who moves along with the second body: a
+    /// speed that both have costs no digits.
+    fn started(&self) -> Result<[Started; 2], CastError> {
+        let along = self.motions[1].velocity();
+        let started = |k: usize| {
+            let named = |error| {
+                let which = k as u8 + 1;
+                CastError::Motion { which, error }
+            };
+            Started::new(&self.motions[k], self.interval.start(), along).map_err(named)
+        };
+        Ok([started(0)?, started(1)?])
+    }
+
+    /// Bounds how far bodies are off for that, on their way past each other.
+    fn rounded(&self, way: f64) -> f64 {
+        match self.motions[1].velocity() == DVec3::ZERO {
+            true => 0.0,
+            false => RELATIVE * way,
+        }
+    }
+
+    /// Returns the distance at which bodies without a margin are in contact.
+    fn tolerance(&self, bodies: &[&Prepared]) -> f64 {
+        let sizes = bodies.iter().map(|body| body.ball().1);
+        let sizes = sizes.filter(|size| *size > 0.0);
+        let by_default = sizes.fold(self.contact, |least, size| {
+            lesser(least, SHARE_OF_SIZE * size)
+        });
+        let asked = self.settings.tolerance;
+        asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
     }
 
     /// Returns the engine's settings for bodies that may be off by the slack.
@@ -180,34 +204,30 @@ impl Cast<'_> {
                 allowed: "at least 0 and finite",
             });
         }
-        let settings = &self.settings;
-        let sizes = bodies.iter().map(|body| body.ball().1);
-        let by_default = (sizes.filter(|size| *size > 0.0)).fold(self.contact, |least, size| {
-            lesser(least, SHARE_OF_SIZE * size)
-        });
-        let by_default = greater(by_default, LEAST_TOLERANCE);
         Ok(Config {
-            tolerance: settings.tolerance.unwrap_or(by_default),
+            tolerance: self.tolerance(bodies),
             margin,
             start: self.start,
-            budget: settings.budget,
-            deadline: settings.deadline,
+            budget: self.settings.budget,
+            deadline: self.settings.deadline,
             ..Config::default()
         })
     }
 }
 
 impl Started {
-    fn new(motion: &Motion, start: f64) -> Result<Self, InputError> {
+    fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
         // All points of a body that does not turn move straight: a centre at its origin rounds least.
-        let motion = match motion.spin() == DVec3::ZERO {
-            true => Motion::new(motion.start(), motion.velocity(), DVec3::ZERO)?,
-            false => *motion,
+        let centre = match motion.spin() == DVec3::ZERO {
+            true => DVec3::ZERO,
+            false => motion.centre(),
         };
-        let stretch = motion.stretch(start, start)?;
+        let motion = Motion::about(motion.start(), motion.velocity(), motion.spin(), centre)?;
+        let Stretch { motion, stray, .. } = motion.stretch(start, start)?;
+        let velocity = motion.velocity() - along;
         Ok(Started {
-            motion: stretch.motion,
-            stray: stretch.stray,
+            motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,
+            stray,
         })
     }
 

@@ -6,9 +6,9 @@
 use crate::form::Form;
 use crate::horizon::{Horizon, Reaching};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{BEYOND, FACE};
+use crate::tolerance::{BEYOND, FACE, FARTHEST_ALONG};
 use crate::{Prepared, ShapeError};
-use ccd_core::glam::DVec3;
+use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
 use std::f64::consts::TAU;
 
@@ -47,7 +47,15 @@ impl HalfSpace {
     ) -> Horizon {
         let needed = self.decided(plane, body, within);
         let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
-        Horizon::needed([plane, body], needed)
+        let horizon = Horizon::needed([plane, body], needed);
+        // What stands in for a plane is as wide as the way along it, and rounded as that is.
+        let size = body.reach + within + length(body.place() - plane.place());
+        let speed = length(body.motion.velocity() - plane.motion.velocity());
+        let most = FARTHEST_ALONG * size / speed;
+        match speed > 0.0 && horizon.duration() > most {
+            true => Horizon::Part(most),
+            false => horizon,
+        }
     }
 
     /// Returns a time after which the body is inside for good, or outside for good, or does what it did; none if there
@@ -67,12 +75,20 @@ impl HalfSpace {
         if !still {
             return None;
         }
+        let velocity = b.velocity() - p.velocity();
+        let upright = p.start().rotation() == DQuat::IDENTITY;
+        if upright && self.normal * velocity == DVec3::ZERO {
+            // Exactly along the plane.
+            return Some(match spin == DVec3::ZERO {
+                true => 0.0,
+                false => TAU / length(spin) * BEYOND,
+            });
+        }
         let normal = p.start().rotation() * self.normal;
         let (from, to) = (p.start().translation(), body.place());
-        let velocity = b.velocity() - p.velocity();
         let rate = normal.dot(velocity);
         let rounding = FACE * length(velocity);
-        let spread = length(from) + length(to);
+        let spread = plane.spread() + body.spread();
         let height = normal.dot(to - from);
         let reach = (body.reach + within + FACE * spread) * BEYOND;
         let way = if rate < 0.0 {
@@ -88,7 +104,7 @@ impl HalfSpace {
     pub(crate) fn reach(&self, plane: Reaching, body: Reaching, within: f64, duration: f64) -> f64 {
         let [p, b] = [plane.place(), body.place()];
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let spread = length(p) + length(b);
+        let spread = plane.spread() + body.spread();
         (length(b - p) + speed * duration + body.reach + within + FACE * spread) * BEYOND
     }
 

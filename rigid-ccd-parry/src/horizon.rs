@@ -25,6 +25,11 @@ impl Reaching {
     pub(crate) fn place(&self) -> DVec3 {
         self.motion.start().transform_point(self.about)
     }
+
+    /// Returns the sum of the lengths that the place is computed of, for its rounding.
+    pub(crate) fn spread(&self) -> f64 {
+        length(self.motion.start().translation()) + length(self.about)
+    }
 }
 
 /// The time to look at.
@@ -61,14 +66,15 @@ impl Horizon {
 
 /// Returns a time after which the bodies are out of each other's reach; none if they do not pass each other.
 fn passed(bodies: [Reaching; 2], within: f64) -> Option<f64> {
-    let [a, b] = bodies.map(|body| body.motion);
-    let speed = length(b.velocity() - a.velocity());
-    let [at_a, at_b] = bodies.map(|body| body.place());
-    // The rounding of the places, too, is made up for.
-    let spread = length(at_a) + length(at_b);
-    let apart = length(at_b - at_a) + (BEYOND - 1.0) * spread;
-    let way = apart + bodies[0].reach + bodies[1].reach + within;
-    (speed > 0.0).then(|| way / speed * BEYOND)
+    let [a, b] = bodies.map(|body| body.motion.velocity());
+    let speed = length(b - a);
+    (speed > 0.0).then(|| way(&bodies, within) / speed * BEYOND)
+}
+
+/// Bounds how far the bodies move past each other while they may be in contact.
+pub(crate) fn way([a, b]: &[Reaching; 2], within: f64) -> f64 {
+    let rounding = (BEYOND - 1.0) * (a.spread() + b.spread());
+    length(b.place() - a.place()) + rounding + a.reach + b.reach + within
 }
 
 /// Returns a time after which the bodies have each pose to each other that they ever have, if they do not move on.
@@ -90,11 +96,13 @@ fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
 
 /// Returns the longest time for which the engine takes both motions.
 fn possible(bodies: [Reaching; 2]) -> f64 {
-    let origin = bodies[1].motion.start().translation();
+    // The engine's origin is at one of them.
+    let origins = bodies.map(|body| body.motion.start().translation());
     let of = |body: &Reaching| {
         let motion = &body.motion;
         let centre = motion.start().transform_point(motion.centre());
-        let left = MAX_COORDINATE * USED - length(centre - origin);
+        let far = origins.map(|origin| length(centre - origin));
+        let left = MAX_COORDINATE * USED - greater(far[0], far[1]);
         let (speed, rate) = (length(motion.velocity()), length(motion.spin()));
         let travel = if speed > 0.0 {
             greater(left, 0.0) / speed

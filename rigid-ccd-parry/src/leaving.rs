@@ -8,7 +8,7 @@ mod direction;
 use crate::form::Form;
 use crate::order::{greater, length, lesser};
 use crate::scene::{Ending, Found, Scene};
-use crate::tolerance::BEYOND;
+use crate::tolerance::{ALONG, BEYOND};
 use crate::{CastError, Prepared};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
@@ -161,7 +161,8 @@ fn parts(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
     // Written so that NaN does not part.
-    direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= 0.0)
+    let least = -ALONG * length(velocity);
+    direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= least)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use crate::order::lesser;
 use crate::tolerance::LOOK;
 use crate::{CastError, Prepared};
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Config, Contact, Motion, Outcome, Overlap, Pose};
+use ccd_core::{Answer, Config, Contact, Motion, Outcome, Overlap, Pose, Volume};
 use rigid_ccd::Solver;
 use rigid_ccd::schedule::ClosestApproach;
 
@@ -61,11 +61,15 @@ impl Scene<'_> {
         Ok(self.found(&answer, solver))
     }
 
-    /// Returns whether both bodies move straight.
-    pub(crate) fn is_straight(&self) -> bool {
-        self.motions
-            .iter()
-            .all(|motion| motion.spin() == DVec3::ZERO)
+    /// Returns whether overlapping pieces may be let go: if both bodies move straight, and touch by their pieces alone.
+    pub(crate) fn is_let_go(&self) -> bool {
+        let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
+        // Inside a mesh that is a solid there is no piece to part from.
+        let bare = |body: &&Prepared| {
+            let body = body.body();
+            body.pieces().len() == 1 || body.volume() == Volume::Surface
+        };
+        self.motions.iter().all(straight) && self.bodies.iter().all(bare)
     }
 
     fn found(&self, answer: &Answer, solver: &mut Solver) -> Option<Found> {

@@ -8,10 +8,21 @@ use std::sync::Arc;
 /// The bodies that were asked for last, for shapes that nobody holds.
 ///
 /// A body is found by its form, number by number: no other shape is ever taken for it.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Shelf {
     /// The one asked for last stands last.
     bodies: Vec<Kept>,
+    /// The most memory that they may take.
+    most_bytes: usize,
+}
+
+impl Default for Shelf {
+    fn default() -> Self {
+        Shelf {
+            bodies: Vec::new(),
+            most_bytes: KEPT_BYTES,
+        }
+    }
 }
 
 #[derive(Debug)]
@@ -32,7 +43,7 @@ impl Shelf {
         let body = Arc::new(Prepared::new(&form)?);
         let bytes = body.bytes() + form.bytes();
         self.make_room(bytes);
-        if bytes <= KEPT_BYTES {
+        if bytes <= self.most_bytes {
             self.bodies.push(Kept {
                 form,
                 body: Arc::clone(&body),
@@ -47,7 +58,7 @@ impl Shelf {
         let mut held: usize = self.bodies.iter().map(|kept| kept.bytes).sum();
         let mut gone = 0;
         while gone < self.bodies.len()
-            && (held + bytes > KEPT_BYTES || self.bodies.len() - gone >= KEPT_BODIES)
+            && (held + bytes > self.most_bytes || self.bodies.len() - gone >= KEPT_BODIES)
         {
             held -= self.bodies[gone].bytes;
             gone += 1;

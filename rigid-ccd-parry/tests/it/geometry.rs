@@ -2,6 +2,7 @@
 
 use crate::double;
 use crate::scenes::{KINDS, Recipe, random, shape, turn};
+use ccd_core::order::greater;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Shape, SharedShape, TypedShape};
 use rigid_ccd::glam::DVec3;
@@ -12,12 +13,9 @@ fn reach(body: &Prepared, direction: DVec3) -> f64 {
     let pieces = body.body().pieces();
     let of_piece = |piece: rigid_ccd::Piece<'_>| {
         let points = piece.points.iter().map(|p| p.dot(direction));
-        points.fold(f64::NEG_INFINITY, f64::max) + piece.radius
+        points.fold(f64::NEG_INFINITY, greater) + piece.radius
     };
-    pieces
-        .iter()
-        .map(of_piece)
-        .fold(f64::NEG_INFINITY, f64::max)
+    pieces.iter().map(of_piece).fold(f64::NEG_INFINITY, greater)
 }
 
 /// Returns how far a shape of parry's reaches, by its own means.
@@ -28,7 +26,7 @@ fn reach_of(shape: &dyn Shape, at: &Pose, direction: Vector) -> f64 {
     let most = |points: &mut dyn Iterator<Item = Vector>| {
         points
             .map(|p| (at * p).dot(direction))
-            .fold(f64::NEG_INFINITY, f64::max)
+            .fold(f64::NEG_INFINITY, greater)
     };
     match shape.as_typed_shape() {
         TypedShape::TriMesh(mesh) => most(&mut mesh.triangles().flat_map(|t| [t.a, t.b, t.c])),
@@ -51,7 +49,7 @@ fn reach_of(shape: &dyn Shape, at: &Pose, direction: Vector) -> f64 {
                 .shapes()
                 .iter()
                 .map(part)
-                .fold(f64::NEG_INFINITY, f64::max)
+                .fold(f64::NEG_INFINITY, greater)
         }
         _ => unreachable!("all others have a support map"),
     }
@@ -91,7 +89,7 @@ fn bodies_hold_their_shapes_and_exceed_them_by_what_they_say() {
                     more < ours.excess() + ours.slack() + 1e-14,
                     "{recipe:?} has {more:e} more"
                 );
-                most = f64::max(most, more);
+                most = greater(most, more);
             }
         }
         let round = matches!(

@@ -5,6 +5,7 @@ use crate::double::library::query::{self, NonlinearRigidMotion, ShapeCastOptions
 use crate::double::library::shape::{HalfSpace, Shape};
 use crate::double::make;
 use crate::scenes::{motions, number, random, shape, turn};
+use ccd_core::order::lesser;
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
 /// Returns the height of a shape above a plane through a pose.
@@ -77,7 +78,7 @@ fn turning_bodies_stay_above_until_they_are_hit() {
         };
         let least = (0..200)
             .map(|k| at(end * f64::from(k) / 200.0))
-            .fold(f64::INFINITY, f64::min);
+            .fold(f64::INFINITY, lesser);
         assert!(
             least > 0.0 || end == 0.0,
             "seed {seed}: {least:e} before {end}"

@@ -6,6 +6,7 @@ mod frames;
 mod geometry;
 mod half_spaces;
 mod hostile;
+mod nested;
 mod options;
 mod parting;
 mod poses;
@@ -13,6 +14,7 @@ mod scenes;
 
 /// parry's types in single precision.
 #[path = ""]
+#[allow(clippy::useless_conversion)] // Some conversions are needed in the other precision only.
 mod single {
     pub(crate) use parry3d as library;
 

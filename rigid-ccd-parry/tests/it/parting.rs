@@ -200,3 +200,39 @@ fn bodies_that_turn_are_in_contact_where_they_overlap() {
     assert_eq!(cast(Vector::ZERO, false), None);
     assert_eq!(cast(Vector::Y, false), Some((0.0, PENETRATING)));
 }
+
+#[test]
+fn inside_a_mesh_that_is_a_solid_nothing_parts() {
+    use crate::double::library::shape::{TriMesh, TriMeshFlags};
+    use rigid_ccd_parry::f64::Caster;
+    use rigid_ccd_parry::{Meshes, Settings};
+    let (vertices, indices) = Cuboid::new(Vector::splat(2.0)).to_trimesh();
+    let mesh = TriMesh::with_flags(vertices, indices, TriMeshFlags::ORIENTED).expect("a mesh");
+    let (mesh, ball) = (SharedShape::new(mesh), SharedShape::ball(0.5));
+    let cast = |meshes, x: f64| {
+        let mut caster = Caster::new(Settings {
+            meshes,
+            ..Settings::default()
+        });
+        let rests = (Pose::IDENTITY, Vector::ZERO);
+        let hit = caster.cast_shapes(
+            &at(x, 0.1, 0.2),
+            -Vector::X,
+            &ball,
+            &rests.0,
+            rests.1,
+            &mesh,
+            options(),
+        );
+        hit.expect("served").map(|hit| hit.time_of_impact)
+    };
+    // Through the wall, from inside and from outside of it, and in the middle.
+    for (x, surface) in [(1.8, Some(3.3)), (2.2, Some(0.0)), (0.0, Some(1.5))] {
+        let found = cast(Meshes::Surfaces, x);
+        let near = found
+            .zip(surface)
+            .is_some_and(|(time, exact)| (time - exact).abs() < 1e-6);
+        assert!(near, "{x}: {found:?}");
+        assert_eq!(cast(Meshes::SolidIfOriented, x), Some(0.0), "{x}");
+    }
+}

@@ -2,6 +2,7 @@
 
 use crate::scenes::{Moves, motions, number, random, vector};
 use crate::{double, single};
+use ccd_core::order::greater;
 use rigid_ccd::{Motion, glam::DVec3};
 
 /// Returns the largest distance of points of the body from where parry has them, relative to all lengths.
@@ -11,7 +12,7 @@ fn worst(rounds: u64, error: impl Fn(&Moves, f32, [f32; 3]) -> f64) -> f64 {
     for _ in 0..rounds {
         let [moves, _] = motions(&mut rng);
         let (time, point) = (number(&mut rng, -2.0, 5.0), vector(&mut rng, 2.0));
-        worst = f64::max(worst, error(&moves, time, point));
+        worst = greater(worst, error(&moves, time, point));
     }
     worst
 }

@@ -38,6 +38,54 @@ pub(crate) struct Moves {
     pub(crate) spin: [f32; 3],
 }
 
+impl Recipe {
+    /// Returns it with all lengths multiplied by a power of two.
+    pub(crate) fn scaled(self, by: f32) -> Self {
+        let v = |v: [f32; 3]| v.map(|x| x * by);
+        match self {
+            Recipe::Ball(r) => Recipe::Ball(r * by),
+            Recipe::Cuboid(half) => Recipe::Cuboid(v(half)),
+            Recipe::RoundCuboid(half, r) => Recipe::RoundCuboid(v(half), r * by),
+            Recipe::Capsule(a, b, r) => Recipe::Capsule(v(a), v(b), r * by),
+            Recipe::Segment(ends) => Recipe::Segment(ends.map(v)),
+            Recipe::Triangle(corners) => Recipe::Triangle(corners.map(v)),
+            Recipe::RoundTriangle(corners, r) => Recipe::RoundTriangle(corners.map(v), r * by),
+            Recipe::Hull(points, r) => Recipe::Hull(points.into_iter().map(v).collect(), r * by),
+            Recipe::Mesh(points, faces) => Recipe::Mesh(points.into_iter().map(v).collect(), faces),
+            Recipe::Heights(heights, rows, scale) => Recipe::Heights(heights, rows, v(scale)),
+            Recipe::Cylinder(half, r, border) => Recipe::Cylinder(half * by, r * by, border * by),
+            Recipe::Cone(half, r, border) => Recipe::Cone(half * by, r * by, border * by),
+            Recipe::Voxels(size, cells) => Recipe::Voxels(v(size), cells),
+            Recipe::Polyline(points) => Recipe::Polyline(points.into_iter().map(v).collect()),
+            Recipe::Compound(parts) => {
+                let part = |(place, turned, inner): ([f32; 3], [f32; 4], Recipe)| {
+                    (v(place), turned, inner.scaled(by))
+                };
+                Recipe::Compound(parts.into_iter().map(part).collect())
+            }
+        }
+    }
+
+    /// Returns its kind in one word.
+    pub(crate) fn name(&self) -> String {
+        let text = format!("{self:?}");
+        text.split('(').next().unwrap_or_default().to_owned()
+    }
+}
+
+impl Moves {
+    /// Returns it with all lengths multiplied by a power of two.
+    pub(crate) fn scaled(self, by: f32) -> Self {
+        let v = |v: [f32; 3]| v.map(|x| x * by);
+        Moves {
+            place: v(self.place),
+            centre: v(self.centre),
+            velocity: v(self.velocity),
+            ..self
+        }
+    }
+}
+
 pub(crate) fn random(seed: u64) -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(seed)
 }

@@ -1,1 +1,58 @@
+use super::super::library::shape::{Ball, Cuboid};
+use super::*;
 
+fn cast(radius: Real) -> Option<Real> {
+    let start = Pose::translation(-3.0, 0.0, 0.0);
+    let flies = NonlinearRigidMotion::new(start, Vector::ZERO, Vector::X, Vector::ZERO);
+    let rests = NonlinearRigidMotion::identity();
+    let (ball, wall) = (Ball::new(radius), Cuboid::new(Vector::splat(1.0)));
+    let hit = cast_shapes_nonlinear(&flies, &ball, &rests, &wall, 0.0, 9.0, true);
+    hit.expect("served").map(|hit| hit.time_of_impact)
+}
+
+/// Casts when its thread ends, where nothing is kept any more.
+struct AtTheEnd;
+
+impl Drop for AtTheEnd {
+    fn drop(&mut self) {
+        assert!(cast(1.0).is_some_and(|time| time <= 1.0));
+    }
+}
+
+thread_local! {
+    static LAST: AtTheEnd = const { AtTheEnd };
+}
+
+#[test]
+fn casts_work_when_a_thread_ends() {
+    let thread = std::thread::spawn(|| {
+        // The one made first goes last.
+        LAST.with(|_| ());
+        cast(0.5)
+    });
+    assert!(thread.join().expect("no panic").is_some());
+}
+
+#[test]
+fn shapes_in_one_place_are_told_apart_by_their_numbers() {
+    for k in 1..200 {
+        // In the same place of the stack.
+        let radius = 0.001 * k as Real;
+        let time = cast(radius).expect("they meet");
+        let exact = 2.0 - radius;
+        assert!((time - exact).abs() < 1e-5, "{radius}: {time}");
+    }
+}
+
+#[test]
+fn the_reason_is_told() {
+    let (ball, bad) = (Ball::new(1.0), Ball::new(Real::NAN));
+    let rests = NonlinearRigidMotion::identity();
+    let told = try_cast_shapes_nonlinear(&rests, &ball, &rests, &bad, [0.0, 1.0], true);
+    assert!(
+        matches!(told, Err(CastError::Shape { which: 2, .. })),
+        "{told:?}"
+    );
+    let silent = cast_shapes_nonlinear(&rests, &ball, &rests, &bad, 0.0, 1.0, true);
+    assert!(matches!(silent, Err(Unsupported)));
+}

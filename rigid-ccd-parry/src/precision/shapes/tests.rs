@@ -1,1 +1,106 @@
+use super::super::library::math::Vector;
+use super::super::library::shape::{Ball, HeightFieldCellStatus, SharedShape, TriMesh};
+use super::super::library::utils::Array2;
+use super::*;
 
+fn prepared(shape: &dyn Shape) -> Prepared {
+    body(shape, &Settings::default()).expect("served")
+}
+
+#[test]
+fn holes_of_height_fields_are_holes() {
+    let mut field = HeightField::new(Array2::repeat(4, 5, 0.5), Vector::new(2.0, 1.0, 3.0));
+    let whole = prepared(&field);
+    assert_eq!(whole.body().pieces().len(), 24);
+    let removed = HeightFieldCellStatus::LEFT_TRIANGLE_REMOVED;
+    field.set_cell_status(1, 2, removed);
+    field.set_cell_status(
+        2,
+        3,
+        removed | HeightFieldCellStatus::RIGHT_TRIANGLE_REMOVED,
+    );
+    field.set_cell_status(0, 0, HeightFieldCellStatus::ZIGZAG_SUBDIVISION);
+    let holed = prepared(&field);
+    assert_eq!(holed.body().pieces().len(), 21);
+    // Each piece is the triangle of its number.
+    for piece in 0..21 {
+        let number = holed.sub_shape(piece);
+        let theirs = field
+            .triangle_at_id(number)
+            .expect("a triangle that is there");
+        let theirs = theirs.vertices().map(point);
+        let ours = holed.body().pieces().get(piece as usize);
+        assert_eq!(ours.points, theirs, "{number}");
+    }
+}
+
+#[test]
+fn voxels_are_boxes_on_the_grid() {
+    let cells = [[0, 0, 0], [1, 0, 0], [-9, 17, 3], [700, -5000, 8]];
+    let keys: Vec<IVector> = cells
+        .iter()
+        .map(|[x, y, z]| IVector::new(*x, *y, *z))
+        .collect();
+    let made = prepared(&Voxels::new(Vector::new(0.1, 0.3, 0.7), &keys));
+    assert_eq!(made.body().pieces().len(), 4);
+    let size = point(Vector::new(0.1, 0.3, 0.7));
+    for [x, y, z] in cells {
+        let low = DVec3::new(x as f64, y as f64, z as f64) * size;
+        let pieces = made.body().pieces();
+        let found = pieces
+            .iter()
+            .any(|piece| length(piece.points[0] - low) <= made.slack());
+        assert!(found, "{x} {y} {z}");
+    }
+    let far = IVector::new(1 << 21, 0, 0);
+    let refused = body(&Voxels::new(Vector::ONE, &[far]), &Settings::default());
+    assert!(matches!(refused, Err(ShapeError::Grid)), "{refused:?}");
+}
+
+#[test]
+fn voxels_are_all_found_at_any_size() {
+    // Rounded divisions by such sizes go wrong by one at chunks' ends.
+    for size in [0.1, 0.3, 1e-3, 7.77, 123.456] {
+        let keys: Vec<IVector> = (-40..40).map(|x| IVector::new(x, 7 * x + 1, -x)).collect();
+        let made = prepared(&Voxels::new(Vector::splat(size), &keys));
+        assert_eq!(made.body().pieces().len(), keys.len(), "{size}");
+    }
+}
+
+#[test]
+fn parts_of_a_compound_have_their_numbers() {
+    use super::super::library::math::Pose;
+    let parts = (0..9).map(|k| {
+        (
+            Pose::translation(k as Real, 0.0, 0.0),
+            SharedShape::ball(0.1),
+        )
+    });
+    let made = prepared(&Compound::new(parts.collect()));
+    for piece in 0..9 {
+        let at = made.body().pieces().get(piece as usize).points[0];
+        assert_eq!(at.x, f64::from(made.sub_shape(piece)));
+    }
+    assert_eq!(made.sub_shape(9), 0);
+}
+
+#[test]
+fn what_is_refused_says_why() {
+    let refused = |shape: &dyn Shape| body(shape, &Settings::default()).expect_err("refused");
+    let plane = SharedShape::halfspace(Vector::Y);
+    assert_eq!(refused(&*plane), ShapeError::HalfSpace);
+    assert!(matches!(
+        refused(&Ball::new(-0.5)),
+        ShapeError::Size {
+            what: "radius",
+            value: -0.5
+        }
+    ));
+    let mut points = vec![Vector::ZERO, Vector::X, Vector::Y];
+    points[2].z = Real::INFINITY;
+    let mesh = TriMesh::new(points, vec![[0, 1, 2]]).expect("a mesh");
+    assert!(matches!(
+        refused(&mesh),
+        ShapeError::Piece { number: 0, .. }
+    ));
+}

@@ -1,0 +1,94 @@
+//! What a cast costs in every frame of a game: parry's own, the function with its signature, and a `Caster`.
+//!
+//! `cargo run --release -p rigid-ccd-parry --example each_frame`. Shapes fly at shapes, slowly turning; times are medians
+//! of a few hundred casts, after the first one.
+
+use anyhow::Result;
+use parry3d::math::{Pose, Vector};
+use parry3d::query::{self, NonlinearRigidMotion};
+use parry3d::shape::{SharedShape, TriMesh};
+use rigid_ccd_parry::Settings;
+use rigid_ccd_parry::f32::{Caster, body, cast_shapes_nonlinear};
+use std::f32::consts::TAU;
+use std::hint::black_box;
+use std::io::Write;
+use std::time::Instant;
+
+fn main() -> Result<()> {
+    let small = [
+        ("ball", SharedShape::ball(0.5)),
+        ("box", SharedShape::cuboid(0.5, 0.4, 0.3)),
+        ("capsule", SharedShape::capsule_y(0.5, 0.2)),
+        ("cylinder", SharedShape::cylinder(0.5, 0.4)),
+    ];
+    let large = [
+        ("box", SharedShape::cuboid(0.5, 0.4, 0.3)),
+        ("torus, 800 triangles", torus(20)),
+        ("torus, 80,000 triangles", torus(200)),
+    ];
+    let rests = NonlinearRigidMotion::identity();
+    let mut flies = NonlinearRigidMotion::constant_position(Pose::translation(-3.0, 0.1, 0.2));
+    flies.linvel = 4.0 * Vector::X;
+    flies.angvel = Vector::new(0.1, 0.2, 0.3);
+    let mut caster = Caster::default();
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "{:10} {:24} {:>10} {:>10} {:>10}  us",
+        "", "", "parry", "function", "Caster"
+    )?;
+    for (name, a) in &small {
+        for (other, b) in &large {
+            let parry = micros(|| {
+                let _ = black_box(query::cast_shapes_nonlinear(
+                    &flies, &**a, &rests, &**b, 0.0, 1.0, true,
+                ));
+            });
+            let function = micros(|| {
+                let _ = black_box(cast_shapes_nonlinear(
+                    &flies, &**a, &rests, &**b, 0.0, 1.0, true,
+                ));
+            });
+            let kept = micros(|| {
+                let _ =
+                    black_box(caster.cast_shapes_nonlinear(&flies, a, &rests, b, 0.0, 1.0, true));
+            });
+            writeln!(
+                out,
+                "{name:10} {other:24} {parry:10.1} {function:10.1} {kept:10.1}"
+            )?;
+        }
+    }
+    for (name, shape) in small.iter().chain(&large) {
+        let made = micros(|| drop(black_box(body(&**shape, &Settings::default()))));
+        writeln!(out, "to make {name}: {made:.1} us")?;
+    }
+    Ok(())
+}
+
+/// Returns the median time of a call.
+fn micros(mut call: impl FnMut()) -> f64 {
+    call();
+    let began = Instant::now();
+    let mut times = Vec::new();
+    while times.len() < 300 && (times.len() < 5 || began.elapsed().as_millis() < 200) {
+        let start = Instant::now();
+        call();
+        times.push(start.elapsed().as_secs_f64() * 1e6);
+    }
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn torus(sides: u32) -> SharedShape {
+    let at = |i: u32, j: u32| (i % sides) * sides + j % sides;
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    for (i, j) in (0..sides).flat_map(|i| (0..sides).map(move |j| (i, j))) {
+        let [a, b] = [i, j].map(|k| TAU * k as f32 / sides as f32);
+        let out = 1.0 + 0.3 * b.cos();
+        vertices.push(Vector::new(out * a.cos(), out * a.sin(), 0.3 * b.sin()));
+        faces.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+        faces.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+    }
+    SharedShape::new(TriMesh::new(vertices, faces).expect("a torus"))
+}
