@@ -48,7 +48,7 @@
 //! # What comes out
 //! | field | here |
 //! |---|---|
-//! | `time_of_impact` | rounded down. At it the shapes are within the target distance + the tolerance ([`Settings::tolerance`]) + what polytopes exceed their shapes by ([`Prepared::excess`]) + rounding ([`Prepared::slack`], twice) |
+//! | `time_of_impact` | rounded down. At it the shapes are within the target distance + the tolerance ([`Settings::tolerance`], or the least that can be proven at such coordinates) + what polytopes exceed their shapes by ([`Prepared::excess`]) + rounding ([`Prepared::slack`], twice) |
 //! | `witness1`, `witness2` | the nearest points, each in its shape's frame. Of shapes that overlap at the start they are one common point |
 //! | `normal1`, `normal2` | the directions to the other shape, each in its shape's frame. Of shapes that overlap at the start they are some direction |
 //! | `status: Converged` | a contact. Also at the start, of shapes that touch and do not overlap |

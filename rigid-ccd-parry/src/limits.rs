@@ -11,3 +11,6 @@ pub const KEPT_BYTES: usize = 256 << 20;
 
 /// The most bodies that the functions with parry's signatures keep in a thread.
 pub const KEPT_BODIES: usize = 64;
+
+/// The default limit of a cast's work: about a second.
+pub const DEFAULT_BUDGET: u64 = 1 << 20;

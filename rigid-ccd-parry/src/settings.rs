@@ -1,6 +1,6 @@
 //! What can be asked for beyond parry's arguments.
 
-use ccd_core::limits::DEFAULT_BUDGET;
+use crate::limits::DEFAULT_BUDGET;
 use std::time::Duration;
 
 /// What can be asked for beyond parry's arguments.
@@ -20,7 +20,8 @@ pub struct Settings {
     pub excess: Excess,
     /// Whether a mesh is a surface or a solid.
     pub meshes: Meshes,
-    /// The most work before a cast ends as `OutOfIterations`: [`Config::budget`](ccd_core::Config::budget).
+    /// The most work before a cast ends as `OutOfIterations`: [`Config::budget`](ccd_core::Config::budget). By default it
+    /// is a quarter of the engine's, about a second.
     pub budget: u64,
     /// The longest time before a cast ends as `OutOfIterations`: [`Config::deadline`](ccd_core::Config::deadline).
     pub deadline: Option<Duration>,

@@ -108,7 +108,7 @@ impl Scene {
     /// soon as that.
     fn blur(&self) -> f64 {
         let kinds = self.recipes.each_ref().map(Recipe::name);
-        let round = ["Round", "Cylinder", "Cone", "Compound"];
+        let round = ["Round", "Capsule", "Cylinder", "Cone", "Compound"];
         let is_round = |kind: &String| round.iter().any(|round| kind.starts_with(round));
         let off = if kinds.iter().any(is_round) {
             1e-4

@@ -1,0 +1,136 @@
+//! Numbers that casts go wrong at, in every place: in one precision.
+
+use super::ODD;
+use super::library::math::{Pose, Real, Rotation, Vector};
+use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
+use super::library::shape::{Cone, Cuboid, Cylinder, Segment, SharedShape, TriMesh, Triangle};
+use super::ours::{try_cast_shapes, try_cast_shapes_nonlinear};
+use crate::scenes::{number, random};
+use rand::RngExt;
+use rand_pcg::Pcg64Mcg;
+
+/// Returns an odd number in one of a few cases, an even one otherwise.
+fn odd(rng: &mut Pcg64Mcg, share: f32) -> Real {
+    match rng.random::<f32>() < share {
+        true => ODD[rng.random_range(0..ODD.len())],
+        false => Real::from(number(rng, -2.0, 2.0)),
+    }
+}
+
+fn odd_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
+    Vector::new(odd(rng, share), odd(rng, share), odd(rng, share))
+}
+
+fn odd_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
+    let [x, y, z, w] = std::array::from_fn(|_| odd(rng, share));
+    Pose::from_parts(odd_vector(rng, share), Rotation::from_xyzw(x, y, z, w))
+}
+
+fn odd_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
+    NonlinearRigidMotion::new(
+        odd_pose(rng, share),
+        odd_vector(rng, share),
+        odd_vector(rng, share),
+        odd_vector(rng, share),
+    )
+}
+
+/// Returns a shape by its fields, which parry does not check.
+fn odd_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
+    let radius = odd(rng, share).abs();
+    match rng.random_range(0..9) {
+        0 => SharedShape::ball(odd(rng, share)),
+        1 => SharedShape::new(Cuboid {
+            half_extents: odd_vector(rng, share).abs(),
+        }),
+        2 => SharedShape::capsule(odd_vector(rng, share), odd_vector(rng, share), radius),
+        3 => SharedShape::new(Segment::new(odd_vector(rng, share), odd_vector(rng, share))),
+        4 => SharedShape::new(Triangle::new(
+            odd_vector(rng, share),
+            odd_vector(rng, share),
+            odd_vector(rng, share),
+        )),
+        5 => SharedShape::new(Cylinder {
+            half_height: odd(rng, share),
+            radius: odd(rng, share),
+        }),
+        6 => SharedShape::new(Cone {
+            half_height: odd(rng, share).abs(),
+            radius,
+        }),
+        7 => {
+            let vertices = (0..4).map(|_| odd_vector(rng, 0.3 * share)).collect();
+            let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3], [1, 1, 3]]);
+            SharedShape::new(mesh.expect("triangles"))
+        }
+        _ => SharedShape::halfspace(odd_vector(rng, share)),
+    }
+}
+
+/// Checks what holds for every hit.
+fn check(hit: &ShapeCastHit, [start, end]: [Real; 2]) {
+    let time = hit.time_of_impact;
+    assert!(
+        time >= start && time <= end,
+        "{hit:?} not from {start} to {end}"
+    );
+    let vectors = [hit.witness1, hit.witness2, hit.normal1, hit.normal2];
+    assert!(vectors.iter().all(|v| v.is_finite()), "{hit:?}");
+    let normals = [hit.normal1, hit.normal2].map(|normal| (normal.length() - 1.0).abs());
+    assert!(normals.iter().all(|off| *off < 1e-5), "{hit:?}");
+}
+
+#[test]
+fn odd_numbers_are_answered_or_refused() {
+    let (mut hits, mut misses, mut refused) = (0, 0, 0);
+    for seed in 0..20_000 {
+        let mut rng = random(seed);
+        let share = [0.01, 0.05, 0.3][seed as usize % 3];
+        let [a, b] = [0, 1].map(|_| odd_shape(&mut rng, share));
+        let found = match seed % 2 {
+            0 => {
+                let [m, n] = [0, 1].map(|_| odd_motion(&mut rng, share));
+                // Turns of millions take their time: what limits them is another test's.
+                let slow = |motion: NonlinearRigidMotion| NonlinearRigidMotion {
+                    angvel: motion
+                        .angvel
+                        .clamp(Vector::splat(-20.0), Vector::splat(20.0)),
+                    ..motion
+                };
+                let times = [odd(&mut rng, share), odd(&mut rng, share)];
+                let times = times.map(|time| if time.abs() > 1e3 { 2.0 } else { time });
+                let found =
+                    try_cast_shapes_nonlinear(&slow(m), &*a, &slow(n), &*b, times, seed % 4 == 0);
+                found.inspect(|hit| {
+                    hit.inspect(|hit| check(hit, times));
+                })
+            }
+            _ => {
+                let poses = [0, 1].map(|_| odd_pose(&mut rng, share));
+                let [v, w] = [0, 1].map(|_| odd_vector(&mut rng, share));
+                let options = ShapeCastOptions {
+                    max_time_of_impact: odd(&mut rng, share),
+                    target_distance: odd(&mut rng, share).abs(),
+                    stop_at_penetration: seed % 4 == 1,
+                    compute_impact_geometry_on_penetration: true,
+                };
+                let found = try_cast_shapes((&poses[0], v, &*a), (&poses[1], w, &*b), options);
+                found.inspect(|hit| {
+                    hit.inspect(|hit| check(hit, [0.0, options.max_time_of_impact]));
+                })
+            }
+        };
+        match found {
+            Ok(Some(_)) => hits += 1,
+            Ok(None) => misses += 1,
+            Err(error) => {
+                refused += 1;
+                assert!(!error.to_string().is_empty());
+            }
+        }
+    }
+    assert!(
+        hits > 2000 && misses > 2000 && refused > 2000,
+        "{hits} {misses} {refused}"
+    );
+}
