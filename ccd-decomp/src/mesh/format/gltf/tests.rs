@@ -20,7 +20,7 @@ fn read(gltf: &Gltf) -> TriangleMesh {
 
 fn error(gltf: &Gltf) -> MeshError {
     let read = TriangleMesh::from_reader(Format::Gltf, &gltf.glb()[..]);
-    read.err().expect("a fault")
+    read.expect_err("a fault")
 }
 
 fn corner(gltf: &Gltf) -> DVec3 {

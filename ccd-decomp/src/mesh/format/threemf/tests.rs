@@ -29,7 +29,7 @@ fn read(bytes: &[u8]) -> TriangleMesh {
 
 fn error(bytes: &[u8]) -> MeshError {
     let read = TriangleMesh::from_reader(Format::ThreeMf, bytes);
-    read.err().expect("a fault")
+    read.expect_err("a fault")
 }
 
 fn points() -> Vec<DVec3> {

@@ -280,7 +280,7 @@ fn instances_are_limited() {
     // One part of it can be had.
     let file = super::file(&gltf);
     assert_eq!(file.part("9999").unwrap().vertices().len(), 9999);
-    let fault = file.into_parts().err().expect("too many").fault;
+    let fault = file.into_parts().expect_err("too many").fault;
     assert!(matches!(fault, MeshFault::Repeats { .. }), "{fault}");
     // So are meshes that read the same bytes again and again.
     let mut gltf = Gltf::new();
