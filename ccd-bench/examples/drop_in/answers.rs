@@ -9,6 +9,7 @@ use super::shapes::{rigid_motion, vector};
 use crate::Call;
 use crate::judge::Reply;
 use crate::rows::{Outline, Row};
+use anyhow::Context;
 
 /// A row in parry's types.
 pub(crate) struct Question {
@@ -96,6 +97,10 @@ pub(crate) fn shape(outline: &Outline) -> anyhow::Result<SharedShape> {
             radius,
             half_height,
         } => SharedShape::capsule_z(*half_height as Real, *radius as Real),
+        Outline::Hull(vertices) => {
+            let points: Vec<Vector> = vertices.iter().map(|&v| vector(v)).collect();
+            SharedShape::convex_hull(&points).context("no hull")?
+        }
         Outline::Mesh { vertices, faces } => {
             let corner = |k: u32| vector(vertices[k as usize]);
             match faces[..] {

@@ -136,6 +136,6 @@ fn ours(row: &Row, call: Call, precision: Precision) -> Result<Reply> {
 fn allowance(row: &Row, precision: Precision) -> Allowance {
     match precision {
         Precision::Single => Allowance::single(row, closing_speed(row)),
-        Precision::Double => Allowance::default(),
+        Precision::Double => Allowance::double(row, closing_speed(row)),
     }
 }

@@ -15,6 +15,10 @@ pub(crate) struct Row {
     /// Whether bodies in contact at the start are to be let go unless they approach.
     pub(crate) leave: bool,
     pub(crate) expected: Expected,
+    /// The tolerance that the expected times are for.
+    pub(crate) tolerance: f64,
+    /// How near the bodies come, of those that stay apart; none if it is not known.
+    pub(crate) least_distance: Option<f64>,
 }
 
 /// A shape, in numbers.
@@ -30,6 +34,8 @@ pub(crate) enum Outline {
         vertices: Vec<DVec3>,
         faces: Vec<[u32; 3]>,
     },
+    /// The convex hull of points.
+    Hull(Vec<DVec3>),
 }
 
 /// What the suite expects.
@@ -89,6 +95,8 @@ impl Row {
             margin: number(&case["margin"]).unwrap_or(0.0),
             leave,
             expected,
+            tolerance: number(&case["tolerance"])?,
+            least_distance: number(&case["least_distance"]).ok(),
         }))
     }
 
@@ -128,13 +136,21 @@ impl Outline {
             let triple = |v: &Value| list(v)?.iter().map(number).collect();
             list(value)?.iter().map(triple).collect()
         };
+        let vertices = triples(&value["v"])?;
+        let vertices = vertices
+            .iter()
+            .map(|v| DVec3::new(v[0], v[1], v[2]))
+            .collect();
+        if value["hull"] == Value::Bool(true) {
+            return Ok(Outline::Hull(vertices));
+        }
+        let faces = triples(&value["f"])?;
+        let faces = faces
+            .iter()
+            .map(|f| [f[0] as u32, f[1] as u32, f[2] as u32]);
         Ok(Outline::Mesh {
-            vertices: (triples(&value["v"])?.iter())
-                .map(|v| DVec3::new(v[0], v[1], v[2]))
-                .collect(),
-            faces: (triples(&value["f"])?.iter())
-                .map(|f| [f[0] as u32, f[1] as u32, f[2] as u32])
-                .collect(),
+            vertices,
+            faces: faces.collect(),
         })
     }
 
@@ -148,7 +164,7 @@ impl Outline {
                 radius,
                 half_height,
             } => radius + half_height,
-            Outline::Mesh { vertices, .. } => vertices
+            Outline::Mesh { vertices, .. } | Outline::Hull(vertices) => vertices
                 .iter()
                 .map(|v| largest(*v))
                 .fold(0.0, ccd_core::order::greater),

@@ -83,7 +83,7 @@ fn check(hit: &ShapeCastHit, [start, end]: [Real; 2]) {
 #[test]
 fn odd_numbers_are_answered_or_refused() {
     let (mut hits, mut misses, mut refused) = (0, 0, 0);
-    for seed in 0..20_000 {
+    for seed in 0..8_000 {
         let mut rng = random(seed);
         let share = [0.01, 0.05, 0.3][seed as usize % 3];
         let [a, b] = [0, 1].map(|_| odd_shape(&mut rng, share));
@@ -130,7 +130,7 @@ fn odd_numbers_are_answered_or_refused() {
         }
     }
     assert!(
-        hits > 2000 && misses > 2000 && refused > 2000,
+        hits > 800 && misses > 800 && refused > 800,
         "{hits} {misses} {refused}"
     );
 }
