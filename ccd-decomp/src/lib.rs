@@ -2,7 +2,9 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | read OBJ, STL, PLY or OFF | [`TriangleMesh::read`], [`Format`] |
+//! | read OBJ, STL, PLY, OFF, glTF or 3MF | [`TriangleMesh::read`], [`Format`] |
+//! | read the parts of a file, convert units | [`MeshFile`], [`Unit`] |
+//! | move, join and measure meshes | [`TriangleMesh::transformed`], [`TriangleMesh::merge`], [`TriangleMesh::bounding_box`] |
 //! | find the faults of a mesh | [`Repairs`], [`Topology`], [`MeshFault`] |
 //! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
@@ -34,7 +36,11 @@
 //! # Guarantee
 //! No repair removes a point of the surface: a dropped face lies on a face that is kept, so that a query on the body
 //! finds every contact that the file's own faces would have. Faces and vertices keep the numbers that they have in
-//! the file, from 0.
+//! the file, from 0; in a scene of parts, those of one part follow those of another.
+//!
+//! # Features
+//! - `gltf`: glTF 2.0, `.gltf` and `.glb`. Five crates.
+//! - `3mf`: 3MF. Seven small crates.
 //!
 //! # Layers
 //! Each module uses only those below it, and has its own errors.

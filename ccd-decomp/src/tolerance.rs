@@ -260,25 +260,30 @@ pub(crate) const CROSSINGS: usize = 1000;
 /// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
 pub(crate) const AUTO_WORK: u64 = 1 << 24;
 
-/// The most vertices, corners and placements that a file may make by naming the same things again: so many …
+/// The cost of a vertex that is made, in units of the cost of a corner, which is about 25 bytes.
+pub(crate) const VERTEX_COST: u64 = 4;
+
+/// The most that a file may make by naming the same vertices, corners and objects again: so much …
 ///
-/// Unit: elements, of about 40 bytes each. More: a hostile file of a kilobyte takes more memory. Fewer: small files
-/// with many instances are refused.
+/// Unit: the cost of a corner, and of an object. More: a hostile file of a kilobyte takes more memory. Fewer: small
+/// files with many instances are refused.
 pub(crate) const REPEATED: u64 = 1 << 20;
 
-/// … so many more for each of its bytes: an instance takes 20 bytes or more, and an assembly of 10,000 screws of 1,000
-/// triangles takes 60 elements for each byte …
+/// … so much more for each of its bytes: an assembly of 1,000 screws of 1,000 triangles takes about 50 for each
+/// byte …
 pub(crate) const REPEATED_PER_BYTE: u64 = 1 << 8;
 
-/// … and no more than these in any case: about ten million triangles.
+/// … and no more than this in any case: about six million triangles, which take 0.8 GB at most.
 pub(crate) const REPEATED_AT_MOST: u64 = 1 << 25;
 
 /// The number of bytes to which the parts of a compressed file may unpack together, in addition to …
 ///
 /// Unit: bytes. More: a hostile file of a kilobyte takes more memory.
+#[cfg(feature = "3mf")]
 pub(crate) const UNPACKED: u64 = 1 << 24;
 
 /// … this many times the size of the file. Models of slicers and CAD programs unpack to five to thirty times the size.
+#[cfg(feature = "3mf")]
 pub(crate) const UNPACKED_RATIO: u64 = 128;
 
 /// The most points for which a hull that only serves comparisons is the library's, right or wrong.

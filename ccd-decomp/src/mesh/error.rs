@@ -82,10 +82,10 @@ pub enum MeshFault {
     },
     /// Instances multiply a few bytes to more than is taken.
     #[error(
-        "makes more than {limit} vertices and corners by naming the same ones again and again; name one part, or split the file"
+        "repeats the same vertices and faces too often for its size, by instances or by naming them again; choose one of its parts, or split it"
     )]
     Repeats {
-        /// The most elements that a file of this size may make.
+        /// The most that a file of this size may make, in corners of faces.
         limit: u64,
     },
     /// A compressed file unpacks to more than is taken.

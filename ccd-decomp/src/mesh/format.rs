@@ -33,6 +33,9 @@ pub enum Format {
     Off,
     /// glTF 2.0, text (`.gltf`) or binary (`.glb`), in metres; with the feature `gltf`.
     ///
+    /// Numbers are read in f64, and rotations are made unit. The maps of nodes below each other are multiplied in f64
+    /// before they are applied: each product rounds as [`AffineMap::apply`](crate::AffineMap::apply) does.
+    ///
     /// Its parts are the nodes of its scene that have a mesh: of the scene that is shown first or, in a file without
     /// scenes, of all nodes. A node without a name has that of its mesh. Every primitive of triangles, strips
     /// or fans is read, with or without indices, from floats, quantized integers or sparse accessors. Points, lines,
@@ -41,7 +44,7 @@ pub enum Format {
     /// specification hides them so. Compression by Draco or meshopt, and any extension that the file requires and
     /// that changes the shape, is an error.
     Gltf,
-    /// 3MF, in the unit that it states; with the feature `3mf`.
+    /// 3MF, in the unit that it states; with the feature `3mf`. Numbers and maps are as in a glTF.
     ///
     /// Its parts are the items of its build, each with the name of its object or its part number. Components in
     /// other model files of the package (the production extension) are read. Materials, supports' types,
@@ -88,9 +91,9 @@ impl Format {
 
     /// Finds the files that a file's content refers to, which [`Format::parse`] needs.
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
-        match self {
+        match (self, bytes) {
             #[cfg(feature = "gltf")]
-            Format::Gltf if !is_lfs_pointer(bytes) => gltf::references(bytes),
+            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) => gltf::references(bytes),
             _ => Ok(Vec::new()),
         }
     }

@@ -156,6 +156,9 @@ impl MeshFile {
     /// The triangles of all parts together, one part after the other. Those of an OBJ keep the numbers of the
     /// file.
     ///
+    /// They are one mesh: of several solids, one that is wholly inside another one counts as a cavity of it. As parts
+    /// of their own they are two solids.
+    ///
     /// # Errors
     /// All that is wrong with the mesh.
     pub fn into_mesh(self) -> Result<TriangleMesh, MeshError> {

@@ -3,6 +3,7 @@
 mod command;
 mod contacts;
 mod decompose;
+mod formats;
 mod manual;
 mod messages;
 mod questions;

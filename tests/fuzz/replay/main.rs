@@ -46,6 +46,16 @@ fn off() {
 }
 
 #[test]
+fn gltf() {
+    replay(targets::GLTF);
+}
+
+#[test]
+fn threemf() {
+    replay(targets::THREEMF);
+}
+
+#[test]
 fn motions() {
     replay(targets::MOTIONS);
 }

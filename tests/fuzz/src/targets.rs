@@ -18,7 +18,9 @@ pub struct Target {
 }
 
 /// All targets.
-pub const ALL: [Target; 8] = [QUERY, STORED, OBJ, STL, PLY, OFF, MOTIONS, PATHS];
+pub const ALL: [Target; 10] = [
+    QUERY, STORED, OBJ, STL, PLY, OFF, GLTF, THREEMF, MOTIONS, PATHS,
+];
 
 /// A query in bytes, asked of several methods and judged by the referee.
 pub const QUERY: Target = Target {
@@ -54,6 +56,18 @@ pub const PLY: Target = Target {
 pub const OFF: Target = Target {
     name: "off",
     run: |bytes| mesh::run(Format::Off, bytes),
+};
+
+/// The same as glTF, and its parts.
+pub const GLTF: Target = Target {
+    name: "gltf",
+    run: |bytes| mesh::scene(Format::Gltf, bytes),
+};
+
+/// The same as 3MF, packed or the model alone.
+pub const THREEMF: Target = Target {
+    name: "threemf",
+    run: mesh::packed,
 };
 
 /// A table of motions.

@@ -1,6 +1,6 @@
 //! Shapes that are placed, once or more often, as parts of a scene.
 
-use super::allowance::Allowance;
+use super::allowance::{Allowance, cost};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
@@ -15,7 +15,7 @@ use std::ops::Range;
 pub(crate) struct Assembly {
     objects: Vec<Object>,
     pub(crate) parts: Vec<Part>,
-    /// The vertices, corners and placements of each object, those of its members included.
+    /// What it costs to make each object, its members included.
     sizes: Vec<u64>,
     allowance: Allowance,
 }
@@ -58,7 +58,7 @@ impl Assembly {
         let (mut sizes, mut has_faces) = (vec![0_u64; objects.len()], vec![false; objects.len()]);
         for k in order {
             let Object { shape, members } = &objects[k];
-            let own = 1 + shape.vertices.len() as u64 + shape.corners.len() as u64;
+            let own = 1 + cost(shape.vertices.len() as u64, shape.corners.len() as u64);
             let within = members.iter().map(|member| sizes[member.object]);
             sizes[k] = within.fold(own, u64::saturating_add);
             let mut below = members.iter().map(|member| has_faces[member.object]);

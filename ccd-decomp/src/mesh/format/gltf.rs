@@ -1,7 +1,7 @@
 //! glTF 2.0, text and binary.
 //!
 //! The crate `gltf` is not used: it rounds the transforms of nodes to f32, takes positions for floats where they are
-//! quantized integers, and panics at sparse accessors that are cut short.
+//! quantized integers, and overflows at lengths and counts that a hostile file states.
 
 mod accessor;
 mod buffers;

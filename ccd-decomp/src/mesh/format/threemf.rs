@@ -1,7 +1,7 @@
 //! 3MF: models in XML, packed in a zip.
 //!
-//! The crates for 3MF are not used: none limits what a file unpacks to, and those that read several models of a package
-//! build on readers of XML that take quadratic time for hostile files.
+//! The crates for 3MF are not used: none limits what a package unpacks to, and `threemf` does not know which model of a
+//! package is which.
 
 mod model;
 mod package;

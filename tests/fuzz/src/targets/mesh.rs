@@ -2,7 +2,9 @@
 
 use super::bodies;
 use crate::memory;
-use ccd_decomp::{Detail, Format, TriangleMesh, prepare, write_obj};
+use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_obj};
+use rawzip::ZipArchiveWriter;
+use std::io::Write;
 
 /// The most bytes of a file that is tried. Faults of readers need few, and short files are read fast.
 const MOST_BYTES: usize = 1 << 14;
@@ -10,21 +12,44 @@ const MOST_BYTES: usize = 1 << 14;
 /// The memory that a reader may take, and some for each byte of the file.
 const MEMORY: usize = 1 << 20;
 const MEMORY_PER_BYTE: usize = 1 << 10;
+/// The memory that a reader of a scene may take: a few bytes may name the same mesh many times.
+const MEMORY_OF_SCENES: usize = 1 << 28;
 /// The memory that bodies may take: approximate hulls are made of up to two million voxels.
 const MEMORY_OF_BODIES: usize = 1 << 28;
 
 /// The most triangles that are made into patches and hulls of all kinds. `Auto` has a budget of its own.
 const MOST_TRIANGLES: usize = 48;
+/// The most triangles that are made into bodies at all: scenes of few bytes may have many.
+const MOST_OF_SCENES: usize = 1 << 11;
 /// Approximate hulls take a hundred times as long as all else, and are made of one file in so many.
 const APPROXIMATED: usize = 16;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {
+    read(format, bytes, MEMORY);
+}
+
+/// Reads a scene: a mesh of parts.
+pub(super) fn scene(format: Format, bytes: &[u8]) {
+    read(format, bytes, MEMORY_OF_SCENES);
+    if bytes.len() <= MOST_BYTES {
+        memory::within(MEMORY_OF_SCENES, || parts(format, bytes));
+    }
+}
+
+/// Reads a model of a 3MF: the bytes are a package or, in one that is made about them, the model.
+pub(super) fn packed(bytes: &[u8]) {
+    scene(Format::ThreeMf, bytes);
+    scene(Format::ThreeMf, &package(bytes));
+}
+
+fn read(format: Format, bytes: &[u8], memory: usize) {
     if bytes.len() > MOST_BYTES {
         return;
     }
-    let memory = MEMORY + MEMORY_PER_BYTE * bytes.len();
+    let memory = memory + MEMORY_PER_BYTE * bytes.len();
     let read = memory::within(memory, || TriangleMesh::from_reader(format, bytes));
     match read {
+        Ok(mesh) if mesh.faces().len() > MOST_OF_SCENES => check(&mesh),
         Ok(mesh) => memory::within(MEMORY_OF_BODIES, || {
             check(&mesh);
             let mut details = details(mesh.faces().len());
@@ -37,6 +62,44 @@ pub(super) fn run(format: Format, bytes: &[u8]) {
         }),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
+}
+
+/// Checks that the parts of a file, put together, are the file.
+fn parts(format: Format, bytes: &[u8]) {
+    let read = || MeshFile::from_reader(format, bytes);
+    let (Ok(file), Ok(again), Ok(third)) = (read(), read(), read()) else {
+        return;
+    };
+    let names = file.part_names().len();
+    let (Ok(whole), Ok(parts)) = (file.into_mesh(), again.into_parts()) else {
+        return;
+    };
+    assert_eq!(parts.len(), names);
+    let merged = TriangleMesh::merge(parts.iter().map(|part| &part.mesh));
+    let merged = merged.expect("parts of a mesh that is not too large");
+    assert_eq!(merged.vertices(), whole.vertices());
+    assert_eq!(merged.faces(), whole.faces());
+    assert_eq!(merged.face_ids(), whole.face_ids());
+    let third = third.in_unit(Unit::Micrometre);
+    if let Some(Ok(one)) = parts.first().map(|_| third.part("0")) {
+        check(&one);
+    }
+}
+
+/// A package of one model, not compressed.
+fn package(model: &[u8]) -> Vec<u8> {
+    let pack = || {
+        let mut bytes = Vec::new();
+        let mut zip = ZipArchiveWriter::new(&mut bytes);
+        let (mut entry, config) = zip.new_file("3D/3dmodel.model").start()?;
+        let mut writer = config.wrap(&mut entry);
+        writer.write_all(model)?;
+        let (_, descriptor) = writer.finish()?;
+        entry.finish(descriptor)?;
+        zip.finish()?;
+        Ok::<_, rawzip::Error>(bytes)
+    };
+    pack().expect("memory takes all bytes")
 }
 
 fn prepared(mesh: &TriangleMesh, detail: Detail) {

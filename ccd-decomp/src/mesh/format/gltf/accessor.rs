@@ -3,7 +3,7 @@
 use super::buffers::Buffers;
 use super::schema::{self, Root, Sparse};
 use super::{element, name};
-use crate::mesh::content::allowance::Allowance;
+use crate::mesh::content::allowance::{Allowance, cost};
 use crate::mesh::error::MeshFault;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -49,9 +49,9 @@ impl<'a> Accessors<'a> {
         about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
     }
 
-    /// Takes so many elements of what the file may ask for.
-    pub(super) fn take(&mut self, count: usize) -> Result<(), MeshFault> {
-        self.allowance.take(count as u64)
+    /// Takes the cost of so many corners off what the file may ask for.
+    pub(super) fn take_corners(&mut self, count: usize) -> Result<(), MeshFault> {
+        self.allowance.take(cost(0, count as u64))
     }
 
     /// Reads the points of an accessor of vectors of three numbers.
@@ -64,7 +64,6 @@ impl<'a> Accessors<'a> {
 
     fn points_of(&mut self, about: &schema::Accessor) -> Result<Vec<DVec3>, MeshFault> {
         check_kind(about, "VEC3")?;
-        self.allowance.take(about.count)?;
         let component = Component::of(about.component_type)?;
         let size = 3 * component.size();
         let point = |row: &[u8]| {
@@ -76,7 +75,9 @@ impl<'a> Accessors<'a> {
             };
             DVec3::new(next(), next(), next())
         };
-        let mut points: Vec<DVec3> = match self.rows(about, size)? {
+        let rows = self.rows(about, size)?;
+        self.allowance.take(cost(about.count, 0))?;
+        let mut points: Vec<DVec3> = match rows {
             Some(rows) => rows.iter().map(point).collect(),
             // The allowance bounds the number.
             None => vec![DVec3::ZERO; about.count as usize],
@@ -101,10 +102,11 @@ impl<'a> Accessors<'a> {
 
     fn numbers_of(&mut self, about: &schema::Accessor) -> Result<Vec<u32>, MeshFault> {
         check_kind(about, "SCALAR")?;
-        self.allowance.take(about.count)?;
         let component = Component::of_index(about.component_type)?;
         let size = component.size();
-        let mut numbers: Vec<u32> = match self.rows(about, size)? {
+        let rows = self.rows(about, size)?;
+        self.allowance.take(cost(0, about.count))?;
+        let mut numbers: Vec<u32> = match rows {
             Some(rows) => rows.iter().map(|row| component.whole(row)).collect(),
             None => vec![0; about.count as usize],
         };
@@ -161,11 +163,11 @@ impl<'a> Accessors<'a> {
 
     /// Reads which elements of a list of some length a sparse accessor replaces.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
-        self.allowance.take(sparse.count)?;
         let about = &sparse.indices;
         let component = Component::of_index(about.component_type)?;
         let layout = (sparse.count, component.size());
         let rows = self.rows_at(about.buffer_view, about.byte_offset, layout, None)?;
+        self.allowance.take(cost(0, sparse.count))?;
         let checked = |row| match component.whole(row) as usize {
             number if number < length => Ok(number),
             number => {

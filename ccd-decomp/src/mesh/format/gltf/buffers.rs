@@ -2,7 +2,7 @@
 
 use super::schema::{Buffer, Root};
 use super::{element, extensions, name};
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, Quote};
 use crate::mesh::format::{Beside, Reference};
 use base64::Engine;
 use base64::engine::general_purpose::GeneralPurpose;
@@ -144,7 +144,7 @@ fn decoded(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
         Err(MeshFault::syntax(
             None,
-            format!("its URI {:?} {what}", crate::mesh::error::Quote(uri)),
+            format!("its URI {:?} {what}", Quote(uri)),
         ))
     };
     // The path of a drive is none of a glTF either.

@@ -1,7 +1,7 @@
 //! Extensions that a file requires: those that leave shapes as they are, and those that cannot be read.
 
 use super::schema::Root;
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, Quote};
 
 /// The beginnings of the names of extensions about looks, light, sound and data about data.
 const HARMLESS: [&str; 14] = [
@@ -35,13 +35,10 @@ pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
         None => Ok(()),
         Some(DRACO) => Err(draco()),
         Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt()),
-        Some(name) => {
-            let quote = crate::mesh::error::Quote(name);
-            Err(MeshFault::Unsupported {
-                what: format!("what the extension {quote:?} says"),
-                instead: "glTF without this extension",
-            })
-        }
+        Some(name) => Err(MeshFault::Unsupported {
+            what: format!("what the extension {:?} says", Quote(name)),
+            instead: "glTF without this extension",
+        }),
     }
 }
 

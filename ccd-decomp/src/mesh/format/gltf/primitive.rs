@@ -4,7 +4,8 @@ use super::accessor::Accessors;
 use super::schema::{Mesh, Primitive};
 use super::{extensions, name};
 use crate::mesh::error::MeshFault;
-use crate::mesh::polygons::Polygons;
+use crate::mesh::polygons::{Polygons, check_count};
+use ccd_core::glam::DVec3;
 use std::collections::HashMap;
 
 /// Reads the triangles of a mesh, one primitive after the other. Primitives of the same positions share their
@@ -54,6 +55,7 @@ fn add(
         Some(&vertices) => vertices,
         None => {
             let points = accessors.points(position)?;
+            check_count("vertices", points.len())?;
             check_finite(&points)?;
             let vertices = Vertices {
                 first: shape.vertices.len(),
@@ -65,12 +67,11 @@ fn add(
     };
     let corners = match primitive.indices {
         Some(indices) => accessors.numbers(indices)?,
-        None => {
-            accessors.take(vertices.count)?;
-            (0..vertices.count as u32).collect()
-        }
+        None => (0..vertices.count as u32).collect(),
     };
     mode.check(corners.len())?;
+    // A strip has a triangle for almost each corner.
+    accessors.take_corners(3 * corners.len())?;
     for (face, triangle) in mode.triangles(&corners).enumerate() {
         if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices.count) {
             return Err(MeshFault::NoSuchVertex {
@@ -89,7 +90,7 @@ fn add(
 }
 
 /// Checks the points of a file before they are moved, where they still have their numbers.
-fn check_finite(points: &[ccd_core::glam::DVec3]) -> Result<(), MeshFault> {
+fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
     match points.iter().position(|point| !point.is_finite()) {
         Some(vertex) => Err(MeshFault::NotFinite { vertex, line: None }),
         None => Ok(()),

@@ -1,0 +1,320 @@
+//! Scenes of several parts: glTF and 3MF, parts by name, and units.
+
+use crate::command::{Run, Scene, stderr};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// The corners of a cube about the origin, with sides of length 2: the bits of a number are the coordinates.
+fn corners() -> impl Iterator<Item = [f32; 3]> {
+    (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|bit| 2.0 * bit as f32 - 1.0))
+}
+
+#[rustfmt::skip]
+const FACES: [u16; 36] = [
+    0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+    2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
+];
+
+/// Two nodes with one cube each: `base`, a metre wide, and `lid`, flat and two metres above it.
+fn gltf() -> (Value, Vec<u8>) {
+    let mut bytes: Vec<u8> = corners().flatten().flat_map(f32::to_le_bytes).collect();
+    bytes.extend(FACES.iter().flat_map(|corner| corner.to_le_bytes()));
+    let json = json!({
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [
+            {"name": "base", "mesh": 0, "scale": [0.5, 0.5, 0.5]},
+            {"name": "lid", "mesh": 0, "scale": [0.5, 0.5, 0.125], "translation": [0, 0, 2]},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": 96},
+            {"buffer": 0, "byteOffset": 96, "byteLength": 72},
+        ],
+        "buffers": [{"byteLength": bytes.len()}],
+    });
+    (json, bytes)
+}
+
+fn glb() -> Vec<u8> {
+    let (json, binary) = gltf();
+    let mut text = json.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let mut bytes = b"glTF\x02\0\0\0".to_vec();
+    bytes.extend((28 + text.len() as u32 + binary.len() as u32).to_le_bytes());
+    for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &binary)] {
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(chunk);
+    }
+    bytes
+}
+
+/// A cube of 20 millimetres about the origin, stored without compression.
+fn threemf() -> Vec<u8> {
+    let vertices: String = corners()
+        .map(|[x, y, z]| {
+            format!(
+                r#"<vertex x="{}" y="{}" z="{}"/>"#,
+                10.0 * x,
+                10.0 * y,
+                10.0 * z
+            )
+        })
+        .collect();
+    let triangles: String = FACES
+        .chunks(3)
+        .map(|f| format!(r#"<triangle v1="{}" v2="{}" v3="{}"/>"#, f[0], f[1], f[2]))
+        .collect();
+    let model = format!(
+        r#"<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" name="die"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object></resources><build><item objectid="1"/></build></model>"#
+    );
+    zip("3D/3dmodel.model", model.as_bytes())
+}
+
+/// A zip of one file.
+fn zip(path: &str, content: &[u8]) -> Vec<u8> {
+    let (sum, size) = (crc32fast::hash(content), content.len() as u32);
+    let mut about = [0; 8].to_vec();
+    for number in [sum, size, size, path.len() as u32] {
+        about.extend(number.to_le_bytes());
+    }
+    let mut bytes = b"PK\x03\x04\x14\0".to_vec();
+    bytes.extend(&about);
+    bytes.extend(path.as_bytes());
+    bytes.extend(content);
+    let start = bytes.len() as u32;
+    bytes.extend(b"PK\x01\x02\x14\0\x14\0");
+    bytes.extend(about);
+    bytes.extend([0; 14]);
+    bytes.extend(path.as_bytes());
+    let length = bytes.len() as u32 - start;
+    bytes.extend(b"PK\x05\x06\0\0\0\0\x01\0\x01\0");
+    for number in [length, start] {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes.extend([0; 2]);
+    bytes
+}
+
+fn name(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// A part of a file, as it is named on the command line.
+fn part(path: &Path, part: &str) -> String {
+    format!("{}#{part}", name(path))
+}
+
+/// A small ball that falls at speed 1 from the height 4.
+const FALL: &str = "b_pz,b_vz,duration\n4,-1,4\n";
+const BALL: &str = "sphere:0.1";
+
+#[test]
+fn a_part_is_chosen_by_name_or_number() {
+    let scene = Scene::new("parts");
+    let file = scene.bytes("scene.glb", &glb());
+    let top = |body: &str| {
+        let rows = Run::query(&["--a", body, "--b", BALL])
+            .stdin(FALL)
+            .succeeds();
+        assert_eq!(rows[0].text("status"), "contact", "{body}");
+        3.9 - rows[0].number("time")
+    };
+    // The lid is above the base, and both are the whole.
+    for (body, height) in [
+        (part(&file, "base"), 0.5),
+        (part(&file, "lid"), 2.125),
+        (part(&file, "0"), 0.5),
+        (name(&file).to_owned(), 2.125),
+    ] {
+        let early = top(&body) - height;
+        assert!((0.0..=1.001e-3).contains(&early), "{body}: {early}");
+    }
+}
+
+#[test]
+fn features_are_numbered_in_the_part_and_go_on_in_the_whole() {
+    let scene = Scene::new("parts-features");
+    let file = scene.bytes("scene.glb", &glb());
+    // The ball falls onto a corner.
+    let corner = "b_px,b_py,b_pz,b_vz,duration\n0.5,0.5,4,-1,4\n";
+    let feature = |body: &str| {
+        let rows = Run::query(&["--a", body, "--b", BALL])
+            .stdin(corner)
+            .succeeds();
+        rows[0].text("feature_a").to_owned()
+    };
+    assert_eq!(feature(&part(&file, "lid")), "v7");
+    assert_eq!(feature(name(&file)), "v15");
+}
+
+#[test]
+fn an_unknown_part_lists_those_there_are() {
+    let scene = Scene::new("parts-unknown");
+    let file = scene.bytes("scene.glb", &glb());
+    for missing in ["top", "", "2"] {
+        let body = part(&file, missing);
+        for run in [
+            Run::query(&["--a", BALL, "--b", &body]).stdin(FALL),
+            Run::bare(&["decompose", &body]),
+        ] {
+            let output = run.output();
+            assert_eq!(output.status.code(), Some(2));
+            let expected =
+                format!("scene.glb: has no part {missing:?}; its parts are 0 \"base\", 1 \"lid\"");
+            assert!(stderr(&output).contains(&expected), "{}", stderr(&output));
+        }
+    }
+    let plain = scene.file("plain.obj", crate::TETRAHEDRON);
+    let output = Run::bare(&["decompose", &part(&plain, "lid")]).output();
+    assert!(
+        stderr(&output).contains("it has one, without a name: 0"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+/// Files have such names, too.
+#[test]
+fn a_mark_in_the_name_of_a_file_is_kept() {
+    let scene = Scene::new("parts-marks");
+    for file in ["part#1.obj", "#.obj", "scene.glb#lid.obj"] {
+        let path = scene.file(file, crate::TETRAHEDRON);
+        let rows = Run::query(&["--a", name(&path), "--b", BALL])
+            .stdin("b_pz\n9\n")
+            .succeeds();
+        assert_eq!(rows[0].text("status"), "free", "{file}");
+    }
+}
+
+#[test]
+fn units_are_converted() {
+    let scene = Scene::new("units");
+    let cube = scene.bytes("cube.glb", &glb());
+    let die = scene.bytes("die.3mf", &threemf());
+    let (cube, die) = (part(&cube, "base"), name(&die).to_owned());
+    // The die, of 20 mm, stands on the cube, of 1000 mm, with a gap of 30 mm.
+    let above = |unit: f64| {
+        let (height, speed) = (0.54 / unit, -0.03 / unit);
+        format!("b_pz,b_vz,duration\n{height},{speed},2\n")
+    };
+    for (unit, metres) in [("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("in", 0.0254)] {
+        let output = Run::query(&["--a", &cube, "--b", &die, "--unit", unit, "--tolerance"])
+            .args(&[&(1e-4 / metres).to_string()])
+            .stdin(&above(metres))
+            .output();
+        let message = stderr(&output);
+        assert!(output.status.success(), "{message}");
+        let rows = crate::parse(&output.stdout);
+        assert_eq!(rows[0].text("status"), "contact", "{unit}: {message}");
+        let early = 1.0 - rows[0].number("time");
+        assert!(
+            (-1e-9..=1.001e-4 / 0.03).contains(&early),
+            "{unit}: {early}"
+        );
+        assert!(message.contains(&format!(" {unit}\n")), "{message}");
+        assert!(!message.contains("give --unit"), "{message}");
+    }
+}
+
+#[test]
+fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
+    let scene = Scene::new("units-kept");
+    let cube = part(&scene.bytes("cube.glb", &glb()), "base");
+    let die = scene.bytes("die.3mf", &threemf());
+    let query = |a: &str, b: &str| {
+        Run::query(&["--a", a, "--b", b])
+            .stdin("b_pz\n50\n")
+            .output()
+    };
+    let message = stderr(&query(&cube, name(&die)));
+    assert!(message.contains("size 1 × 1 × 1 m\n"), "{message}");
+    assert!(message.contains("size 20 × 20 × 20 mm\n"), "{message}");
+    let expected =
+        "--a is in m, --b in mm, and the numbers of both are kept: give --unit m or --unit mm";
+    assert!(message.contains(expected), "{message}");
+    // What has no unit is nothing to compare with.
+    let plain = scene.file("plain.obj", crate::TETRAHEDRON);
+    for other in [BALL, name(&plain)] {
+        let message = stderr(&query(&cube, other));
+        assert!(!message.contains("give --unit"), "{message}");
+    }
+    let output = Run::query(&["--a", BALL, "--b", BALL, "--unit", "mile"])
+        .stdin(FALL)
+        .output();
+    let message = stderr(&output);
+    assert!(message.contains("um, mm, cm, m, in, ft"), "{message}");
+}
+
+#[test]
+fn a_part_is_prepared_and_stored() {
+    let scene = Scene::new("parts-stored");
+    let file = scene.bytes("scene.glb", &glb());
+    let stored = scene.directory.join("lid.ccd");
+    let output = Run::bare(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
+        .args(&[name(&stored), "--format", "json"])
+        .output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let statistics: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(statistics["mesh"], part(&file, "lid"));
+    assert_eq!(statistics["unit"], "mm");
+    assert_eq!(statistics["triangles"], 12);
+    // The lid is a slab from 1875 to 2125 mm.
+    let rows = Run::query(&["--a", name(&stored), "--b", "sphere:100", "--unit", "mm"])
+        .stdin("b_pz,b_vz,duration\n4000,-1000,4\n")
+        .succeeds();
+    let early = 1.775 - rows[0].number("time");
+    assert!((0.0..=1.001e-6).contains(&early), "{early}");
+    let text = Run::bare(&["decompose", &part(&file, "lid")]).output();
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("\nunit          m\n"), "{text}");
+}
+
+/// The same run on another unit, or with another buffer beside the mesh, is another run.
+#[test]
+fn runs_know_their_unit_and_all_their_files() {
+    let scene = Scene::new("parts-resume");
+    let (mut json, binary) = gltf();
+    json["buffers"][0]["uri"] = json!("scene.bin");
+    let file = scene.file("scene.gltf", &json.to_string());
+    let data = scene.bytes("scene.bin", &binary);
+    let motions = scene.file("motions.csv", FALL);
+    let results = scene.directory.join("results.csv");
+    let run = |unit: &str| {
+        Run::bare(&["query", "--a", name(&file), "--b", BALL, "--unit", unit])
+            .args(&[
+                "--motions",
+                name(&motions),
+                "--out",
+                name(&results),
+                "--resume",
+            ])
+            .output()
+    };
+    let first = run("m");
+    assert!(first.status.success(), "{}", stderr(&first));
+    assert!(run("m").status.success());
+    let other = run("mm");
+    assert_eq!(other.status.code(), Some(2));
+    assert!(stderr(&other).contains("--unit"), "{}", stderr(&other));
+    let mut changed = binary;
+    changed[0] ^= 1;
+    std::fs::write(&data, changed).unwrap();
+    let other = run("m");
+    assert_eq!(other.status.code(), Some(2));
+    assert!(stderr(&other).contains("--a"), "{}", stderr(&other));
+    // Results must not replace a buffer either.
+    let output = Run::bare(&["query", "--a", name(&file), "--b", BALL])
+        .args(&["--motions", name(&motions), "--out", name(&data)])
+        .output();
+    assert!(
+        stderr(&output).contains("--out would overwrite the file of --a"),
+        "{}",
+        stderr(&output)
+    );
+}
