@@ -2,6 +2,10 @@
 
 pub(crate) mod affine;
 mod combine;
+#[cfg_attr(
+    not(any(feature = "gltf", feature = "3mf")),
+    allow(dead_code, reason = "only scenes of these formats are placed")
+)]
 mod content;
 pub(crate) mod error;
 pub(crate) mod format;

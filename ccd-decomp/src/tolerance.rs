@@ -279,9 +279,11 @@ pub(crate) const REPEATED_AT_MOST: u64 = 1 << 25;
 /// The number of bytes to which the parts of a compressed file may unpack together, in addition to …
 ///
 /// Unit: bytes. More: a hostile file of a kilobyte takes more memory.
+#[cfg(feature = "3mf")]
 pub(crate) const UNPACKED: u64 = 1 << 24;
 
 /// … this many times the size of the file. Models of slicers and CAD programs unpack to five to thirty times the size.
+#[cfg(feature = "3mf")]
 pub(crate) const UNPACKED_RATIO: u64 = 128;
 
 /// The most points for which a hull that only serves comparisons is the library's, right or wrong.

@@ -91,9 +91,9 @@ impl Format {
 
     /// Finds the files that a file's content refers to, which [`Format::parse`] needs.
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
-        match self {
+        match (self, bytes) {
             #[cfg(feature = "gltf")]
-            Format::Gltf if !is_lfs_pointer(bytes) => gltf::references(bytes),
+            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) => gltf::references(bytes),
             _ => Ok(Vec::new()),
         }
     }
