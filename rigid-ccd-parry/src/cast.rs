@@ -62,25 +62,32 @@ struct Started {
 impl Cast<'_> {
     /// Finds the first contact in the interval.
     pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+        self.posed(|scene| self.told(scene, solver))
+    }
+
+    /// Poses the question for the engine.
+    pub(crate) fn posed<T>(
+        &self,
+        then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
+    ) -> Result<T, CastError> {
         let started = self.started()?;
         match self.operands {
-            [Operand::Body(a), Operand::Body(b)] => self.of_bodies([a, b], started, solver),
+            [Operand::Body(a), Operand::Body(b)] => then(&self.of_bodies([a, b], started)?),
             [Operand::HalfSpace(plane), Operand::Body(body)] => {
-                self.on_plane(&plane, 0, body, started, solver)
+                self.on_plane(&plane, 0, body, started, then)
             }
             [Operand::Body(body), Operand::HalfSpace(plane)] => {
-                self.on_plane(&plane, 1, body, started, solver)
+                self.on_plane(&plane, 1, body, started, then)
             }
             [Operand::HalfSpace(_), Operand::HalfSpace(_)] => Err(CastError::HalfSpaces),
         }
     }
 
-    fn of_bodies(
+    fn of_bodies<'b>(
         &self,
-        bodies: [&Prepared; 2],
+        bodies: [&'b Prepared; 2],
         started: [Started; 2],
-        solver: &mut Solver,
-    ) -> Result<Option<Found>, CastError> {
+    ) -> Result<Scene<'b>, CastError> {
         let frames = started.map(|started| started.motion);
         let started = [0, 1].map(|k| started[k].without_spin_of(bodies[k]));
         let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
@@ -88,7 +95,7 @@ impl Cast<'_> {
         let rounded = self.rounded(way(&sides, self.target + self.tolerance(&bodies)));
         let config = self.config(&bodies, slack(0) + slack(1) + rounded)?;
         let within = config.margin + config.tolerance;
-        let scene = Scene {
+        Ok(Scene {
             bodies,
             motions: sides.map(|side| side.motion),
             frames,
@@ -96,19 +103,18 @@ impl Cast<'_> {
             interval: self.interval,
             target: self.target,
             config,
-        };
-        self.told(&scene, solver)
+        })
     }
 
-    /// Answers for a half-space, which is the shape of that index, and a body.
-    fn on_plane(
+    /// Poses the question about a half-space, which is the shape of that index, and a body.
+    fn on_plane<T>(
         &self,
         plane: &HalfSpace,
         index: usize,
         body: &Prepared,
         started: [Started; 2],
-        solver: &mut Solver,
-    ) -> Result<Option<Found>, CastError> {
+        then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
+    ) -> Result<T, CastError> {
         let frames = started.map(|started| started.motion);
         let side = started[1 - index].without_spin_of(body);
         let stray = side.stray;
@@ -134,7 +140,7 @@ impl Cast<'_> {
             bodies.reverse();
             motions.reverse();
         }
-        let scene = Scene {
+        then(&Scene {
             bodies,
             motions,
             frames,
@@ -142,8 +148,7 @@ impl Cast<'_> {
             interval: self.interval,
             target: self.target,
             config,
-        };
-        self.told(&scene, solver)
+        })
     }
 
     /// Returns what is found, after bodies are let go that begin to part.

@@ -39,6 +39,9 @@ pub enum CastError {
     /// Two half-spaces, which have no nearest points in general.
     #[error("both shapes are half-spaces")]
     HalfSpaces,
+    /// An interval without time has nothing to record.
+    #[error("the interval holds no time: its end is before its start")]
+    NoTime,
     /// The engine refuses the scene: it is too large, for instance.
     #[error(transparent)]
     Scene(#[from] InputError),

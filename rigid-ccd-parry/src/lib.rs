@@ -26,6 +26,7 @@
 //! | cast large shapes each frame | `Caster`, which keeps the bodies of shared shapes |
 //! | set a tolerance or a budget, or fill meshes | `Caster::new` with [`Settings`] |
 //! | ask all else that [`rigid_ccd::Solver`] answers | `body` and `motion` |
+//! | hand a cast to the command `ccd` | `Caster::record`, with the feature `record` |
 //!
 //! # Guarantee
 //! Nothing touches between the start and the time of a hit. Without a hit nothing touches in the whole interval. Both hold
@@ -79,7 +80,7 @@
 //! which it holds, and compares nothing. The example `each_frame` measures all of it.
 //!
 //! # Features
-//! `f32` (default) is for `parry3d`, `f64` for `parry3d-f64`. Both may be on at once.
+//! `f32` (default) is for `parry3d`, `f64` for `parry3d-f64`. Both may be on at once. `record` adds `Caster::record`.
 
 // Without a precision nothing is asked.
 #![cfg_attr(not(any(feature = "f32", feature = "f64")), allow(dead_code))]
@@ -96,6 +97,8 @@ mod leaving;
 pub mod limits;
 mod order;
 mod prepared;
+#[cfg(feature = "record")]
+mod recording;
 mod scene;
 mod settings;
 mod shelf;
@@ -103,6 +106,8 @@ mod tolerance;
 
 pub use error::{CastError, ShapeError};
 pub use prepared::Prepared;
+#[cfg(feature = "record")]
+pub use recording::{RecordError, Recording};
 pub use settings::{Excess, Meshes, Settings};
 
 /// For `parry3d`, in single precision.

@@ -3,6 +3,7 @@
 use super::error::PrepareError;
 use super::report::{PiecesKind, Report, Why};
 use crate::mesh::unit::Unit;
+use crate::tree::hierarchy::build_hierarchy;
 use crate::tree::hull_tree::build_hull_tree;
 use ccd_core::{Body, Hierarchy, HullTree, Pieces, Volume};
 
@@ -49,6 +50,30 @@ impl Model {
         Ok(match &self.hull_tree {
             Some(tree) => body.with_hull_tree(tree.clone())?,
             None => body,
+        })
+    }
+
+    /// Takes over the pieces of a body, to store them.
+    ///
+    /// The model has the same pieces and the same volume, so that queries have the same answers. Its tree is built anew,
+    /// without hulls, and without the surface of a convex solid.
+    ///
+    /// # Errors
+    /// [`PrepareError::Input`] when there are too many pieces for a hierarchy.
+    pub fn of_body(body: &Body) -> Result<Self, PrepareError> {
+        let pieces = body.pieces().clone();
+        let hierarchy = build_hierarchy(&pieces)?;
+        let report = Report {
+            pieces: pieces.len(),
+            ..Report::new(PiecesKind::Primitive, Why::Asked, body.volume())
+        };
+        Ok(Model {
+            pieces,
+            hierarchy,
+            volume: body.volume(),
+            hull_tree: None,
+            surface: None,
+            report,
         })
     }
 

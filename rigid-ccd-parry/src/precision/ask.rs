@@ -5,6 +5,8 @@ use super::convert::{motion, point, pose};
 use super::hits::hit;
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
+#[cfg(feature = "record")]
+use crate::Recording;
 use crate::cast::{Cast, Ready};
 use crate::interval::Interval;
 use crate::{CastError, Settings};
@@ -63,7 +65,29 @@ impl Question {
         let Some(interval) = self.interval else {
             return Ok(None);
         };
-        let cast = Cast {
+        let found = self.cast(interval, shapes, settings).answer(solver)?;
+        Ok(found.as_ref().map(hit))
+    }
+
+    /// Takes it down.
+    #[cfg(feature = "record")]
+    pub(super) fn recorded(
+        &self,
+        shapes: [&Ready; 2],
+        settings: &Settings,
+    ) -> Result<Recording, CastError> {
+        let interval = self.interval.ok_or(CastError::NoTime)?;
+        let cast = self.cast(interval, shapes, settings);
+        cast.posed(|scene| Ok(Recording::of(scene)))
+    }
+
+    fn cast<'a>(
+        &self,
+        interval: Interval,
+        shapes: [&'a Ready; 2],
+        settings: &Settings,
+    ) -> Cast<'a> {
+        Cast {
             operands: shapes.map(Ready::operand),
             motions: self.motions,
             interval,
@@ -71,8 +95,7 @@ impl Question {
             start: self.start,
             settings: *settings,
             contact: CONTACT,
-        };
-        Ok(cast.answer(solver)?.as_ref().map(hit))
+        }
     }
 }
 

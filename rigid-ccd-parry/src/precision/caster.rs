@@ -5,6 +5,8 @@ use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
 use super::library::shape::{SharedShape, TypedShape};
 use super::shapes::{body, half_space};
+#[cfg(feature = "record")]
+use crate::Recording;
 use crate::cast::Ready;
 use crate::{CastError, Prepared, Settings, ShapeError};
 use rigid_ccd::Solver;
@@ -97,6 +99,46 @@ impl Caster {
         self.answer(&question, [g1, g2])
     }
 
+    /// Takes down a cast as files that the command `ccd` reads, to ask other questions about it, and to see it: with the
+    /// arguments of [`Caster::cast_shapes_nonlinear`].
+    ///
+    /// # Errors
+    /// [`CastError`]; [`CastError::NoTime`] for an end before the start.
+    #[doc = ""]
+    #[doc = "```"]
+    #[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
+    #[doc = concat!("use ", parry!(), "::query::NonlinearRigidMotion;")]
+    #[doc = concat!("use ", parry!(), "::shape::SharedShape;")]
+    #[doc = concat!("use rigid_ccd_parry::", precision!(), "::Caster;")]
+    /// let (ball, wall) = (SharedShape::ball(0.5), SharedShape::cuboid(0.1, 5.0, 5.0));
+    /// let start = Pose::translation(-3.0, 0.0, 0.0);
+    /// let flies = NonlinearRigidMotion::new(start, Vector::ZERO, 4.0 * Vector::X, Vector::Y);
+    /// let rests = NonlinearRigidMotion::identity();
+    /// let recording = Caster::default().record(&flies, &ball, &rests, &wall, 0.0, 1.0, true)?;
+    #[doc = concat!("let folder = std::env::temp_dir().join(\"cast-", precision!(), "\");")]
+    /// let command = recording.save(&folder)?;
+    /// assert!(command.starts_with("ccd query --a "));
+    /// # std::fs::remove_dir_all(&folder)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[cfg(feature = "record")]
+    #[allow(clippy::too_many_arguments)] // They are parry's.
+    pub fn record(
+        &mut self,
+        motion1: &NonlinearRigidMotion,
+        g1: &SharedShape,
+        motion2: &NonlinearRigidMotion,
+        g2: &SharedShape,
+        start_time: Real,
+        end_time: Real,
+        stop_at_penetration: bool,
+    ) -> Result<Recording, CastError> {
+        let times = [start_time, end_time];
+        let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
+        let [a, b] = self.both([g1, g2])?;
+        question.recorded([&a, &b], &self.settings)
+    }
+
     /// Returns the body of a shape, for other questions, and to have it made ahead.
     ///
     /// # Errors
@@ -139,14 +181,18 @@ impl Caster {
     fn answer(
         &mut self,
         question: &Question,
-        [g1, g2]: [&SharedShape; 2],
+        shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
+        let [a, b] = self.both(shapes)?;
+        question.answer([&a, &b], &self.settings, &mut self.solver)
+    }
+
+    fn both(&mut self, [g1, g2]: [&SharedShape; 2]) -> Result<[Ready; 2], CastError> {
         let mut ready = |which, shape| {
             let named = |error| CastError::Shape { which, error };
             self.ready(shape).map_err(named)
         };
-        let (a, b) = (ready(1, g1)?, ready(2, g2)?);
-        question.answer([&a, &b], &self.settings, &mut self.solver)
+        Ok([ready(1, g1)?, ready(2, g2)?])
     }
 }
 

@@ -1,0 +1,125 @@
+//! Casts as files for the command `ccd`.
+
+use crate::scene::Scene;
+use ccd_core::{Body, Config, Motion, StartPolicy};
+use rigid_ccd::mesh::{Model, PrepareError, StoreError};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// A cast that can be asked again by the command `ccd`: both bodies and their motions from the start of the interval on.
+///
+/// # Guarantee
+/// It is the question that the cast asks the engine, with its tolerance, its slack and its polytopes about round shapes;
+/// the command rounds orientations once more. Bodies that overlap at the start are not let go.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    bodies: [Body; 2],
+    motions: [Motion; 2],
+    duration: f64,
+    config: Config,
+}
+
+/// A recording cannot be saved.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// A body has too many pieces.
+    #[error(transparent)]
+    Body(#[from] PrepareError),
+    /// A body cannot be written.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The folder or the table cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The folder or the file.
+        path: PathBuf,
+        /// The cause.
+        source: io::Error,
+    },
+}
+
+impl Recording {
+    /// Takes down the question of a scene.
+    pub(crate) fn of(scene: &Scene<'_>) -> Self {
+        Recording {
+            bodies: scene.bodies.map(|body| body.body().clone()),
+            motions: scene.motions,
+            duration: scene.horizon.duration(),
+            config: scene.config,
+        }
+    }
+
+    /// Writes `a.ccd`, `b.ccd` and `motions.csv` to a folder, which is made if need be, and returns the command that
+    /// answers them. Time 0 of the table is the start of the cast, and both bodies are seen as by one who moves along with
+    /// the second.
+    ///
+    /// # Errors
+    /// [`RecordError`].
+    pub fn save(&self, folder: impl AsRef<Path>) -> Result<String, RecordError> {
+        let folder = folder.as_ref();
+        let failed = |path: &Path| {
+            let path = path.to_owned();
+            move |source| RecordError::Write { path, source }
+        };
+        fs::create_dir_all(folder).map_err(failed(folder))?;
+        let [a, b, motions] = ["a.ccd", "b.ccd", "motions.csv"].map(|name| folder.join(name));
+        Model::of_body(&self.bodies[0])?.save(&a)?;
+        Model::of_body(&self.bodies[1])?.save(&b)?;
+        fs::write(&motions, self.table()).map_err(failed(&motions))?;
+        let Config {
+            tolerance, margin, ..
+        } = self.config;
+        let start = match self.config.start {
+            StartPolicy::Leave => " --start leave",
+            _ => "",
+        };
+        Ok(format!(
+            "ccd query --a {} --b {} --motions {} --tolerance {tolerance:e} --margin {margin:e}{start}",
+            a.display(),
+            b.display(),
+            motions.display(),
+        ))
+    }
+
+    /// Returns the table of its one motion.
+    fn table(&self) -> String {
+        let (mut names, mut cells) = (String::from("duration"), self.duration.to_string());
+        for (body, motion) in ["a", "b"].iter().zip(&self.motions) {
+            let start = motion.start();
+            let [qx, qy, qz, qw] = start.rotation().to_array();
+            let [px, py, pz] = start.translation().to_array();
+            let [vx, vy, vz] = motion.velocity().to_array();
+            let [wx, wy, wz] = motion.spin().to_array();
+            let [cx, cy, cz] = motion.centre().to_array();
+            let columns = [
+                ("px", px),
+                ("py", py),
+                ("pz", pz),
+                ("qw", qw),
+                ("qx", qx),
+                ("qy", qy),
+                ("qz", qz),
+                ("vx", vx),
+                ("vy", vy),
+                ("vz", vz),
+                ("wx", wx),
+                ("wy", wy),
+                ("wz", wz),
+                ("cx", cx),
+                ("cy", cy),
+                ("cz", cz),
+            ];
+            for (column, cell) in columns {
+                // Writing to a string cannot fail.
+                let _ = write!(names, ",{body}_{column}");
+                let _ = write!(cells, ",{cell:e}");
+            }
+        }
+        format!("{names}\n{cells}\n")
+    }
+}
+
+#[cfg(test)]
+mod tests;
