@@ -8,11 +8,14 @@ mod completions;
 mod decompose;
 mod files;
 mod man;
+mod numbers;
+mod pair;
 mod pieces;
 mod progress;
 mod query;
 mod size;
 mod unit;
+mod view;
 
 pub use bad_rows::BadRows;
 pub use files::{CannotWrite, Table, input_name, open_motions, refuse_overwriting, same_file};
@@ -24,6 +27,7 @@ use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
 use man::ManArgs;
 use query::QueryArgs;
+use view::ViewArgs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -40,6 +44,7 @@ struct Cli {
 const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
+  ccd view --a knot.obj --b knot.obj --motions motions.csv --out view.html
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
 
@@ -49,6 +54,8 @@ See `ccd help COMMAND` for the options, tables and exit codes of a command.";
 enum Command {
     /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
     Query(Box<QueryArgs>),
+    /// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
+    View(Box<ViewArgs>),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),
     /// Print a completion script for a shell
@@ -70,6 +77,7 @@ pub enum Exit {
 pub fn main() -> ExitCode {
     exit_code(match Cli::parse().command {
         Command::Query(args) => query::run(&args),
+        Command::View(args) => view::run(&args),
         Command::Decompose(args) => decompose::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),

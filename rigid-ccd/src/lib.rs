@@ -78,6 +78,8 @@ mod parallel;
 mod scene;
 mod solver;
 #[cfg(feature = "command")]
+pub mod picture;
+#[cfg(feature = "command")]
 pub mod table;
 #[cfg(feature = "command")]
 mod text;

@@ -6,7 +6,6 @@ mod help;
 mod journal;
 mod limits;
 mod outputs;
-mod pair;
 mod resume;
 mod summary;
 
@@ -18,14 +17,13 @@ use super::{Exit, complain};
 use crate::batch::{
     BatchSize, BoundKind, Question, ScheduleKind, Settings, SolverKind, on_threads,
 };
+use crate::command::pair::{Loading, Pair};
 use crate::command::progress::{Progress, Total};
 use answering::Answering;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use ccd_core::{Config, StartPolicy};
-use ccd_decomp::BodySource;
 use journal::{CONTENT, Checkpoint, Recorded};
 use outputs::Opened;
-use pair::Pair;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use summary::Summary;
@@ -37,7 +35,11 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_question(args)?;
     let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
     check_rows(args, &rows)?;
-    let pair = Pair::load(args)?;
+    let pair = Pair::load(Loading {
+        bodies: &args.bodies,
+        method: method(args),
+        quiet: args.quiet,
+    })?;
     let (mut outputs, earlier) = match Opened::new(args, &recorded(args, &pair))? {
         Opened::New(outputs) => (outputs, None),
         Opened::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
@@ -85,10 +87,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
 /// Refuses an output that is also an input or the other output.
 fn check_paths(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
-    for (option, text) in [("--a", &args.a), ("--b", &args.b)] {
-        let source: BodySource = text.parse().context(option)?;
-        read.extend(pair::files(&source).into_iter().map(|path| (option, path)));
-    }
+    read.extend(args.bodies.files()?);
     for (option, path) in &read {
         refuse_overwriting((option, path), ("--out", &args.out))?;
         if let Some(contacts) = &args.contacts {

@@ -6,6 +6,7 @@ use super::motions::{MotionRows, Query};
 use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;
+use ccd_core::{InputError, Pose};
 use std::io;
 
 /// How both bodies of a query move.
@@ -31,6 +32,25 @@ impl Course {
             Course::Motions(Query { duration, .. }) | Course::Path(Path { duration, .. }) => {
                 duration
             }
+        }
+    }
+
+    /// Returns what the table calls the time at the start.
+    pub fn start(&self) -> f64 {
+        match self {
+            Course::Motions(_) => 0.0,
+            Course::Path(path) => path.start,
+        }
+    }
+
+    /// Returns the poses of both bodies at a time from the start.
+    ///
+    /// # Errors
+    /// A pose is out of range.
+    pub fn poses(&self, time: f64) -> Result<[Pose; 2], InputError> {
+        match self {
+            Course::Motions(query) => Ok([query.a.pose(time), query.b.pose(time)]),
+            Course::Path(path) => path.poses(time),
         }
     }
 

@@ -237,6 +237,11 @@ impl Path {
         Ok([self.a.pose(time)?, self.b.pose(time)?])
     }
 
+    /// Returns the times of the rows, from the start: both bodies have a pose at each.
+    pub fn times(&self) -> impl Iterator<Item = f64> {
+        self.a.times()
+    }
+
     /// Returns the time of the table at a time from the start, rounded down: no later than it is.
     pub fn earliest(&self, time: f64) -> f64 {
         self.in_table(time, -1.0)

@@ -13,7 +13,7 @@ use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::io;
 
 /// The columns, in order.
@@ -65,7 +65,7 @@ pub(crate) struct Extent {
 }
 
 /// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ResultRow {
     /// The id in the table of motions.
     pub(crate) id: String,
@@ -306,6 +306,21 @@ fn counters(stats: Option<&Stats>) -> [Option<u64>; COUNTER_COLUMNS.len()] {
         counter(|stats| stats.effort.fallbacks),
         counter(|stats| stats.peak_front),
     ]
+}
+
+/// Reads a table of results; the columns after [`COLUMNS`] are not read.
+///
+/// # Errors
+/// If it is no such table.
+pub(crate) fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
+    let mut reader = csv::Reader::from_reader(input);
+    let header = reader.headers()?;
+    if !header.iter().take(COLUMNS.len()).eq(COLUMNS) {
+        let message = format!("its columns are not those of results, {}", COLUMNS.join(","));
+        return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
+    }
+    let rows = reader.records().map(|record| record?.deserialize(None));
+    rows.collect()
 }
 
 fn cells(v: DVec3) -> [Option<f64>; 3] {

@@ -77,6 +77,11 @@ impl Poses {
         self.poses[self.poses.len() - 1].0
     }
 
+    /// Returns the times of the poses, in order.
+    pub fn times(&self) -> impl Iterator<Item = f64> {
+        self.poses.iter().map(|&(time, _)| time)
+    }
+
     /// Returns the motion between the poses that a time is between, as it is at that time: that before a pose
     /// where `to` is not later, else that after it.
     fn at(&self, time: f64, to: f64) -> Result<Motion, InputError> {

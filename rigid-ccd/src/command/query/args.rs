@@ -2,11 +2,12 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
-use crate::command::pieces::{NOT_GIVEN, PiecesArgs, value_name};
-use crate::command::unit::UnitArgs;
+use crate::command::numbers::{not_negative, number, tolerance};
+use crate::command::pair::BodiesArgs;
+use crate::command::pieces::{NOT_GIVEN, value_name};
 use crate::table::results::Extent;
 use crate::text::Number;
-use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, LEAST_TOLERANCE, MAX_COORDINATE};
+use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::{Instructions, StartPolicy};
 use clap::{Args, ValueEnum};
 use std::fmt;
@@ -18,16 +19,8 @@ use std::time::Duration;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
 pub(in crate::command) struct QueryArgs {
-    /// Body A: a mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply, .off), a part of one by its name or number
-    /// (scene.glb#lid), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R or
-    /// capsule:R,HALF_HEIGHT
-    #[arg(long, value_name = "BODY")]
-    pub(super) a: String,
-    /// Body B, in the same forms as body A; a file given for both is loaded once
-    #[arg(long, value_name = "BODY")]
-    pub(super) b: String,
     #[command(flatten)]
-    pub(super) unit: UnitArgs,
+    pub(super) bodies: BodiesArgs,
     /// Table of motions to read, CSV, or of paths if it has a column `t`; - reads standard input
     #[arg(long, value_name = "CSV")]
     pub(super) motions: PathBuf,
@@ -47,8 +40,6 @@ pub(in crate::command) struct QueryArgs {
     /// Bound on the motion over a step of --schedule fast or naive [default: sound]
     #[arg(long, value_enum)]
     pub(super) bound: Option<BoundKind>,
-    #[command(flatten)]
-    pub(super) pieces: PiecesArgs,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
@@ -120,16 +111,13 @@ impl QueryArgs {
     pub(super) fn recorded(&self) -> Vec<(&'static str, String)> {
         // Exhaustive: a new option does not compile until it is recorded or left out here.
         let QueryArgs {
-            a,
-            b,
-            unit,
+            bodies: BodiesArgs { a, b, unit, pieces },
             motions: _,
             ask,
             clearance,
             oracle,
             schedule,
             bound,
-            pieces,
             tolerance,
             margin,
             start,
@@ -252,28 +240,10 @@ impl fmt::Display for RowRange {
     }
 }
 
-fn tolerance(text: &str) -> Result<f64, String> {
-    number(text)
-        .filter(|value| (LEAST_TOLERANCE..=MAX_COORDINATE).contains(value))
-        .ok_or_else(|| {
-            format!("give a number from {LEAST_TOLERANCE:e} to {MAX_COORDINATE:e}, such as 1e-3")
-        })
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    number(text)
-        .filter(|value| (0.0..=MAX_COORDINATE).contains(value))
-        .ok_or_else(|| format!("give a number from 0 to {MAX_COORDINATE:e}, such as 0.01"))
-}
-
 fn seconds(text: &str) -> Result<Duration, String> {
     number(text)
         .and_then(|value| Duration::try_from_secs_f64(value).ok())
         .ok_or_else(|| "give a number of seconds of at least 0, such as 0.01".to_owned())
-}
-
-fn number(text: &str) -> Option<f64> {
-    text.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
 impl From<StartArg> for StartPolicy {

@@ -3,10 +3,10 @@
 use crate::batch::Found;
 use ccd_core::Outcome;
 use ccd_core::schedule::{AnyContact, Clearance, ClosestApproach, ContactInterval};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The kind of an answer, or an error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Status {
     /// The bodies come into contact.

@@ -1,17 +1,60 @@
-//! The bodies of a query.
+//! The two bodies of queries.
 
-use super::args::QueryArgs;
-use crate::batch::Bodies;
+use super::pieces::PiecesArgs;
+use super::unit::UnitArgs;
+use crate::batch::{Bodies, SolverKind};
 use crate::command::complain;
 use crate::command::files::same_file;
 use crate::command::progress::Progress;
 use crate::command::size::Size;
 use anyhow::{Context, Result};
 use ccd_core::Body;
+use clap::Args;
 use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::PathBuf;
+
+/// The options that name both bodies.
+#[derive(Clone, Debug, Args)]
+pub(super) struct BodiesArgs {
+    /// Body A: a mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply, .off), a part of one by its name or number
+    /// (scene.glb#lid), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R or
+    /// capsule:R,HALF_HEIGHT
+    #[arg(long, value_name = "BODY")]
+    pub(super) a: String,
+    /// Body B, in the same forms as body A; a file given for both is loaded once
+    #[arg(long, value_name = "BODY")]
+    pub(super) b: String,
+    #[command(flatten)]
+    pub(super) unit: UnitArgs,
+    #[command(flatten)]
+    pub(super) pieces: PiecesArgs,
+}
+
+impl BodiesArgs {
+    /// Returns the files of both bodies, each with the option that names it.
+    ///
+    /// # Errors
+    /// If an option names no body.
+    pub(super) fn files(&self) -> Result<Vec<(&'static str, PathBuf)>> {
+        let mut found = Vec::new();
+        for (option, text) in [("--a", &self.a), ("--b", &self.b)] {
+            let source: BodySource = text.parse().context(option)?;
+            found.extend(files(&source).into_iter().map(|path| (option, path)));
+        }
+        Ok(found)
+    }
+}
+
+/// What bodies are loaded for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Loading<'a> {
+    pub(super) bodies: &'a BodiesArgs,
+    pub(super) method: SolverKind,
+    /// Whether nothing is printed about them.
+    pub(super) quiet: bool,
+}
 
 /// Both bodies; `b` is none when both come from the same file or primitive.
 pub(super) struct Pair {
@@ -22,16 +65,18 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    pub(super) fn load(args: &QueryArgs) -> Result<Self> {
+    pub(super) fn load(loading: Loading<'_>) -> Result<Self> {
+        let BodiesArgs { a, b, .. } = loading.bodies;
         let source = |text: &str| text.parse::<BodySource>();
-        let source_a = source(&args.a).context("--a")?;
-        let source_b = source(&args.b).context("--b")?;
-        let (a, unit_a) = load(args, ("--a", &args.a), &source_a)?;
+        let source_a = source(a).context("--a")?;
+        let source_b = source(b).context("--b")?;
+        let (text_a, text_b) = (a, b);
+        let (a, unit_a) = load(loading, ("--a", text_a), &source_a)?;
         let b = match same(&source_a, &source_b) {
             true => None,
-            false => Some(load(args, ("--b", &args.b), &source_b)?),
+            false => Some(load(loading, ("--b", text_b), &source_b)?),
         };
-        if let (Some((b, unit_b)), false) = (&b, args.quiet) {
+        if let (Some((b, unit_b)), false) = (&b, loading.quiet) {
             compare_units(unit_a, *unit_b);
             Size::compare(Size::of(&a), Size::of(b));
         }
@@ -50,16 +95,21 @@ impl Pair {
 }
 
 fn load(
-    args: &QueryArgs,
+    loading: Loading<'_>,
     (option, text): (&str, &str),
     source: &BodySource,
 ) -> Result<(Body, Option<Unit>)> {
-    let detail = args.pieces.detail()?;
-    let progress = match args.quiet {
+    let Loading {
+        bodies,
+        method,
+        quiet,
+    } = loading;
+    let detail = bodies.pieces.detail()?;
+    let progress = match quiet {
         true => Progress::hidden(),
         false => Progress::of(&format!("preparing {text}")),
     };
-    let loaded = match args.unit.unit() {
+    let loaded = match bodies.unit.unit() {
         Some(unit) => source.load_in(unit, detail),
         None => source.load(detail),
     };
@@ -68,12 +118,12 @@ fn load(
         report,
         unit,
     } = loaded.with_context(|| option.to_owned())?;
-    if args.schedule.uses_hull_trees() && body.hull_tree().is_none() {
+    if method.schedule.uses_hull_trees() && body.hull_tree().is_none() {
         body = with_hull_tree(body).with_context(|| format!("{option} {text}"))?;
     }
-    super::method(args).prepare(&body);
+    method.prepare(&body);
     drop(progress);
-    if !args.quiet {
+    if !quiet {
         let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
         let unit = unit.unwrap_or_default();
         let _ = writeln!(io::stderr(), "{option} {text}: {report}, size {size}{unit}");
@@ -113,7 +163,7 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
 }
 
 /// Returns the files that a body comes from; none for a primitive.
-pub(super) fn files(source: &BodySource) -> Vec<PathBuf> {
+fn files(source: &BodySource) -> Vec<PathBuf> {
     // A file that cannot be read is reported when its body is made.
     source.files().unwrap_or_else(|_| match source {
         BodySource::Mesh(path) | BodySource::Stored(path) => vec![path.clone()],

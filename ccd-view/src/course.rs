@@ -1,0 +1,81 @@
+//! How a body moves on a page.
+
+use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::{Motion, Pose};
+use serde::Serialize;
+
+/// The motion of a body that is shown.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Course {
+    /// At constant velocities, by the formula of [`Motion`].
+    Steady {
+        /// The centre of rotation, in the body's frame.
+        centre: [f64; 3],
+        /// The centre at the start.
+        from: [f64; 3],
+        /// The velocity of the centre.
+        velocity: [f64; 3],
+        /// The angular velocity.
+        spin: [f64; 3],
+        /// The rotation at the start, by rows.
+        rotation: [f64; 9],
+    },
+    /// From pose to pose, in straight lines and with the shortest rotations.
+    Keys {
+        /// The poses, by increasing times.
+        keys: Vec<Key>,
+    },
+}
+
+/// A pose at a time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Key {
+    time: f64,
+    place: [f64; 3],
+    /// By rows.
+    rotation: [f64; 9],
+}
+
+impl Key {
+    /// Creates a key.
+    pub fn new(time: f64, pose: &Pose) -> Self {
+        Key {
+            time,
+            place: pose.translation().to_array(),
+            rotation: rows(pose),
+        }
+    }
+}
+
+impl From<&Motion> for Course {
+    fn from(motion: &Motion) -> Self {
+        let from: DVec3 = motion.start().transform_point(motion.centre());
+        Course::Steady {
+            centre: motion.centre().to_array(),
+            from: from.to_array(),
+            velocity: motion.velocity().to_array(),
+            spin: motion.spin().to_array(),
+            rotation: rows(&motion.start()),
+        }
+    }
+}
+
+impl Course {
+    /// Returns whether it goes anywhere.
+    pub(crate) fn moves(&self) -> bool {
+        match self {
+            Course::Steady { velocity, spin, .. } => {
+                velocity.iter().chain(spin).any(|component| *component != 0.0)
+            }
+            Course::Keys { keys } => keys
+                .windows(2)
+                .any(|two| (two[0].place, two[0].rotation) != (two[1].place, two[1].rotation)),
+        }
+    }
+}
+
+fn rows(pose: &Pose) -> [f64; 9] {
+    // Columns of the transpose.
+    DMat3::from_quat(pose.rotation()).transpose().to_cols_array()
+}

@@ -1,0 +1,39 @@
+//! Offline pages that show bodies in motion, where they touch, and the proven gap between them.
+//!
+//! | to … | use |
+//! |---|---|
+//! | write a page of its own | [`Page::write`] |
+//! | put the views on another page | [`HTML`], [`STYLE`], [`scripts`] and [`data`] |
+//! | say what is shown | [`Group`] of [`View`]s: [`ShownBody`], [`ShownContact`], [`Gap`] |
+//!
+//! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL. What
+//! it draws is in single precision, about the middle of each mesh. What it says is as it is given.
+//!
+//! # Example
+//! ```
+//! use ccd_core::Motion;
+//! use ccd_view::{DrawnMesh, Group, Meshes, Page, ShownBody, View};
+//! use ccd_core::glam::DVec3;
+//!
+//! let mut meshes = Meshes::default();
+//! let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+//! let triangle = meshes.add(&DrawnMesh { vertices: corners.to_vec(), faces: vec![[0, 1, 2]] });
+//! let slides = Motion::default();
+//! let view = View {
+//!     bodies: vec![ShownBody::new("A", triangle, "#3a9d6e", &slides)],
+//!     ..View::of("at rest", "Nothing moves.", 1.0)
+//! };
+//! let page = Page { title: "A triangle", meshes, groups: vec![Group { name: String::new(), views: vec![view] }] };
+//! assert!(page.html()?.contains("Nothing moves."));
+//! # Ok::<(), ccd_view::PageError>(())
+//! ```
+
+mod course;
+mod mesh;
+mod page;
+mod view;
+
+pub use course::{Course, Key};
+pub use mesh::{DrawnMesh, Meshes};
+pub use page::{HTML, Page, PageError, STYLE, data, escape, json, scripts};
+pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};

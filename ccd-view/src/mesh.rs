@@ -1,0 +1,68 @@
+//! Meshes to draw: in single precision, about their middle, each stored once.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use ccd_core::glam::DVec3;
+use serde::Serialize;
+
+/// Triangles to draw.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DrawnMesh {
+    /// The vertices, in the body's frame.
+    pub vertices: Vec<DVec3>,
+    /// The numbers of three vertices for each face.
+    pub faces: Vec<[u32; 3]>,
+}
+
+/// The meshes of a page; equal ones are stored once.
+#[derive(Clone, Debug, Default)]
+pub struct Meshes(Vec<Stored>);
+
+/// A mesh as little-endian numbers in base64.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Stored {
+    /// The middle of its box.
+    middle: [f64; 3],
+    /// Three `f32` per vertex, from the middle.
+    vertices: String,
+    /// Three `u32` per face.
+    faces: String,
+}
+
+impl Meshes {
+    /// Adds a mesh, and returns its number.
+    pub fn add(&mut self, mesh: &DrawnMesh) -> usize {
+        let stored = Stored::of(mesh);
+        let known = self.0.iter().position(|known| *known == stored);
+        known.unwrap_or_else(|| {
+            self.0.push(stored);
+            self.0.len() - 1
+        })
+    }
+
+    pub(crate) fn data(&self) -> impl Serialize {
+        &self.0
+    }
+}
+
+impl Stored {
+    fn of(mesh: &DrawnMesh) -> Self {
+        let mut vertices = mesh.vertices.iter();
+        let first = vertices.next().copied().unwrap_or(DVec3::ZERO);
+        let (low, high) = vertices.fold((first, first), |(low, high), v| (low.min(*v), high.max(*v)));
+        // Halves first: the sum of two large numbers may not be one.
+        let middle = 0.5 * low + 0.5 * high;
+        let places = (mesh.vertices.iter()).flat_map(|v| (v - middle).as_vec3().to_array());
+        let places: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
+        let corners = mesh.faces.iter().flatten();
+        let corners: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
+        Stored {
+            middle: middle.to_array(),
+            vertices: BASE64_STANDARD.encode(places),
+            faces: BASE64_STANDARD.encode(corners),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,136 @@
+//! The page: one file, or parts of another page.
+
+use crate::{Group, Meshes};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// The place of the views on a page.
+pub const HTML: &str = include_str!("page/view.html");
+/// The style of that place.
+pub const STYLE: &str = include_str!("page/view.css");
+
+/// A page of views.
+#[derive(Clone, Debug)]
+pub struct Page<'a> {
+    /// The title.
+    pub title: &'a str,
+    /// The meshes of all bodies.
+    pub meshes: Meshes,
+    /// The views. Groups have a list of their own if there are several.
+    pub groups: Vec<Group>,
+}
+
+/// A page cannot be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PageError {
+    /// The data cannot be serialised.
+    #[error("the page's data: {0}")]
+    Data(#[from] serde_json::Error),
+    /// The file cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        source: io::Error,
+    },
+}
+
+impl Page<'_> {
+    /// Writes the page into a file.
+    ///
+    /// # Errors
+    /// [`PageError`].
+    pub fn write(&self, path: &Path) -> Result<(), PageError> {
+        fs::write(path, self.html()?).map_err(|source| PageError::Write {
+            path: path.to_owned(),
+            source,
+        })
+    }
+
+    /// Returns the text of the page.
+    ///
+    /// # Errors
+    /// [`PageError::Data`].
+    pub fn html(&self) -> Result<String, PageError> {
+        let parts = [
+            ("title", escape(self.title)),
+            ("style", format!("{}{STYLE}", include_str!("page/page.css"))),
+            ("view", HTML.to_owned()),
+            ("views", data(&self.meshes, &self.groups)?),
+            ("scripts", scripts()),
+        ];
+        Ok(filled(include_str!("page/page.html"), &parts))
+    }
+}
+
+/// Returns the scripts that fill [`HTML`] with the [`data`] of an element with the id `views`, which stands before them.
+pub fn scripts() -> String {
+    [
+        include_str!("../vendor/three/three.min.js"),
+        include_str!("page/motion.js"),
+        include_str!("page/stage.js"),
+        include_str!("page/player.js"),
+        include_str!("page/gap.js"),
+        include_str!("page/marks.js"),
+        include_str!("page/view.js"),
+    ]
+    .map(|script| format!("<script>\n{script}</script>\n"))
+    .concat()
+}
+
+/// Returns views as JSON for an element `<script type="application/json" id="views">`.
+///
+/// # Errors
+/// If it cannot be serialised.
+pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Error> {
+    #[derive(Serialize)]
+    struct Data<'a, M> {
+        meshes: M,
+        groups: &'a [Group],
+    }
+    let meshes = meshes.data();
+    json(&Data { meshes, groups })
+}
+
+/// Returns a value as JSON for an element `script`: nothing in it ends the element.
+///
+/// # Errors
+/// If it cannot be serialised.
+pub fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string(value)?.replace('<', "\\u003c"))
+}
+
+/// Returns a text for an element or an attribute in double quotes.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+/// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
+fn filled(template: &str, parts: &[(&str, String)]) -> String {
+    let mut pieces = template.split("{{");
+    let mut text = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
+        if let Some((_, part)) = parts.iter().find(|(known, _)| *known == name) {
+            text.push_str(part);
+        }
+        text.push_str(rest);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests;

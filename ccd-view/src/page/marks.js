@@ -1,0 +1,25 @@
+// What is lit at a contact: nearest points, normal, features.
+"use strict";
+
+const Marks = (() => {
+  const INK = "#111";
+  const LIT = { a: "#d55e00", b: "#cc3399" };
+
+  function feature(stage, points, color, size) {
+    if (points.length === 1) stage.addBall(points[0], 0.012 * size, color);
+    else if (points.length === 2) stage.addLines(points, color);
+    else stage.addTriangles(points, color);
+  }
+
+  // Draws a contact in a picture of a size.
+  function draw(stage, contact, size) {
+    feature(stage, contact.lit_a, LIT.a, size);
+    feature(stage, contact.lit_b, LIT.b, size);
+    if (contact.witnesses === null) return;
+    const [a, b] = contact.witnesses;
+    for (const point of [a, b]) stage.addBall(point, 0.007 * size, INK);
+    if (contact.normal !== null) stage.addArrow(a, contact.normal, 0.15 * size, INK);
+  }
+
+  return { draw };
+})();

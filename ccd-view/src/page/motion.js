@@ -1,0 +1,65 @@
+// Poses of bodies: a place and a rotation by rows, of exact formulas or between keys.
+"use strict";
+
+const Motion = (() => {
+  const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+
+  const apply = (m, [x, y, z]) => [0, 3, 6].map((r) => m[r] * x + m[r + 1] * y + m[r + 2] * z);
+
+  const product = (m, n) => [0, 3, 6].flatMap((r) => [0, 1, 2].map((c) => m[r] * n[c] + m[r + 1] * n[c + 3] + m[r + 2] * n[c + 6]));
+
+  // The rotation by a rotation vector (Rodrigues).
+  function turn(vector) {
+    const angle = Math.hypot(...vector);
+    if (!(angle > 0)) return IDENTITY;
+    const [x, y, z] = vector.map((component) => component / angle);
+    const [s, c] = [Math.sin(angle), Math.cos(angle)];
+    const d = 1 - c;
+    return [
+      c + d * x * x, d * x * y - s * z, d * x * z + s * y,
+      d * x * y + s * z, c + d * y * y, d * y * z - s * x,
+      d * x * z - s * y, d * y * z + s * x, c + d * z * z,
+    ];
+  }
+
+  // x(t) = exp(t[ω]) R₀ (x − c) + C₀ + v t.
+  function steady({ centre, from, velocity, spin, rotation }, t) {
+    const turned = product(turn(spin.map((w) => w * t)), rotation);
+    const back = apply(turned, centre);
+    return { rotation: turned, place: from.map((p, k) => p + velocity[k] * t - back[k]) };
+  }
+
+  // Between two keys: a straight line, and the shortest rotation.
+  function keyed(keys, t) {
+    let next = keys.findIndex((key) => key.time > t);
+    if (next < 0) next = keys.length - 1;
+    const [one, two] = [keys[Math.max(next - 1, 0)], keys[next]];
+    const share = two.time > one.time ? Math.min(Math.max((t - one.time) / (two.time - one.time), 0), 1) : 0;
+    const way = turnVector(one.rotation, two.rotation);
+    return {
+      rotation: product(turn(way.map((w) => w * share)), one.rotation),
+      place: one.place.map((p, k) => p + share * (two.place[k] - p)),
+    };
+  }
+
+  // The rotation vector that leads from one rotation to another, of at most half a turn.
+  function turnVector(from, to) {
+    const back = [0, 1, 2].flatMap((r) => [0, 1, 2].map((c) => from[3 * c + r]));
+    const m = product(to, back);
+    const axis = [m[7] - m[5], m[2] - m[6], m[3] - m[1]];
+    const sine = Math.hypot(...axis) / 2;
+    const angle = Math.atan2(sine, (m[0] + m[4] + m[8] - 1) / 2);
+    if (sine > 1e-9) return axis.map((a) => (a * angle) / (2 * sine));
+    if (angle < 1) return [0, 0, 0];
+    // Half a turn: the longest column of m + 1 is along the axis.
+    const columns = [0, 1, 2].map((c) => [0, 1, 2].map((r) => m[3 * r + c] + (r === c ? 1 : 0)));
+    const longest = columns.reduce((best, column) => (Math.hypot(...column) > Math.hypot(...best) ? column : best));
+    return longest.map((component) => (component * angle) / Math.hypot(...longest));
+  }
+
+  const pose = (motion, t) => (motion.keys ? keyed(motion.keys, t) : steady(motion, t));
+
+  return { pose, apply };
+})();
+
+if (typeof module !== "undefined") module.exports = Motion;

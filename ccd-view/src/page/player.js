@@ -1,0 +1,55 @@
+// The time: slider, play, steps by keys, jumps to contacts.
+"use strict";
+
+class Player {
+  // `show(t)` is called with each new time.
+  constructor(element, show) {
+    this.show = show;
+    [this.slider, this.now, this.button] = ["time", "now", "play"].map(element);
+    this.frame = null;
+    this.slider.addEventListener("input", () => { this.stop(); this.go((this.slider.value / 1000) * this.duration); });
+    this.button.addEventListener("click", () => this.toggle());
+  }
+
+  open({ duration, start }, t) {
+    this.stop();
+    [this.duration, this.start] = [duration, start];
+    this.go(t);
+  }
+
+  go(t) {
+    this.t = t;
+    this.slider.value = this.duration > 0 ? Math.round((1000 * t) / this.duration) : 0;
+    this.now.textContent = (this.start + t).toPrecision(6);
+    this.show(t);
+  }
+
+  jump(t) {
+    this.stop();
+    this.go(t);
+  }
+
+  toggle() {
+    if (this.frame !== null) { this.stop(); return; }
+    const from = this.t < this.duration ? this.t : 0;
+    let began = null;
+    const step = (clock) => {
+      began ??= clock;
+      const t = Math.min(from + ((clock - began) / 1000 / Player.SECONDS) * this.duration, this.duration);
+      this.go(t);
+      if (t < this.duration) this.frame = requestAnimationFrame(step);
+      else this.stop();
+    };
+    this.button.textContent = "Pause";
+    this.frame = requestAnimationFrame(step);
+  }
+
+  stop() {
+    if (this.frame !== null) cancelAnimationFrame(this.frame);
+    this.frame = null;
+    this.button.textContent = "Play";
+  }
+}
+
+// What the whole duration takes on the screen.
+Player.SECONDS = 4;

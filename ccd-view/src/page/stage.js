@@ -1,0 +1,121 @@
+// A stage in three dimensions: meshes with poses, lines and points. It knows nothing of queries.
+"use strict";
+
+class Stage {
+  static hasWebGl() {
+    const context = document.createElement("canvas").getContext("webgl2");
+    context?.getExtension("WEBGL_lose_context")?.loseContext();
+    return context !== null;
+  }
+
+  constructor(holder) {
+    this.holder = holder;
+    this.renderer = new THREE.WebGLRenderer({ antialias: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setClearColor("#ffffff");
+    holder.append(this.renderer.domElement);
+    this.camera = new THREE.PerspectiveCamera(35, 1, 0.1, 10);
+    this.camera.up.set(0, 0, 1);
+    this.scene = new THREE.Scene();
+    this.scene.add(new THREE.HemisphereLight("#ffffff", "#8890a0", 2.2));
+    this.sun = new THREE.DirectionalLight("#ffffff", 1.6);
+    this.scene.add(this.sun);
+    this.content = new THREE.Group();
+    this.scene.add(this.content);
+    this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.addEventListener("change", () => this.render());
+    this.asked = false;
+    new ResizeObserver(() => this.resize()).observe(holder);
+    this.resize();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.holder;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.render();
+  }
+
+  // Draws before the next frame, once.
+  render() {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => { this.asked = false; this.renderNow(); });
+  }
+
+  renderNow() {
+    this.sun.position.copy(this.camera.position).add(new THREE.Vector3(0.3, 0.2, 0.8).multiplyScalar(this.camera.position.length()));
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  clear() {
+    this.content.traverse((object) => object.material?.dispose());
+    this.content.clear();
+  }
+
+  // Looks at all of a box, from one side of it.
+  fit({ low, high }) {
+    const [from, to] = [new THREE.Vector3(...low), new THREE.Vector3(...high)];
+    const radius = Math.max(from.distanceTo(to) / 2, 1e-30);
+    const middle = from.add(to).multiplyScalar(0.5);
+    const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
+    const away = radius / Math.sin(half);
+    this.camera.position.copy(middle).add(new THREE.Vector3(0.55, -0.75, 0.4).normalize().multiplyScalar(away));
+    [this.camera.near, this.camera.far] = [away / 500, away * 20];
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(middle);
+    this.controls.update();
+    this.render();
+  }
+
+  // Adds a mesh; solid ones hide what is behind them.
+  addMesh(geometry, color, opacity = 1) {
+    const solid = opacity === 1;
+    const material = new THREE.MeshLambertMaterial({ color, flatShading: true, side: THREE.DoubleSide, transparent: !solid, opacity, depthWrite: solid });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.matrixAutoUpdate = false;
+    this.content.add(mesh);
+    return mesh;
+  }
+
+  // Places a mesh: rotation by rows, and the place of its own origin.
+  place(mesh, { rotation: m, place: p }) {
+    mesh.matrix.set(m[0], m[1], m[2], p[0], m[3], m[4], m[5], p[1], m[6], m[7], m[8], p[2], 0, 0, 0, 1);
+    mesh.matrixWorldNeedsUpdate = true;
+  }
+
+  // Adds lines through points, in front of everything.
+  addLines(points, color) {
+    const geometry = new THREE.BufferGeometry().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
+    const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color, depthTest: false }));
+    line.renderOrder = 2;
+    this.content.add(line);
+  }
+
+  // Adds filled triangles, three points each, in front of everything.
+  addTriangles(points, color) {
+    const geometry = new THREE.BufferGeometry().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
+    const material = new THREE.MeshBasicMaterial({ color, side: THREE.DoubleSide, transparent: true, opacity: 0.6, depthTest: false });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.renderOrder = 1;
+    this.content.add(mesh);
+  }
+
+  addBall(centre, radius, color) {
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color, depthTest: false }));
+    ball.position.set(...centre);
+    ball.renderOrder = 3;
+    this.content.add(ball);
+  }
+
+  addArrow(from, direction, length, color) {
+    const arrow = new THREE.ArrowHelper(new THREE.Vector3(...direction), new THREE.Vector3(...from), length, color, 0.3 * length, 0.15 * length);
+    for (const part of [arrow.line, arrow.cone]) {
+      part.material.depthTest = false;
+      part.renderOrder = 3;
+    }
+    this.content.add(arrow);
+  }
+}

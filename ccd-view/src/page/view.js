@@ -1,0 +1,160 @@
+// Shows views: bodies in motion, ghosts of their steps, the gap, what touches.
+"use strict";
+(() => {
+  const data = JSON.parse(document.getElementById("views").textContent);
+  const page = document.documentElement.dataset;
+  const element = (id) => document.getElementById(`view-${id}`);
+  const [groups, views, list, words] = ["scene", "shot", "contacts", "status"].map(element);
+  const GHOST = 0.13;
+  let [stage, player, plot, shown] = [null, null, null, null];
+
+  const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0)).buffer;
+  const geometries = new Map();
+
+  // The geometry of a mesh, about the middle of its box; decoded when it is first shown.
+  function geometry(index) {
+    if (!geometries.has(index)) {
+      const { vertices, faces } = data.meshes[index];
+      const made = new THREE.BufferGeometry();
+      made.setAttribute("position", new THREE.BufferAttribute(new Float32Array(bytes(vertices)), 3));
+      made.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(faces)), 1));
+      made.computeBoundingSphere();
+      geometries.set(index, made);
+    }
+    return geometries.get(index);
+  }
+
+  // Where the middle of a body's mesh is at a time, seen from the view's origin.
+  function placed(view, body, t) {
+    const { rotation, place } = Motion.pose(body.motion, t);
+    const middle = Motion.apply(rotation, data.meshes[body.mesh].middle);
+    return { rotation, place: place.map((p, k) => p + middle[k] - view.origin[k]) };
+  }
+
+  // A box about all bodies from the start to the end.
+  function extent(view) {
+    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    const times = Array.from({ length: 9 }, (_, k) => (k * view.duration) / 8);
+    for (const body of view.bodies) {
+      const { center, radius } = geometry(body.mesh).boundingSphere;
+      for (const t of times) {
+        const { rotation, place } = placed(view, body, t);
+        Motion.apply(rotation, center.toArray()).forEach((c, k) => {
+          low[k] = Math.min(low[k], place[k] + c - radius);
+          high[k] = Math.max(high[k], place[k] + c + radius);
+        });
+      }
+    }
+    return { low, high };
+  }
+
+  function ghosts(view) {
+    for (const t of element("ghosts").checked ? view.ghosts : []) {
+      for (const body of view.bodies.filter(({ moves }) => moves)) {
+        stage.place(stage.addMesh(geometry(body.mesh), body.color, GHOST), placed(view, body, t));
+      }
+    }
+  }
+
+  function draw() {
+    const { view, contact } = shown;
+    stage.clear();
+    shown.meshes = view.bodies.map((body) => stage.addMesh(geometry(body.mesh), body.color));
+    ghosts(view);
+    if (contact) Marks.draw(stage, contact, shown.size);
+    show(player.t);
+  }
+
+  function show(t) {
+    if (!shown.meshes) return;
+    shown.view.bodies.forEach((body, k) => stage.place(shown.meshes[k], placed(shown.view, body, t)));
+    plot.move(t);
+    stage.render();
+  }
+
+  // Seen from the view's origin.
+  function moved(view, contact) {
+    const shift = (point) => point.map((p, k) => p - view.origin[k]);
+    return { ...contact, witnesses: contact.witnesses?.map(shift) ?? null, lit_a: contact.lit_a.map(shift), lit_b: contact.lit_b.map(shift) };
+  }
+
+  function choose(number) {
+    const { view } = shown;
+    const contact = view.contacts[number];
+    shown.contact = moved(view, contact);
+    for (const [k, item] of [...list.children].entries()) item.firstChild.setAttribute("aria-pressed", String(k === number));
+    player.jump(contact.time);
+    draw();
+  }
+
+  function legend(view) {
+    const named = view.bodies.length <= 12 ? view.bodies : [];
+    element("legend").replaceChildren(...named.map(({ name, color }) => {
+      const item = document.createElement("li");
+      const patch = document.createElement("span");
+      patch.style.background = color;
+      item.append(patch, name);
+      return item;
+    }));
+  }
+
+  function open() {
+    const view = data.groups[groups.selectedIndex].views[views.selectedIndex];
+    const { low, high } = extent(view);
+    shown = { view, contact: null, meshes: null, size: Math.hypot(...low.map((l, k) => high[k] - l)) };
+    words.textContent = view.verdict;
+    legend(view);
+    element("steps").hidden = view.ghosts.length === 0;
+    element("gap-words").hidden = view.gap === null;
+    list.replaceChildren(...view.contacts.map(({ words: text }, number) => {
+      const item = document.createElement("li");
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = text;
+      button.addEventListener("click", () => choose(number));
+      item.append(button);
+      return item;
+    }));
+    plot.open(view);
+    player.open(view, view.time);
+    if (view.contacts.length > 0) choose(0);
+    else draw();
+    stage.fit({ low, high });
+  }
+
+  function openGroup() {
+    views.replaceChildren(...data.groups[groups.selectedIndex].views.map(({ name }) => new Option(name)));
+    open();
+  }
+
+  function keys(event) {
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (event.target.closest("input, select, button")) return;
+    if (event.key === " ") player.toggle();
+    else if (by) player.jump(Math.min(Math.max(player.t + (by * player.duration) / 100, 0), player.duration));
+    else return;
+    event.preventDefault();
+  }
+
+  groups.replaceChildren(...data.groups.map(({ name }) => new Option(name)));
+  element("scene-label").hidden = data.groups.length < 2;
+  element("shot-label").hidden = data.groups.every((group) => group.views.length < 2);
+  if (data.groups.length === 0) {
+    page.view = "empty";
+  } else if (!Stage.hasWebGl()) {
+    page.view = "no-webgl";
+    words.textContent = "This browser has no WebGL: no view in three dimensions.";
+  } else {
+    stage = new Stage(element("stage"));
+    plot = new GapPlot(element("gap"), (t) => player.jump(t));
+    player = new Player(element, show);
+    groups.addEventListener("change", openGroup);
+    views.addEventListener("change", open);
+    element("ghosts").addEventListener("change", draw);
+    element("fit").addEventListener("click", () => stage.fit(extent(shown.view)));
+    element("stage").addEventListener("keydown", keys);
+    openGroup();
+    stage.renderNow();
+    page.view = "drawn";
+  }
+})();

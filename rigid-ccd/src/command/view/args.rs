@@ -1,0 +1,99 @@
+//! The options of `ccd view`.
+
+use crate::command::numbers::{not_negative, tolerance};
+use crate::command::pair::BodiesArgs;
+use crate::command::pieces::PiecesArgs;
+use crate::command::unit::UnitArgs;
+use ccd_core::limits::DEFAULT_TOLERANCE;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
+#[derive(Clone, Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(in crate::command) struct ViewArgs {
+    /// Body A, in the forms of `ccd query --a`
+    #[arg(long, value_name = "BODY", requires_all = ["b", "motions"])]
+    a: Option<String>,
+    /// Body B, in the same forms
+    #[arg(long, value_name = "BODY", requires_all = ["a", "motions"])]
+    b: Option<String>,
+    #[command(flatten)]
+    unit: UnitArgs,
+    #[command(flatten)]
+    pieces: PiecesArgs,
+    /// Table of motions or paths to show, CSV, as of `ccd query`; - reads standard input
+    #[arg(long, value_name = "CSV", required_unless_present = "scene", requires = "a")]
+    motions: Option<PathBuf>,
+    /// Table of results of `ccd query`: show what it says, without solving anything
+    #[arg(long, value_name = "CSV", requires = "motions")]
+    pub(super) results: Option<PathBuf>,
+    /// Show the rows with these ids [default: up to 4 of each status, in the table's order]
+    #[arg(long, value_name = "ID,...", value_delimiter = ',', requires = "motions")]
+    pub(super) ids: Vec<String>,
+    /// Table of the bodies of one scene, CSV: `body` as for --a, and px, vx, ... as in a table of motions
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]
+    scene: Option<PathBuf>,
+    /// End of the motions of --scene
+    #[arg(long, value_name = "TIME", default_value_t = 1.0, value_parser = not_negative, allow_hyphen_values = true)]
+    pub(super) duration: f64,
+    /// Report a contact at a distance of at most margin + tolerance
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
+    pub(super) tolerance: f64,
+    /// Distance to keep between the bodies
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
+    pub(super) margin: f64,
+    /// Write the page to this file, HTML
+    #[arg(long, value_name = "HTML", default_value = "view.html")]
+    pub(super) out: PathBuf,
+    /// Print only warnings and errors on standard error
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+/// What is to be shown.
+pub(super) enum Subject<'a> {
+    /// Rows of a table of motions, about two bodies.
+    Rows(BodiesArgs, &'a Path),
+    /// The bodies of a table.
+    Scene(&'a Path, SceneArgs<'a>),
+}
+
+/// How the bodies of a scene are loaded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SceneArgs<'a> {
+    pub(super) unit: &'a UnitArgs,
+    pub(super) pieces: &'a PiecesArgs,
+}
+
+impl ViewArgs {
+    /// Returns what is to be shown; none where the options name nothing, which is refused before.
+    pub(super) fn subject(&self) -> Option<Subject<'_>> {
+        let ViewArgs { unit, pieces, .. } = self;
+        if let Some(scene) = &self.scene {
+            return Some(Subject::Scene(scene, SceneArgs { unit, pieces }));
+        }
+        let bodies = BodiesArgs {
+            a: self.a.clone()?,
+            b: self.b.clone()?,
+            unit: unit.clone(),
+            pieces: pieces.clone(),
+        };
+        Some(Subject::Rows(bodies, self.motions.as_deref()?))
+    }
+}
+
+const AFTER_HELP: &str = "\
+The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
+time, ghosts of the steps, the measured gap with the line that is proven to be under it, and what touches.
+
+Examples:
+  ccd view --a knot.obj --b knot.obj --motions motions.csv --ids 3,17
+  ccd view --a knot.obj --b knot.obj --motions motions.csv --results results.csv --out knots.html
+  ccd view --scene scene.csv --duration 0.5
+
+Table of a scene: a row for each body.
+  body,id,px,py,pz,vx,vz,wy
+  part.obj,lid,0,0,2,0,-1,3
+  box:1,1,.1,table,,,,,,
+(A body with commas in it is quoted: \"box:1,1,.1\". One without velocities stands still.)";

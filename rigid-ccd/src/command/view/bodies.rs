@@ -1,0 +1,105 @@
+//! The table of a scene: a row for each body.
+
+use super::args::SceneArgs;
+use crate::picture::Shown;
+use crate::table::motions::MotionTable;
+use anyhow::{Context, Result, bail};
+use ccd_core::{Body, Motion};
+use ccd_decomp::BodySource;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// The column that names a body.
+const BODY: &str = "body";
+
+/// The bodies of a scene.
+pub(super) struct SceneTable {
+    /// By description.
+    bodies: HashMap<String, Body>,
+    files: Vec<PathBuf>,
+    /// The description, the name and the motion of each.
+    rows: Vec<(String, String, Motion)>,
+}
+
+/// Reads a table, and loads each body once.
+pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
+    let name = || path.display().to_string();
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .with_context(name)?;
+    let header = reader.headers().with_context(name)?.clone();
+    let Some(column) = header.iter().position(|column| column == BODY) else {
+        bail!("{}: has no column `{BODY}`", name());
+    };
+    // The other columns are those of body A in a table of motions.
+    let mut motions = csv::Writer::from_writer(Vec::new());
+    let others = |record: &csv::StringRecord, prefix: &dyn Fn(&str) -> String| -> Vec<String> {
+        let cells = record.iter().enumerate().filter(|(k, _)| *k != column);
+        cells.map(|(_, cell)| prefix(cell)).collect()
+    };
+    let prefixed = |cell: &str| match cell {
+        "id" => cell.to_owned(),
+        _ => format!("a_{cell}"),
+    };
+    motions.write_record(others(&header, &prefixed))?;
+    let mut described = Vec::new();
+    for record in reader.records() {
+        let record = record.with_context(name)?;
+        described.push(record.get(column).unwrap_or_default().to_owned());
+        motions.write_record(others(&record, &str::to_owned))?;
+    }
+    let table = MotionTable::read(motions.into_inner()?.as_slice()).with_context(name)?;
+    if let Some(error) = table.errors.first() {
+        bail!("{}: {error}", name());
+    }
+    let mut scene = SceneTable {
+        bodies: HashMap::new(),
+        files: Vec::new(),
+        rows: Vec::new(),
+    };
+    for (text, (position, query)) in described.into_iter().zip(table.rows) {
+        scene.load(&text, how).with_context(|| format!("{}: line {}", name(), position.line))?;
+        let id = match query.id.parse::<usize>() {
+            Ok(_) => format!("{} {}", query.id, text),
+            Err(_) => query.id,
+        };
+        scene.rows.push((text, id, query.a));
+    }
+    Ok(scene)
+}
+
+impl SceneTable {
+    fn load(&mut self, text: &str, how: SceneArgs<'_>) -> Result<()> {
+        if self.bodies.contains_key(text) {
+            return Ok(());
+        }
+        let source: BodySource = text.parse()?;
+        let detail = how.pieces.detail()?;
+        let prepared = match how.unit.unit() {
+            Some(unit) => source.load_in(unit, detail),
+            None => source.load(detail),
+        };
+        self.bodies.insert(text.to_owned(), prepared?.body);
+        self.files.extend(source.files()?);
+        Ok(())
+    }
+
+    /// Returns the files that were read, each with the option that names it.
+    pub(super) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        self.files.iter().map(|path| ("--scene", path.as_path()))
+    }
+
+    /// Returns the bodies in the order of their rows.
+    pub(super) fn shown(&self) -> Vec<Shown<'_>> {
+        let shown = self.rows.iter().filter_map(|(text, name, motion)| {
+            let body = self.bodies.get(text)?;
+            Some(Shown {
+                name,
+                body,
+                motion: *motion,
+            })
+        });
+        shown.collect()
+    }
+}

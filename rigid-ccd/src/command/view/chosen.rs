@@ -1,0 +1,62 @@
+//! The rows that are shown.
+
+use crate::table::courses::Course;
+use crate::table::results::ResultRow;
+
+/// The most rows of one status that are shown, where none are named.
+const OF_EACH: usize = 4;
+/// The most rows on a page.
+const MOST: usize = 100;
+
+/// A choice among rows.
+#[derive(Debug)]
+pub(in crate::command) struct Chosen {
+    /// The ids to show; empty for some of each status.
+    ids: Vec<String>,
+    rows: Vec<(Course, ResultRow)>,
+}
+
+impl Chosen {
+    /// Creates a choice of rows with these ids, or of some of each status.
+    pub(in crate::command) fn new(ids: Vec<String>) -> Self {
+        Chosen {
+            ids,
+            rows: Vec::new(),
+        }
+    }
+
+    /// Returns whether an id is one of those named; none where none are.
+    pub(super) fn is_named(&self, id: &str) -> Option<bool> {
+        match self.ids.is_empty() {
+            true => None,
+            false => Some(self.ids.iter().any(|named| named == id)),
+        }
+    }
+
+    /// Takes a row, if it is to be shown.
+    pub(in crate::command) fn offer(&mut self, course: Course, row: ResultRow) {
+        let wanted = self.is_named(&row.id).unwrap_or_else(|| {
+            let alike = self.rows.iter().filter(|(_, known)| known.status == row.status);
+            alike.count() < OF_EACH
+        });
+        if wanted && !self.is_full() {
+            self.rows.push((course, row));
+        }
+    }
+
+    /// Returns whether no other row can be wanted.
+    pub(super) fn is_full(&self) -> bool {
+        self.rows.len() >= MOST || (!self.ids.is_empty() && self.missing().next().is_none())
+    }
+
+    /// Returns the ids that no row had.
+    pub(super) fn missing(&self) -> impl Iterator<Item = &str> {
+        let has = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
+        self.ids.iter().filter(move |id| !has(id)).map(String::as_str)
+    }
+
+    /// Returns the rows, in the order in which they were offered.
+    pub(super) fn into_rows(self) -> Vec<(Course, ResultRow)> {
+        self.rows
+    }
+}

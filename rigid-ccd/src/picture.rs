@@ -1,0 +1,121 @@
+//! Answers as views of a page: see `ccd-view`.
+//!
+//! Public only because the pages of `ccd-bench` share it; no stable interface.
+
+mod course;
+mod drawn;
+mod gap;
+mod scene;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+pub use course::course;
+pub use drawn::drawn;
+pub use gap::{Reached, gap};
+pub(crate) use scene::{Shown, scene_view};
+
+use crate::Solver;
+use crate::batch::Bodies;
+use crate::table::courses::Course;
+use crate::table::results::{ResultRow, Status};
+use ccd_core::glam::DVec3;
+use ccd_core::{Body, InputError, Pose};
+use ccd_view::{Meshes, ShownBody, ShownContact, View};
+use drawn::lit;
+
+/// The colours of both bodies.
+pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
+/// The most ghosts that are drawn of one query.
+const GHOSTS: usize = 8;
+
+/// Makes views of the answers about two bodies.
+pub(crate) struct Painter<'a> {
+    bodies: Bodies<'a>,
+    meshes: Meshes,
+    numbers: [usize; 2],
+    solver: Solver,
+}
+
+impl<'a> Painter<'a> {
+    /// Draws two bodies.
+    pub(crate) fn new(bodies: Bodies<'a>) -> Self {
+        let mut meshes = Meshes::default();
+        let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn(body)));
+        Painter {
+            bodies,
+            meshes,
+            numbers,
+            solver: Solver::new(),
+        }
+    }
+
+    /// Returns the meshes, which all views share.
+    pub(crate) fn into_meshes(self) -> Meshes {
+        self.meshes
+    }
+
+    /// Makes the view of a row.
+    ///
+    /// # Errors
+    /// If the motions are out of range.
+    pub(crate) fn view(&mut self, query: &Course, row: &ResultRow) -> Result<View, InputError> {
+        let start = query.start();
+        let duration = query.duration();
+        let time = row.time.map(|time| (time - start).clamp(0.0, duration));
+        let [a, b] = query.poses(time.unwrap_or(0.0))?;
+        let contact = time.and_then(|time| self.contact(row, time, [a, b]));
+        let mut view = View::of(
+            &format!("{} ({})", row.id, row.status.name()),
+            &verdict::verdict(row, start + duration),
+            duration,
+        );
+        if row.status != Status::Error {
+            let reached = match (row.status, row.distance_lower) {
+                (Status::Free, Some(proven)) => Reached::Throughout(proven),
+                _ => Reached::Nothing,
+            };
+            let found = gap(&mut self.solver, self.bodies, query, reached)?;
+            view.ghosts = few(&found.steps);
+            view.gap = Some(found.gap);
+        }
+        let motions = course(query)?;
+        let names = ["A", "B"];
+        view.bodies = (names.iter().zip(self.numbers).zip(COLORS).zip(motions))
+            .map(|(((name, mesh), color), motion)| ShownBody::new(name, mesh, color, motion))
+            .collect();
+        Ok(View {
+            start,
+            time: time.unwrap_or(0.0),
+            origin: query.poses(0.0)?[1].translation().to_array(),
+            contacts: contact.into_iter().collect(),
+            ..view
+        })
+    }
+
+    /// Returns what touches, or is nearest, with its features.
+    fn contact(&self, row: &ResultRow, time: f64, poses: [Pose; 2]) -> Option<ShownContact> {
+        let point = |cells: [Option<f64>; 3]| {
+            let [x, y, z] = cells;
+            Some(DVec3::new(x?, y?, z?))
+        };
+        let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
+        let lit = |k: usize, body: &Body, feature: &Option<String>| {
+            lit(body, &poses[k], feature.as_deref().unwrap_or_default(), witnesses[k])
+        };
+        Some(ShownContact {
+            time,
+            words: verdict::contact(row),
+            witnesses: Some(witnesses),
+            normal: point(row.normal),
+            lit_a: lit(0, self.bodies.a, &row.feature_a),
+            lit_b: lit(1, self.bodies.b, &row.feature_b),
+        })
+    }
+}
+
+/// Returns as many as are drawn, spread over all.
+fn few(steps: &[f64]) -> Vec<f64> {
+    let every = steps.len().div_ceil(GHOSTS).max(1);
+    steps.iter().copied().step_by(every).collect()
+}

@@ -1,0 +1,110 @@
+//! Bodies as triangles to draw.
+
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use ccd_core::{Body, Piece, Pose};
+use ccd_view::DrawnMesh;
+use parry3d_f64::transformation::try_convex_hull;
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+/// The number of directions in which a rounded piece is drawn from each of its points.
+const DIRECTIONS: u32 = 320;
+
+/// Returns the surface of a body: the faces of its mesh, or the hulls of its pieces.
+pub fn drawn(body: &Body) -> DrawnMesh {
+    let mut sketch = Sketch::default();
+    for piece in body.pieces().iter() {
+        let mut bare = true;
+        if piece.radius == 0.0 {
+            for (_, corners) in piece.mesh_triangles() {
+                sketch.push(corners);
+                bare = false;
+            }
+        }
+        if bare && piece.facets.is_empty() {
+            sketch.push_hull(&piece);
+        }
+    }
+    sketch.mesh
+}
+
+/// Returns the corners of a feature that a point of the surface is on, in the world: one of a vertex, two of an edge,
+/// three of each triangle of a face.
+pub(super) fn lit(body: &Body, pose: &Pose, feature: &str, witness: DVec3) -> Vec<DVec3> {
+    let here = pose.inverse().transform_point(witness);
+    let triangles = || body.pieces().iter().flat_map(|piece| piece.mesh_triangles().collect::<Vec<_>>());
+    let found = match feature.split_at_checked(1) {
+        Some(("v", _)) => vec![here],
+        Some(("e", _)) => {
+            let edges = triangles().flat_map(|(_, [a, b, c])| [[a, b], [b, c], [c, a]]);
+            let nearest = edges.min_by(|one, two| {
+                distance(here, *one).total_cmp(&distance(here, *two))
+            });
+            nearest.map_or_else(Vec::new, |edge| edge.to_vec())
+        }
+        Some(("f", number)) => triangles()
+            .filter(|(face, _)| number.parse() == Ok(*face))
+            .flat_map(|(_, corners)| corners)
+            .collect(),
+        _ => Vec::new(),
+    };
+    found.iter().map(|point| pose.transform_point(*point)).collect()
+}
+
+fn distance(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
+    let along = to - from;
+    let share = (point - from).dot(along) / greater(along.length_squared(), f64::MIN_POSITIVE);
+    point.distance(from + share.clamp(0.0, 1.0) * along)
+}
+
+/// A mesh whose equal vertices are one.
+#[derive(Default)]
+struct Sketch {
+    mesh: DrawnMesh,
+    numbers: HashMap<[u64; 3], u32>,
+}
+
+impl Sketch {
+    fn push(&mut self, corners: [DVec3; 3]) {
+        let numbers = corners.map(|corner| self.number(corner));
+        self.mesh.faces.push(numbers);
+    }
+
+    fn number(&mut self, corner: DVec3) -> u32 {
+        let vertices = &mut self.mesh.vertices;
+        let bits = corner.to_array().map(f64::to_bits);
+        *self.numbers.entry(bits).or_insert_with(|| {
+            vertices.push(corner);
+            vertices.len() as u32 - 1
+        })
+    }
+
+    /// Adds the hull of a piece's points, grown by its radius. A flat one without a radius is not drawn.
+    fn push_hull(&mut self, piece: &Piece<'_>) {
+        let around: Vec<DVec3> = match piece.radius > 0.0 {
+            true => directions().map(|direction| piece.radius * direction).collect(),
+            false => vec![DVec3::ZERO],
+        };
+        let grown = piece.points.iter().flat_map(|point| around.iter().map(move |by| *point + *by));
+        let points: Vec<_> = grown.collect();
+        let parrys: Vec<_> = points.iter().map(|p| (*p).to_array().into()).collect();
+        let Ok((corners, faces)) = try_convex_hull(&parrys) else {
+            return;
+        };
+        for face in faces {
+            self.push(face.map(|k| DVec3::from_array(corners[k as usize].into())));
+        }
+    }
+}
+
+/// Returns directions all around, evenly spread: a spiral from pole to pole.
+fn directions() -> impl Iterator<Item = DVec3> {
+    let golden = PI * (3.0 - 5f64.sqrt());
+    (0..DIRECTIONS).map(move |k| {
+        let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(DIRECTIONS);
+        let (sine, cosine) = (golden * f64::from(k)).sin_cos();
+        let radius = (1.0 - z * z).sqrt();
+        DVec3::new(radius * cosine, radius * sine, z)
+    })
+}

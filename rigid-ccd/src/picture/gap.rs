@@ -1,0 +1,209 @@
+//! The gap between two bodies over time, and a line that is proven to be under it.
+
+use crate::Solver;
+use crate::batch::Bodies;
+use crate::table::courses::Course;
+use ccd_core::order::greater;
+use ccd_core::schedule::ClosestApproach;
+use ccd_core::{Body, Config, InputError, Stretch, Trajectory};
+use ccd_view::{Gap, GapPoint};
+use std::time::{Duration, Instant};
+
+/// The number of times at which the gap is measured.
+const TIMES: usize = 160;
+/// The most steps of conservative advancement.
+const STEPS: usize = 48;
+/// The longest that the gap of one query is measured, but for one measurement.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// The most visits of one measurement.
+const BUDGET: u64 = 100_000;
+/// What a speed and a stray are multiplied by, so that their rounding is covered many times over.
+const ROUNDED_UP: f64 = 1.0 + 1e-9;
+
+/// What is proven about all times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reached {
+    /// Nothing.
+    Nothing,
+    /// The bodies are at least this far apart.
+    Throughout(f64),
+}
+
+/// The gap over time, and the steps of conservative advancement.
+#[derive(Clone, Debug)]
+pub struct GapOverTime {
+    /// The gap.
+    pub gap: Gap,
+    /// The times of the steps, from 0 on: after each the bodies stay apart at least until the next.
+    pub steps: Vec<f64>,
+}
+
+/// Measures the gap at some times, most where the proven line is far below, and connects what is proven at these: from
+/// each time the gap shrinks at most as fast as the bodies' points approach.
+///
+/// # Errors
+/// If the motions are out of range.
+pub fn gap(
+    solver: &mut Solver,
+    bodies: Bodies<'_>,
+    course: &Course,
+    reached: Reached,
+) -> Result<GapOverTime, InputError> {
+    let floor = match reached {
+        Reached::Nothing => 0.0,
+        Reached::Throughout(gap) => greater(gap, 0.0),
+    };
+    solver.set_config(Config {
+        budget: BUDGET,
+        ..Config::default()
+    });
+    let mut survey = Survey {
+        solver,
+        bodies,
+        course,
+        floor,
+        patience: Instant::now() + PATIENCE,
+    };
+    let (mut points, steps) = survey.advance()?;
+    survey.refine(&mut points)?;
+    Ok(GapOverTime {
+        gap: Gap {
+            proven: survey.proven(&points)?,
+            points,
+        },
+        steps,
+    })
+}
+
+struct Survey<'a> {
+    solver: &'a mut Solver,
+    bodies: Bodies<'a>,
+    course: &'a Course,
+    floor: f64,
+    patience: Instant,
+}
+
+/// How fast the gap may shrink between two times, and how far off the bodies may be.
+#[derive(Clone, Copy, Debug)]
+struct Shrinking {
+    speed: f64,
+    off: f64,
+}
+
+impl Survey<'_> {
+    /// Advances conservatively from the start, until the bodies may touch; then measures at the end.
+    fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
+        let end = self.course.duration();
+        let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
+        while points.len() < STEPS && Instant::now() < self.patience {
+            let point = self.measure(time)?;
+            points.push(point);
+            steps.push(time);
+            let Shrinking { speed, off } = self.shrinking(time, end)?;
+            let next = time + (point.lower - off) / speed;
+            // At the bodies' contact steps become shorter than rounding.
+            if !(point.lower > off && next > time && next < end) {
+                break;
+            }
+            time = next;
+        }
+        if points.last().is_none_or(|last| last.time < end) {
+            points.push(self.measure(end)?);
+        }
+        Ok((points, steps))
+    }
+
+    /// Adds measurements, each in the middle of the worst interval.
+    fn refine(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
+        let mut worths = Vec::new();
+        for k in 1..points.len() {
+            worths.push(self.worth(points[k - 1], points[k])?);
+        }
+        while points.len() < TIMES && Instant::now() < self.patience {
+            let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
+            let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
+                return Ok(());
+            };
+            let (before, after) = (points[worst], points[worst + 1]);
+            let middle = self.measure(0.5 * before.time + 0.5 * after.time)?;
+            worths[worst] = self.worth(before, middle)?;
+            worths.insert(worst + 1, self.worth(middle, after)?);
+            points.insert(worst + 1, middle);
+        }
+        Ok(())
+    }
+
+    /// Returns how much is gained by a measurement between two others: the area under the gap that is not proven.
+    fn worth(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
+        let time = after.time - before.time;
+        if !(time > 1e-6 * self.course.duration()) {
+            return Ok(0.0);
+        }
+        let Shrinking { speed, off } = self.shrinking(before.time, after.time)?;
+        let least = 0.5 * (before.lower + after.lower - speed * time) - off;
+        let most = greater(before.upper, after.upper);
+        Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
+    }
+
+    fn measure(&mut self, time: f64) -> Result<GapPoint, InputError> {
+        let [a, b] = self.course.poses(time)?;
+        let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
+        let closest = &answer.outcome;
+        let (lower, upper) = match closest {
+            ClosestApproach::Overlapping { .. } => (0.0, 0.0),
+            _ => (greater(closest.lower(), 0.0), closest.upper()),
+        };
+        let upper = if upper.is_finite() { upper } else { lower };
+        Ok(GapPoint { time, lower, upper })
+    }
+
+    /// Bounds how fast points of the bodies approach each other between two times.
+    fn shrinking(&self, from: f64, to: f64) -> Result<Shrinking, InputError> {
+        let (a, b) = match self.course {
+            Course::Motions(query) => (query.a.stretch(from, to)?, query.b.stretch(from, to)?),
+            Course::Path(path) => (path.a.stretch(from, to)?, path.b.stretch(from, to)?),
+        };
+        let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(reach);
+        let shift = (a.motion.velocity() - b.motion.velocity()).length();
+        let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
+        let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
+        Ok(Shrinking {
+            speed: (shift + turns + gains) * ROUNDED_UP,
+            // Both where it is measured, and in between.
+            off: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
+        })
+    }
+
+    /// Returns the line: from each measurement down on both sides, but never below what is proven about all times.
+    fn proven(&self, points: &[GapPoint]) -> Result<Vec<[f64; 2]>, InputError> {
+        let floor = self.floor;
+        let mut line = Vec::new();
+        for two in points.windows(2) {
+            let [one, two] = [two[0], two[1]];
+            let Shrinking { speed, off } = self.shrinking(one.time, two.time)?;
+            let height = |point: GapPoint| greater(point.lower - off, floor);
+            let (left, right) = (height(one), height(two));
+            line.push([one.time, left]);
+            // Where both lines meet, or where each meets the floor.
+            let time = two.time - one.time;
+            let lowest = 0.5 * (left + right - speed * time);
+            if speed > 0.0 && lowest > floor {
+                let meets = 0.5 * (time + (left - right) / speed);
+                line.push([one.time + meets.clamp(0.0, time), lowest]);
+            } else if speed > 0.0 {
+                let ends = [(left - floor) / speed, time - (right - floor) / speed];
+                line.extend(ends.map(|end| [one.time + end.clamp(0.0, time), floor]));
+            }
+            line.push([two.time, right]);
+        }
+        if let ([], [only]) = (line.as_slice(), points) {
+            line.push([only.time, only.lower]);
+        }
+        Ok(line)
+    }
+}
+
+/// Bounds the distance of a body's points from the centre of a stretch's motion.
+fn reach((stretch, body): (&Stretch, &Body)) -> f64 {
+    body.span() + stretch.motion.centre().length()
+}

@@ -1,0 +1,101 @@
+//! A scene of many bodies as a view.
+
+use super::drawn::{drawn, lit};
+use super::verdict::number;
+use crate::{Impact, PairError};
+use ccd_core::glam::DVec3;
+use ccd_core::{Body, Feature, Motion};
+use ccd_view::{Meshes, ShownBody, ShownContact, View};
+use std::collections::HashMap;
+
+/// The colour of bodies that do not move.
+const FIXED: &str = "#b8b8b8";
+/// The turn from the colour of one body to that of the next, in degrees: no two that follow each other are alike.
+const HUE: f64 = 137.508;
+
+/// A body of a scene, with its name.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shown<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) body: &'a Body,
+    pub(crate) motion: Motion,
+}
+
+/// Makes the view of all bodies and their contacts, in order of time. Bodies that are the same are drawn from one mesh.
+pub(crate) fn scene_view(
+    name: &str,
+    bodies: &[Shown<'_>],
+    contacts: &[Result<Impact, PairError>],
+    duration: f64,
+) -> (Meshes, View) {
+    let mut meshes = Meshes::default();
+    let mut known = HashMap::new();
+    let shown = bodies.iter().enumerate().map(|(k, shown)| {
+        let address: *const Body = shown.body;
+        let mesh = *known.entry(address).or_insert_with(|| meshes.add(&drawn(shown.body)));
+        let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
+        let color = match moves {
+            true => format!("hsl({:.0} 55% 52%)", (150.0 + HUE * k as f64) % 360.0),
+            false => FIXED.to_owned(),
+        };
+        ShownBody::new(shown.name, mesh, &color, &shown.motion)
+    });
+    let shown: Vec<ShownBody> = shown.collect();
+    let hits: Vec<&Impact> = contacts.iter().filter_map(|found| found.as_ref().ok()).collect();
+    let origin = bodies.first().map_or([0.0; 3], |first| {
+        first.motion.start().translation().to_array()
+    });
+    let view = View {
+        bodies: shown,
+        contacts: hits.iter().map(|impact| contact(bodies, impact)).collect(),
+        time: hits.first().map_or(0.0, |impact| impact.hit.time),
+        origin,
+        ..View::of(name, &verdict(bodies, contacts, duration), duration)
+    };
+    (meshes, view)
+}
+
+fn verdict(
+    bodies: &[Shown<'_>],
+    contacts: &[Result<Impact, PairError>],
+    duration: f64,
+) -> String {
+    let hits: Vec<&Impact> = contacts.iter().filter_map(|found| found.as_ref().ok()).collect();
+    let mut words = match hits.first() {
+        None => format!("{} bodies, no contact until {}.", bodies.len(), number(duration)),
+        Some(first) => {
+            let [a, b] = first.bodies.map(|k| bodies[k].name);
+            format!(
+                "{} bodies, {} pairs in contact, each until its first. The first of all at {}: {a} and {b}. \
+                 Proven: no pair touches before its time.",
+                bodies.len(),
+                hits.len(),
+                number(first.hit.time),
+            )
+        }
+    };
+    if let Some(error) = contacts.iter().find_map(|found| found.as_ref().err()) {
+        let [a, b] = error.bodies.map(|k| bodies[k].name);
+        let open = contacts.len() - hits.len();
+        words += &format!(" {open} pairs without an answer, such as {a} and {b}: {}.", error.error);
+    }
+    words
+}
+
+fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
+    let Impact { bodies: [a, b], hit } = *impact;
+    let (a, b) = (&bodies[a], &bodies[b]);
+    let at = |shown: &Shown<'_>, feature: Option<Feature>, witness: DVec3| {
+        let pose = shown.motion.pose(hit.time);
+        let feature = feature.map_or_else(String::new, |feature| feature.to_string());
+        lit(shown.body, &pose, &feature, witness)
+    };
+    ShownContact {
+        time: hit.time,
+        words: format!("{}: {} and {}", number(hit.time), a.name, b.name),
+        lit_a: at(a, hit.contact.map(|contact| contact.feature_a), hit.witness_a),
+        lit_b: at(b, hit.contact.map(|contact| contact.feature_b), hit.witness_b),
+        witnesses: Some([hit.witness_a, hit.witness_b]),
+        normal: hit.contact.map(|contact| contact.separation.normal),
+    }
+}
