@@ -72,6 +72,7 @@ pub fn scripts() -> String {
         include_str!("../vendor/three/three.min.js"),
         include_str!("page/motion.js"),
         include_str!("page/stage.js"),
+        include_str!("page/coarse.js"),
         include_str!("page/player.js"),
         include_str!("page/gap.js"),
         include_str!("page/marks.js"),

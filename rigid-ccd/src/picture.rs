@@ -26,8 +26,8 @@ use drawn::lit;
 
 /// The colours of both bodies.
 pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
-/// The most ghosts that are drawn of one query.
-const GHOSTS: usize = 8;
+/// The most ghosts that are drawn of one query, but for the first.
+const GHOSTS: f64 = 12.0;
 
 /// Makes views of the answers about two bodies.
 pub(crate) struct Painter<'a> {
@@ -65,20 +65,20 @@ impl<'a> Painter<'a> {
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
-        let mut view = View::of(
-            &format!("{} ({})", row.id, row.status.name()),
-            &verdict::verdict(row, start + duration),
-            duration,
-        );
+        let mut view = View::of(&format!("{} ({})", row.id, row.status.name()), "", duration);
+        let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
             let reached = match (row.status, row.distance_lower) {
                 (Status::Free, Some(proven)) => Reached::Throughout(proven),
                 _ => Reached::Nothing,
             };
             let found = gap(&mut self.solver, self.bodies, query, reached)?;
-            view.ghosts = few(&found.steps);
+            view.ghosts = few(&found.steps, duration);
+            proven = found.least();
+            nearest = found.nearest();
             view.gap = Some(found.gap);
         }
+        view.verdict = verdict::verdict(row, start + duration, proven);
         let motions = course(query)?;
         let names = ["A", "B"];
         view.bodies = (names.iter().zip(self.numbers).zip(COLORS).zip(motions))
@@ -86,7 +86,11 @@ impl<'a> Painter<'a> {
             .collect();
         Ok(View {
             start,
-            time: time.unwrap_or(0.0),
+            // Of bodies that do not touch, their nearest is the most telling.
+            time: match row.status {
+                Status::Free => nearest,
+                _ => time.unwrap_or(nearest),
+            },
             origin: query.poses(0.0)?[1].translation().to_array(),
             contacts: contact.into_iter().collect(),
             ..view
@@ -114,8 +118,13 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Returns as many as are drawn, spread over all.
-fn few(steps: &[f64]) -> Vec<f64> {
-    let every = steps.len().div_ceil(GHOSTS).max(1);
-    steps.iter().copied().step_by(every).collect()
+/// Returns those that are drawn: not too near to each other.
+fn few(steps: &[f64], duration: f64) -> Vec<f64> {
+    let mut drawn: Vec<f64> = Vec::new();
+    for &step in steps {
+        if drawn.last().is_none_or(|last| step - last > duration / GHOSTS) {
+            drawn.push(step);
+        }
+    }
+    drawn
 }

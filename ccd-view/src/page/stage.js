@@ -24,7 +24,7 @@ class Stage {
     this.scene.add(this.content);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.render());
-    this.asked = false;
+    this.asked = null;
     new ResizeObserver(() => this.resize()).observe(holder);
     this.resize();
   }
@@ -40,12 +40,12 @@ class Stage {
 
   // Draws before the next frame, once.
   render() {
-    if (this.asked) return;
-    this.asked = true;
-    requestAnimationFrame(() => { this.asked = false; this.renderNow(); });
+    this.asked ??= requestAnimationFrame(() => this.renderNow());
   }
 
   renderNow() {
+    if (this.asked !== null) cancelAnimationFrame(this.asked);
+    this.asked = null;
     this.sun.position.copy(this.camera.position).add(new THREE.Vector3(0.3, 0.2, 0.8).multiplyScalar(this.camera.position.length()));
     this.renderer.render(this.scene, this.camera);
   }
@@ -55,14 +55,22 @@ class Stage {
     this.content.clear();
   }
 
-  // Looks at all of a box, from one side of it.
-  fit({ low, high }) {
-    const [from, to] = [new THREE.Vector3(...low), new THREE.Vector3(...high)];
-    const radius = Math.max(from.distanceTo(to) / 2, 1e-30);
-    const middle = from.add(to).multiplyScalar(0.5);
-    const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
-    const away = radius / Math.sin(half);
-    this.camera.position.copy(middle).add(new THREE.Vector3(0.55, -0.75, 0.4).normalize().multiplyScalar(away));
+  // Looks at all of some points from above, across their longer side.
+  fit(points) {
+    const box = new THREE.Box3().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
+    const middle = box.getCenter(new THREE.Vector3());
+    const depth = (side) => Math.max(...points.map((p) => Math.abs(new THREE.Vector3(...p).sub(middle).dot(side))));
+    const sides = [[0.55, -0.75, 0.4], [0.75, 0.55, 0.4]].map((side) => new THREE.Vector3(...side).normalize());
+    const back = depth(sides[0]) <= depth(sides[1]) ? sides[0] : sides[1];
+    const right = new THREE.Vector3(0, 0, 1).cross(back).normalize();
+    const up = back.clone().cross(right);
+    const tall = Math.tan((this.camera.fov * Math.PI) / 360);
+    const away = points.reduce((most, p) => {
+      const seen = new THREE.Vector3(...p).sub(middle);
+      const across = Math.max(Math.abs(seen.dot(right)) / (tall * this.camera.aspect), Math.abs(seen.dot(up)) / tall);
+      return Math.max(most, 1.08 * across + seen.dot(back));
+    }, 1e-30);
+    this.camera.position.copy(middle).addScaledVector(back, away);
     [this.camera.near, this.camera.far] = [away / 500, away * 20];
     this.camera.updateProjectionMatrix();
     this.controls.target.copy(middle);

@@ -18,10 +18,18 @@
       const made = new THREE.BufferGeometry();
       made.setAttribute("position", new THREE.BufferAttribute(new Float32Array(bytes(vertices)), 3));
       made.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(faces)), 1));
-      made.computeBoundingSphere();
+      made.computeBoundingBox();
       geometries.set(index, made);
     }
     return geometries.get(index);
+  }
+
+  const ghostly = new Map();
+
+  // The geometry for ghosts, of which there are many: a coarse one in place of a fine one.
+  function ghost(index) {
+    if (!ghostly.has(index)) ghostly.set(index, Coarse.of(geometry(index)));
+    return ghostly.get(index);
   }
 
   // Where the middle of a body's mesh is at a time, seen from the view's origin.
@@ -31,27 +39,23 @@
     return { rotation, place: place.map((p, k) => p + middle[k] - view.origin[k]) };
   }
 
-  // A box about all bodies from the start to the end.
-  function extent(view) {
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  // The corners of the boxes about all bodies, at some times from the start to the end.
+  function corners(view) {
     const times = Array.from({ length: 9 }, (_, k) => (k * view.duration) / 8);
-    for (const body of view.bodies) {
-      const { center, radius } = geometry(body.mesh).boundingSphere;
-      for (const t of times) {
+    return view.bodies.flatMap((body) => {
+      const { min, max } = geometry(body.mesh).boundingBox;
+      const box = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [k & 1 ? min.x : max.x, k & 2 ? min.y : max.y, k & 4 ? min.z : max.z]);
+      return (body.moves ? times : [0]).flatMap((t) => {
         const { rotation, place } = placed(view, body, t);
-        Motion.apply(rotation, center.toArray()).forEach((c, k) => {
-          low[k] = Math.min(low[k], place[k] + c - radius);
-          high[k] = Math.max(high[k], place[k] + c + radius);
-        });
-      }
-    }
-    return { low, high };
+        return box.map((corner) => Motion.apply(rotation, corner).map((c, k) => c + place[k]));
+      });
+    });
   }
 
   function ghosts(view) {
     for (const t of element("ghosts").checked ? view.ghosts : []) {
       for (const body of view.bodies.filter(({ moves }) => moves)) {
-        stage.place(stage.addMesh(geometry(body.mesh), body.color, GHOST), placed(view, body, t));
+        stage.place(stage.addMesh(ghost(body.mesh), body.color, GHOST), placed(view, body, t));
       }
     }
   }
@@ -100,12 +104,14 @@
 
   function open() {
     const view = data.groups[groups.selectedIndex].views[views.selectedIndex];
-    const { low, high } = extent(view);
-    shown = { view, contact: null, meshes: null, size: Math.hypot(...low.map((l, k) => high[k] - l)) };
+    const points = corners(view);
+    const size = new THREE.Box3().setFromPoints(points.map((p) => new THREE.Vector3(...p))).getSize(new THREE.Vector3());
+    shown = { view, contact: null, meshes: null, size: size.length() };
     words.textContent = view.verdict;
     legend(view);
     element("steps").hidden = view.ghosts.length === 0;
     element("gap-words").hidden = view.gap === null;
+    list.hidden = view.contacts.length < 2;
     list.replaceChildren(...view.contacts.map(({ words: text }, number) => {
       const item = document.createElement("li");
       const button = document.createElement("button");
@@ -119,7 +125,7 @@
     player.open(view, view.time);
     if (view.contacts.length > 0) choose(0);
     else draw();
-    stage.fit({ low, high });
+    stage.fit(points);
   }
 
   function openGroup() {
@@ -151,7 +157,7 @@
     groups.addEventListener("change", openGroup);
     views.addEventListener("change", open);
     element("ghosts").addEventListener("change", draw);
-    element("fit").addEventListener("click", () => stage.fit(extent(shown.view)));
+    element("fit").addEventListener("click", () => stage.fit(corners(shown.view)));
     element("stage").addEventListener("keydown", keys);
     openGroup();
     stage.renderNow();

@@ -73,8 +73,17 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<()>
             break;
         }
     }
-    let title = format!("{} and {}", bodies.a, bodies.b);
+    let title = title(bodies);
     write_rows(&title, &pair, chosen, &args.out, args.quiet)
+}
+
+/// Returns the title of a page about two bodies: their names without folders.
+pub(super) fn title(bodies: &BodiesArgs) -> String {
+    let name = |text: &str| {
+        let name = Path::new(text).file_name();
+        name.map_or_else(|| text.to_owned(), |name| name.to_string_lossy().into_owned())
+    };
+    format!("{} and {}", name(&bodies.a), name(&bodies.b))
 }
 
 fn answered(

@@ -3,7 +3,7 @@
 use crate::Solver;
 use crate::batch::Bodies;
 use crate::table::courses::Course;
-use ccd_core::order::greater;
+use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::ClosestApproach;
 use ccd_core::{Body, Config, InputError, Stretch, Trajectory};
 use ccd_view::{Gap, GapPoint};
@@ -36,6 +36,21 @@ pub struct GapOverTime {
     pub gap: Gap,
     /// The times of the steps, from 0 on: after each the bodies stay apart at least until the next.
     pub steps: Vec<f64>,
+}
+
+impl GapOverTime {
+    /// Returns the least gap of the proven line.
+    pub(super) fn least(&self) -> Option<f64> {
+        let gaps = self.gap.proven.iter().map(|[_, gap]| *gap);
+        gaps.reduce(lesser)
+    }
+
+    /// Returns the time of the least gap that was measured.
+    pub(super) fn nearest(&self) -> f64 {
+        let points = self.gap.points.iter();
+        let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
+        nearest.map_or(0.0, |point| point.time)
+    }
 }
 
 /// Measures the gap at some times, most where the proven line is far below, and connects what is proven at these: from

@@ -1,9 +1,10 @@
 //! What a row of the results says, in words.
 
 use crate::table::results::{ResultRow, Status};
+use ccd_core::order::greater;
 
-/// Returns the answer of a row as sentences; `end` is the end of its motions.
-pub(super) fn verdict(row: &ResultRow, end: f64) -> String {
+/// Returns the answer of a row as sentences; `end` is the end of its motions, `proven` a gap that is proven at all times.
+pub(super) fn verdict(row: &ResultRow, end: f64, proven: Option<f64>) -> String {
     let time = row.time.map_or("an unknown time".to_owned(), number);
     let apart = apart(row);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
@@ -12,7 +13,7 @@ pub(super) fn verdict(row: &ResultRow, end: f64) -> String {
             "First contact at {time}: {}. Proven: nothing touches before.",
             contact(row)
         ),
-        Status::Free => match row.distance_lower {
+        Status::Free => match row.distance_lower.map(|gap| greater(gap, proven.unwrap_or(gap))) {
             Some(gap) => format!(
                 "No contact until {}. Proven: never nearer than {}.",
                 number(end),
