@@ -65,9 +65,10 @@ impl Course {
     /// Returns whether it goes anywhere.
     pub(crate) fn moves(&self) -> bool {
         match self {
-            Course::Steady { velocity, spin, .. } => {
-                velocity.iter().chain(spin).any(|component| *component != 0.0)
-            }
+            Course::Steady { velocity, spin, .. } => velocity
+                .iter()
+                .chain(spin)
+                .any(|component| *component != 0.0),
             Course::Keys { keys } => keys
                 .windows(2)
                 .any(|two| (two[0].place, two[0].rotation) != (two[1].place, two[1].rotation)),
@@ -77,5 +78,7 @@ impl Course {
 
 fn rows(pose: &Pose) -> [f64; 9] {
     // Columns of the transpose.
-    DMat3::from_quat(pose.rotation()).transpose().to_cols_array()
+    DMat3::from_quat(pose.rotation())
+        .transpose()
+        .to_cols_array()
 }

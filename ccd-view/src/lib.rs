@@ -18,7 +18,7 @@
 //! let mut meshes = Meshes::default();
 //! let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
 //! let triangle = meshes.add(&DrawnMesh { vertices: corners.to_vec(), faces: vec![[0, 1, 2]] });
-//! let slides = Motion::default();
+//! let slides = Motion::STILL;
 //! let view = View {
 //!     bodies: vec![ShownBody::new("A", triangle, "#3a9d6e", &slides)],
 //!     ..View::of("at rest", "Nothing moves.", 1.0)
@@ -35,5 +35,5 @@ mod view;
 
 pub use course::{Course, Key};
 pub use mesh::{DrawnMesh, Meshes};
-pub use page::{HTML, Page, PageError, STYLE, data, escape, json, scripts};
+pub use page::{HTML, Page, PageError, STYLE, data, escape, filled, json, scripts};
 pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};

@@ -49,7 +49,8 @@ impl Stored {
     fn of(mesh: &DrawnMesh) -> Self {
         let mut vertices = mesh.vertices.iter();
         let first = vertices.next().copied().unwrap_or(DVec3::ZERO);
-        let (low, high) = vertices.fold((first, first), |(low, high), v| (low.min(*v), high.max(*v)));
+        let (low, high) =
+            vertices.fold((first, first), |(low, high), v| (low.min(*v), high.max(*v)));
         // Halves first: the sum of two large numbers may not be one.
         let middle = 0.5 * low + 0.5 * high;
         let places = (mesh.vertices.iter()).flat_map(|v| (v - middle).as_vec3().to_array());

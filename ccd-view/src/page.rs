@@ -120,7 +120,7 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
+pub fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {

@@ -27,10 +27,10 @@ use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
 use man::ManArgs;
 use query::QueryArgs;
-use view::ViewArgs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use view::ViewArgs;
 
 /// Certified continuous collision detection: when do two moving rigid bodies first touch, where, and
 /// with which features?

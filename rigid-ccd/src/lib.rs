@@ -74,11 +74,11 @@ mod hit;
 #[cfg(feature = "meshes")]
 mod load;
 mod parallel;
+#[cfg(feature = "command")]
+pub mod picture;
 #[cfg(feature = "scenes")]
 mod scene;
 mod solver;
-#[cfg(feature = "command")]
-pub mod picture;
 #[cfg(feature = "command")]
 pub mod table;
 #[cfg(feature = "command")]

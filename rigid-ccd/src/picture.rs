@@ -12,7 +12,7 @@ mod verdict;
 
 pub use course::course;
 pub use drawn::drawn;
-pub use gap::{Reached, gap};
+pub use gap::{GapOverTime, Reached, gap};
 pub(crate) use scene::{Shown, scene_view};
 
 use crate::Solver;
@@ -26,8 +26,6 @@ use drawn::lit;
 
 /// The colours of both bodies.
 pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
-/// The most ghosts that are drawn of one query, but for the first.
-const GHOSTS: f64 = 12.0;
 
 /// Makes views of the answers about two bodies.
 pub(crate) struct Painter<'a> {
@@ -73,7 +71,7 @@ impl<'a> Painter<'a> {
                 _ => Reached::Nothing,
             };
             let found = gap(&mut self.solver, self.bodies, query, reached)?;
-            view.ghosts = few(&found.steps, duration);
+            view.ghosts = found.ghosts(duration);
             proven = found.least();
             nearest = found.nearest();
             view.gap = Some(found.gap);
@@ -105,7 +103,12 @@ impl<'a> Painter<'a> {
         };
         let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
         let lit = |k: usize, body: &Body, feature: &Option<String>| {
-            lit(body, &poses[k], feature.as_deref().unwrap_or_default(), witnesses[k])
+            lit(
+                body,
+                &poses[k],
+                feature.as_deref().unwrap_or_default(),
+                witnesses[k],
+            )
         };
         Some(ShownContact {
             time,
@@ -116,15 +119,4 @@ impl<'a> Painter<'a> {
             lit_b: lit(1, self.bodies.b, &row.feature_b),
         })
     }
-}
-
-/// Returns those that are drawn: not too near to each other.
-fn few(steps: &[f64], duration: f64) -> Vec<f64> {
-    let mut drawn: Vec<f64> = Vec::new();
-    for &step in steps {
-        if drawn.last().is_none_or(|last| step - last > duration / GHOSTS) {
-            drawn.push(step);
-        }
-    }
-    drawn
 }

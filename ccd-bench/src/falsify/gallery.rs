@@ -10,7 +10,7 @@ use crate::run::contest::Verdict;
 use crate::show::atlas::{Atlas, Detail, StepLine};
 use crate::show::chart::{HeatCell, HeatKind, HeatMap, HeatRow};
 use crate::show::tables::TextTable;
-use crate::show::view::{Shot, View, near_origin};
+use crate::show::view::{Shot, View};
 use crate::truth::Truth;
 use anyhow::{Context, Result};
 use ccd_decomp::{TriangleMesh, write_obj};
@@ -90,11 +90,12 @@ impl Exhibit {
             ),
             meshes: meshes.clone(),
             shot: Shot {
-                query: near_origin(query).ok()?,
+                query: query.clone(),
                 name: format!("{method}: {verdict}"),
                 status: format!("{verdict}: {answer}. Exact: {exact}."),
                 time: shown(examined),
                 contact: None,
+                gap: None,
             },
             query: query.clone(),
             step: StepLine {

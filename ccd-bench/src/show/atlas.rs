@@ -71,11 +71,11 @@ impl Atlas<'_> {
             ("preface", escape(self.preface)),
             ("links", self.links()),
             ("maps", maps.collect()),
-            ("view_controls", view::CONTROLS.to_owned()),
+            ("view_place", ccd_view::HTML.to_owned()),
+            ("view_style", ccd_view::STYLE.to_owned()),
             ("details", json(&self.details)?),
             ("views", view::data(self.views)?),
-            ("plotly", page::plotly()),
-            ("view_script", view::SCRIPT.to_owned()),
+            ("view_scripts", ccd_view::scripts()),
             ("atlas_script", include_str!("atlas/atlas.js").to_owned()),
         ];
         Ok(page::filled(include_str!("atlas/atlas.html"), &parts))

@@ -2,9 +2,10 @@
 
 use super::chart::ChartError;
 use plotly::Plot;
-use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
+
+pub(super) use ccd_view::{escape, filled, json};
 
 /// The style of all pages.
 pub(super) const STYLE: &str = include_str!("page/style.css");
@@ -40,20 +41,6 @@ pub(super) fn write(path: &Path, html: &str) -> Result<(), PageError> {
     })
 }
 
-/// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
-pub(super) fn filled(template: &str, parts: &[(&str, String)]) -> String {
-    let mut pieces = template.split("{{");
-    let mut text = pieces.next().unwrap_or_default().to_owned();
-    for piece in pieces {
-        let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        if let Some((_, part)) = parts.iter().find(|(known, _)| *known == name) {
-            text.push_str(part);
-        }
-        text.push_str(rest);
-    }
-    text
-}
-
 /// Returns the library that draws, as a script. Its other script renders formulas, and no page has any.
 pub(super) fn plotly() -> String {
     const END: &str = "</script>";
@@ -63,17 +50,4 @@ pub(super) fn plotly() -> String {
         None => scripts,
     };
     format!("{}{first}", include_str!("page/canvas.html"))
-}
-
-/// Escapes a text for HTML.
-pub(super) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
-
-/// Serialises as JSON in which no tag can begin.
-pub(super) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
-    Ok(serde_json::to_string(value)?.replace('<', "\\u003c"))
 }

@@ -44,12 +44,13 @@ impl Page<'_> {
             ("preface", self.preface_html()),
             ("charts", self.charts_html()?),
             ("tables", self.tables_html()),
-            ("view_controls", view::CONTROLS.to_owned()),
+            ("view_place", ccd_view::HTML.to_owned()),
+            ("view_style", ccd_view::STYLE.to_owned()),
             ("measured", data::measured(&self.charts)?),
             ("views", view::data(self.views)?),
             ("plotly", page::plotly()),
             ("charts_script", include_str!("report/charts.js").to_owned()),
-            ("view_script", view::SCRIPT.to_owned()),
+            ("view_scripts", ccd_view::scripts()),
             ("tables_script", include_str!("report/tables.js").to_owned()),
         ];
         Ok(page::filled(include_str!("report/page.html"), &parts))

@@ -1,17 +1,10 @@
 //! Scenes to view in three dimensions, on a page.
 
-use super::page::json;
-use base64::Engine;
-use base64::prelude::BASE64_STANDARD;
-use ccd_core::glam::{DMat3, DVec3};
-use ccd_core::{Answer, Contact, InputError, Motion, Outcome, Overlap, Pose};
+use ccd_core::{Answer, Contact, Outcome, Overlap};
 use ccd_decomp::TriangleMesh;
+use ccd_view::{DrawnMesh, Group, Meshes, ShownBody, ShownContact};
+use rigid_ccd::picture::{COLORS, GapOverTime};
 use rigid_ccd::table::motions::Query;
-use serde::Serialize;
-
-/// What shows the scenes, and the script that does it.
-pub(super) const CONTROLS: &str = include_str!("view/controls.html");
-pub(super) const SCRIPT: &str = include_str!("view/view.js");
 
 /// A scene to view.
 #[derive(Clone, Debug)]
@@ -39,6 +32,8 @@ pub struct Shot {
     pub time: Option<f64>,
     /// The contact at that time, if it is known.
     pub contact: Option<Contact>,
+    /// The gap over time, if it was measured.
+    pub gap: Option<GapOverTime>,
 }
 
 impl Shot {
@@ -60,130 +55,63 @@ impl Shot {
             query,
             time,
             contact,
+            gap: None,
         }
     }
 }
 
-/// Moves a query's world, so that body B starts at its origin: pictures are drawn in single precision.
-///
-/// # Errors
-/// If the numbers overflow.
-pub fn near_origin(query: &Query) -> Result<Query, InputError> {
-    let origin = query.b.start().translation();
-    let moved = |motion: &Motion| -> Result<Motion, InputError> {
-        let start = motion.start();
-        let place: DVec3 = start.translation() - origin;
-        let pose = Pose::new(place, start.rotation())?;
-        Motion::about(pose, motion.velocity(), motion.spin(), motion.centre())
-    };
-    Ok(Query {
-        a: moved(&query.a)?,
-        b: moved(&query.b)?,
-        ..query.clone()
-    })
-}
-
-#[derive(Serialize)]
-struct Views<'a> {
-    meshes: Vec<MeshData>,
-    views: Vec<ViewData<'a>>,
-}
-
-/// A mesh as little-endian numbers in base64.
-#[derive(PartialEq, Serialize)]
-struct MeshData {
-    /// Three `f32` per vertex.
-    vertices: String,
-    /// Three `u32` per face.
-    faces: String,
-}
-
-#[derive(Serialize)]
-struct ViewData<'a> {
-    scene: &'a str,
-    a: usize,
-    b: usize,
-    shots: Vec<ShotData<'a>>,
-}
-
-#[derive(Serialize)]
-struct ShotData<'a> {
-    name: &'a str,
-    status: &'a str,
-    duration: f64,
-    time: Option<f64>,
-    contact: Option<ContactData>,
-    a: MotionData,
-    b: MotionData,
-}
-
-#[derive(Serialize)]
-struct ContactData {
-    witness_a: [f64; 3],
-    witness_b: [f64; 3],
-    normal: [f64; 3],
-}
-
-#[derive(Serialize)]
-struct MotionData {
-    /// The centre of rotation, in the body's frame.
-    centre: [f64; 3],
-    /// The centre at the start.
-    from: [f64; 3],
-    velocity: [f64; 3],
-    spin: [f64; 3],
-    /// The rotation at the start, by rows.
-    rotation: [f64; 9],
-}
-
-/// Serialises the meshes, motions and answers of the views; equal meshes once.
+/// Returns the views as JSON; equal meshes are stored once.
 pub(super) fn data(views: &[View<'_>]) -> Result<String, serde_json::Error> {
-    let mut meshes = Vec::new();
-    let mut stored = |mesh: &TriangleMesh| {
-        let data = mesh_data(mesh);
-        meshes
-            .iter()
-            .position(|known| *known == data)
-            .unwrap_or_else(|| {
-                meshes.push(data);
-                meshes.len() - 1
-            })
-    };
-    let views = views
-        .iter()
-        .filter(|view| !view.shots.is_empty())
-        .map(|view| ViewData {
-            scene: view.scene,
-            a: stored(view.a),
-            b: stored(view.b),
-            shots: view.shots.iter().map(shot_data).collect(),
+    let mut meshes = Meshes::default();
+    let groups: Vec<Group> = (views.iter().filter(|view| !view.shots.is_empty()))
+        .map(|view| {
+            let numbers = [view.a, view.b].map(|mesh| meshes.add(&drawn(mesh)));
+            Group {
+                name: view.scene.to_owned(),
+                views: view.shots.iter().map(|shot| shown(shot, numbers)).collect(),
+            }
         })
         .collect();
-    json(&Views { meshes, views })
+    ccd_view::data(&meshes, &groups)
 }
 
-fn mesh_data(mesh: &TriangleMesh) -> MeshData {
-    // Single precision is finer than any screen.
-    let positions = mesh.vertices().iter().flat_map(|v| v.as_vec3().to_array());
-    let vertices: Vec<u8> = positions.flat_map(f32::to_le_bytes).collect();
-    let corners = mesh.faces().iter().flatten();
-    let faces: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
-    MeshData {
-        vertices: BASE64_STANDARD.encode(vertices),
-        faces: BASE64_STANDARD.encode(faces),
+fn drawn(mesh: &TriangleMesh) -> DrawnMesh {
+    DrawnMesh {
+        vertices: mesh.vertices().to_vec(),
+        faces: mesh.faces().to_vec(),
     }
 }
 
-fn shot_data(shot: &Shot) -> ShotData<'_> {
+fn shown(shot: &Shot, meshes: [usize; 2]) -> ccd_view::View {
     let query = &shot.query;
-    ShotData {
-        name: &shot.name,
-        status: &shot.status,
-        duration: query.duration,
-        time: shot.time,
-        contact: shot.contact.as_ref().map(contact_data),
-        a: motion_data(&query.a),
-        b: motion_data(&query.b),
+    let time = shot.time.unwrap_or(query.duration);
+    let bodies = [("A", query.a), ("B", query.b)].into_iter().zip(meshes);
+    let bodies = bodies.zip(COLORS);
+    let contact = shot.contact.map(|contact| ShownContact {
+        time,
+        words: shot.status.clone(),
+        witnesses: Some([contact.separation.witness_a, contact.separation.witness_b]),
+        normal: Some(contact.separation.normal),
+        lit_a: Vec::new(),
+        lit_b: Vec::new(),
+    });
+    ccd_view::View {
+        time: match (&shot.time, &shot.gap) {
+            (None, Some(gap)) => gap.nearest(),
+            _ => time,
+        },
+        origin: query.b.start().translation().to_array(),
+        bodies: bodies
+            .map(|(((name, motion), mesh), color)| ShownBody::new(name, mesh, color, &motion))
+            .collect(),
+        ghosts: match &shot.gap {
+            Some(gap) => gap.ghosts(query.duration),
+            // Where it starts and ends.
+            None => vec![0.0, query.duration],
+        },
+        gap: shot.gap.as_ref().map(|found| found.gap.clone()),
+        contacts: contact.into_iter().collect(),
+        ..ccd_view::View::of(&shot.name, &shot.status, query.duration)
     }
 }
 
@@ -217,26 +145,5 @@ fn status(outcome: &Outcome, duration: f64) -> String {
         Outcome::Unresolved { safe_until, .. } => {
             format!("Given up; no contact until {safe_until:.6} of {duration}.")
         }
-    }
-}
-
-fn contact_data(contact: &Contact) -> ContactData {
-    ContactData {
-        witness_a: contact.separation.witness_a.to_array(),
-        witness_b: contact.separation.witness_b.to_array(),
-        normal: contact.separation.normal.to_array(),
-    }
-}
-
-fn motion_data(motion: &Motion) -> MotionData {
-    let from: DVec3 = motion.start().transform_point(motion.centre());
-    let rotation = DMat3::from_quat(motion.start().rotation()).transpose();
-    MotionData {
-        centre: motion.centre().to_array(),
-        from: from.to_array(),
-        velocity: motion.velocity().to_array(),
-        spin: motion.spin().to_array(),
-        // Columns of the transpose.
-        rotation: rotation.to_cols_array(),
     }
 }

@@ -7,7 +7,7 @@ use crate::run::contest::Verdict;
 use crate::run::measured::Trial;
 use crate::show::atlas::{Atlas, Detail, StepLine};
 use crate::show::page::PageError;
-use crate::show::view::{Shot, View, near_origin};
+use crate::show::view::{Shot, View};
 use ccd_decomp::TriangleMesh;
 use std::path::Path;
 
@@ -134,7 +134,7 @@ impl Picture {
         };
         let claimed = Some(trial.time).filter(|time| (0.0..=duration).contains(time));
         self.shots.push(Shot {
-            query: near_origin(&case.query).ok()?,
+            query: case.query.clone(),
             name: format!("{method}: {}", trial.verdict),
             status: format!(
                 "{}: {}. Exact: {}.",
@@ -144,6 +144,7 @@ impl Picture {
             ),
             time: claimed.or(exact),
             contact: None,
+            gap: None,
         });
         Some(self.shots.len() - 1)
     }

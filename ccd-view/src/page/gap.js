@@ -8,21 +8,25 @@ class GapPlot {
     holder.addEventListener("click", (event) => {
       if (!this.view) return;
       const box = this.svg.getBoundingClientRect();
-      const x = ((event.clientX - box.left) / box.width) * GapPlot.WIDTH;
-      const share = Math.min(Math.max((x - GapPlot.LEFT) / (GapPlot.WIDTH - GapPlot.LEFT - GapPlot.RIGHT), 0), 1);
+      const x = event.clientX - box.left;
+      const share = Math.min(Math.max((x - GapPlot.LEFT) / (this.right - GapPlot.LEFT), 0), 1);
       this.go(share * this.view.duration);
     });
+    new ResizeObserver(() => {
+      if (this.view && holder.clientWidth !== this.width) { this.open(this.view); this.move(this.t); }
+    }).observe(holder);
   }
 
   open(view) {
     this.view = view;
+    this.width = this.holder.clientWidth;
+    this.right = this.width - GapPlot.RIGHT;
     const most = Math.max(0, ...(view.gap?.points.map((point) => point.upper) ?? [])) || 1;
-    this.holder.classList.toggle("flat", view.gap === null);
     this.height = view.gap === null ? 46 : 170;
     this.top = most * 1.05;
     const { gap, contacts, start, duration } = view;
     const parts = [];
-    const step = GapPlot.niceStep(duration / 6);
+    const step = GapPlot.niceStep(duration / (this.width / 160));
     for (let n = Math.ceil(start / step); duration > 0 && n * step <= start + duration; n += 1) {
       const x = this.x(n * step - start);
       parts.push(`<line class="grid" x1="${x}" x2="${x}" y1="${GapPlot.UP}" y2="${this.floor()}"/><text x="${x}" y="${this.floor() + 16}" text-anchor="middle">${GapPlot.text(n * step, step)}</text>`);
@@ -30,9 +34,9 @@ class GapPlot {
     if (gap !== null) parts.push(...this.curves(gap, most));
     for (const contact of contacts) parts.push(`<line class="contact" x1="${this.x(contact.time)}" x2="${this.x(contact.time)}" y1="${GapPlot.UP}" y2="${this.floor()}"/>`);
     for (const ghost of view.ghosts) parts.push(`<path class="step" d="M${this.x(ghost)},${this.floor()}l-4,7h8z"/>`);
-    parts.push(`<line class="floor" x1="${GapPlot.LEFT}" x2="${GapPlot.WIDTH - GapPlot.RIGHT}" y1="${this.floor()}" y2="${this.floor()}"/>`);
+    parts.push(`<line class="floor" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${this.floor()}" y2="${this.floor()}"/>`);
     parts.push(`<line class="now" id="view-cursor" y1="${GapPlot.UP}" y2="${this.floor()}"/>`);
-    this.holder.innerHTML = `<svg viewBox="0 0 ${GapPlot.WIDTH} ${this.height}" role="img" aria-label="Gap between the bodies over time">${parts.join("")}</svg>`;
+    this.holder.innerHTML = `<svg width="${this.width}" height="${this.height}" role="img" aria-label="Gap between the bodies over time">${parts.join("")}</svg>`;
     this.svg = this.holder.firstChild;
     this.cursor = this.svg.querySelector("#view-cursor");
   }
@@ -42,7 +46,7 @@ class GapPlot {
     const step = GapPlot.niceStep(most / 3);
     for (let n = 0; n * step <= most; n += 1) {
       const y = this.y(n * step);
-      parts.push(`<line class="grid" x1="${GapPlot.LEFT}" x2="${GapPlot.WIDTH - GapPlot.RIGHT}" y1="${y}" y2="${y}"/><text x="${GapPlot.LEFT - 6}" y="${y + 4}" text-anchor="end">${GapPlot.text(n * step, step)}</text>`);
+      parts.push(`<line class="grid" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${y}" y2="${y}"/><text x="${GapPlot.LEFT - 6}" y="${y + 4}" text-anchor="end">${GapPlot.text(n * step, step)}</text>`);
     }
     const line = (list) => list.map(([t, g], k) => `${k === 0 ? "M" : "L"}${this.x(t)},${this.y(g)}`).join("");
     const ends = `L${this.x(proven.at(-1)[0])},${this.floor()}L${this.x(proven[0][0])},${this.floor()}Z`;
@@ -52,6 +56,7 @@ class GapPlot {
   }
 
   move(t) {
+    this.t = t;
     const x = this.x(t);
     this.cursor.setAttribute("x1", x);
     this.cursor.setAttribute("x2", x);
@@ -60,7 +65,7 @@ class GapPlot {
   x(t) {
     const { duration } = this.view;
     const share = duration > 0 ? t / duration : 0;
-    return +(GapPlot.LEFT + share * (GapPlot.WIDTH - GapPlot.LEFT - GapPlot.RIGHT)).toFixed(2);
+    return +(GapPlot.LEFT + share * (this.right - GapPlot.LEFT)).toFixed(2);
   }
 
   y(gap) {
@@ -84,4 +89,4 @@ class GapPlot {
   }
 }
 
-[GapPlot.WIDTH, GapPlot.LEFT, GapPlot.RIGHT, GapPlot.UP] = [1040, 64, 16, 8];
+[GapPlot.LEFT, GapPlot.RIGHT, GapPlot.UP] = [64, 16, 8];

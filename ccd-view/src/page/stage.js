@@ -8,9 +8,10 @@ class Stage {
     return context !== null;
   }
 
-  constructor(holder) {
+  // `triangles` is about how many are drawn: edges of many are not smoothed, which takes long without a graphics card.
+  constructor(holder, triangles) {
     this.holder = holder;
-    this.renderer = new THREE.WebGLRenderer({ antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: triangles < 60000 });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setClearColor("#ffffff");
     holder.append(this.renderer.domElement);
@@ -119,7 +120,7 @@ class Stage {
   }
 
   addArrow(from, direction, length, color) {
-    const arrow = new THREE.ArrowHelper(new THREE.Vector3(...direction), new THREE.Vector3(...from), length, color, 0.3 * length, 0.15 * length);
+    const arrow = new THREE.ArrowHelper(new THREE.Vector3(...direction), new THREE.Vector3(...from), length, color, 0.2 * length, 0.09 * length);
     for (const part of [arrow.line, arrow.cone]) {
       part.material.depthTest = false;
       part.renderOrder = 3;

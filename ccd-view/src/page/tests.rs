@@ -1,0 +1,77 @@
+use super::*;
+use crate::{DrawnMesh, ShownBody, View};
+use ccd_core::Motion;
+use ccd_core::glam::DVec3;
+
+fn page(title: &str) -> Page<'_> {
+    let mut meshes = Meshes::default();
+    let mesh = meshes.add(&DrawnMesh {
+        vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        faces: vec![[0, 1, 2]],
+    });
+    let hostile = "</script><b>\u{2028}{{title}}";
+    let view = View {
+        bodies: vec![ShownBody::new(hostile, mesh, "#000", &Motion::STILL)],
+        ..View::of(hostile, hostile, 1.0)
+    };
+    let groups = vec![Group {
+        name: hostile.to_owned(),
+        views: vec![view],
+    }];
+    Page {
+        title,
+        meshes,
+        groups,
+    }
+}
+
+#[test]
+fn nothing_in_names_ends_an_element() {
+    let html = page("a \"<b>\" & c").html().unwrap();
+    assert!(html.contains("<title>a &quot;&lt;b&gt;&quot; &amp; c</title>"));
+    assert!(!html.contains("</script><b>"));
+    assert!(html.contains("\\u003c/script>\\u003cb>"));
+    assert!(
+        html.contains("{{title}}"),
+        "what is inserted is not filled in"
+    );
+    // Its data, and one element for each script.
+    assert_eq!(
+        html.matches("</script>").count(),
+        1 + scripts().matches("</script>").count()
+    );
+}
+
+#[test]
+fn a_page_needs_nothing_else() {
+    let html = page("").html().unwrap();
+    for elsewhere in [
+        "<script src",
+        "<link rel=\"stylesheet",
+        "@import",
+        "import(",
+    ] {
+        assert!(!html.contains(elsewhere), "{elsewhere}");
+    }
+    assert!(html.len() < 700_000, "{}", html.len());
+}
+
+#[test]
+fn every_element_that_a_script_asks_for_is_there() {
+    let asked = [include_str!("view.js"), include_str!("player.js")].concat();
+    let quoted = asked.split('"').skip(1).step_by(2);
+    let known = ["scene", "shot", "contacts", "status", "time", "now", "play"];
+    let ids: Vec<&str> = quoted.filter(|word| known.contains(word)).collect();
+    assert!(ids.len() >= known.len());
+    for id in known {
+        assert!(HTML.contains(&format!("id=\"view-{id}\"")), "{id}");
+    }
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_named() {
+    let error = page("")
+        .write(Path::new("no/such/folder/page.html"))
+        .unwrap_err();
+    assert!(error.to_string().contains("no/such/folder"), "{error}");
+}

@@ -39,9 +39,9 @@
     return { rotation, place: place.map((p, k) => p + middle[k] - view.origin[k]) };
   }
 
-  // The corners of the boxes about all bodies, at some times from the start to the end.
-  function corners(view) {
-    const times = Array.from({ length: 9 }, (_, k) => (k * view.duration) / 8);
+  // The corners of the boxes about all bodies, at some times from the start on.
+  function corners(view, until) {
+    const times = Array.from({ length: 9 }, (_, k) => (k * until) / 8);
     return view.bodies.flatMap((body) => {
       const { min, max } = geometry(body.mesh).boundingBox;
       const box = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [k & 1 ? min.x : max.x, k & 2 ? min.y : max.y, k & 4 ? min.z : max.z]);
@@ -104,7 +104,8 @@
 
   function open() {
     const view = data.groups[groups.selectedIndex].views[views.selectedIndex];
-    const points = corners(view);
+    const until = view.contacts.length === 1 ? view.contacts[0].time : view.duration;
+    const points = corners(view, until);
     const size = new THREE.Box3().setFromPoints(points.map((p) => new THREE.Vector3(...p))).getSize(new THREE.Vector3());
     shown = { view, contact: null, meshes: null, size: size.length() };
     words.textContent = view.verdict;
@@ -151,13 +152,13 @@
     page.view = "no-webgl";
     words.textContent = "This browser has no WebGL: no view in three dimensions.";
   } else {
-    stage = new Stage(element("stage"));
+    stage = new Stage(element("stage"), data.meshes.reduce((sum, { faces }) => sum + faces.length / 16, 0));
     plot = new GapPlot(element("gap"), (t) => player.jump(t));
     player = new Player(element, show);
     groups.addEventListener("change", openGroup);
     views.addEventListener("change", open);
     element("ghosts").addEventListener("change", draw);
-    element("fit").addEventListener("click", () => stage.fit(corners(shown.view)));
+    element("fit").addEventListener("click", () => stage.fit(corners(shown.view, shown.view.duration)));
     element("stage").addEventListener("keydown", keys);
     openGroup();
     stage.renderNow();

@@ -13,6 +13,7 @@ pub(super) use args::QueryArgs;
 
 use super::bad_rows::BadRows;
 use super::files::{Rows, input_name, is_standard, open_courses, refuse_overwriting};
+use super::view::{Chosen, title, write_rows};
 use super::{Exit, complain};
 use crate::batch::{
     BatchSize, BoundKind, Question, ScheduleKind, Settings, SolverKind, on_threads,
@@ -64,6 +65,10 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
         batch: BatchSize::new(solver.threads()),
         solver,
         outputs,
+        shown: args
+            .html
+            .as_ref()
+            .map(|_| Chosen::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
         bad_rows: BadRows::new(input_name(&args.motions)),
         progress: match args.quiet {
@@ -75,6 +80,9 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     answering.outputs.finish(end)?;
     drop(answering.progress);
     answering.bad_rows.close();
+    if let (Some(chosen), Some(html)) = (answering.shown, &args.html) {
+        write_rows(&title(&args.bodies), &pair, chosen, html, args.quiet)?;
+    }
     if answering.summary.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
     }
@@ -90,9 +98,15 @@ fn check_paths(args: &QueryArgs) -> Result<()> {
     read.extend(args.bodies.files()?);
     for (option, path) in &read {
         refuse_overwriting((option, path), ("--out", &args.out))?;
+        if let Some(html) = &args.html {
+            refuse_overwriting((option, path), ("--html", html))?;
+        }
         if let Some(contacts) = &args.contacts {
             refuse_overwriting((option, path), ("--contacts", contacts))?;
         }
+    }
+    if let Some(html) = &args.html {
+        refuse_overwriting(("--out", &args.out), ("--html", html))?;
     }
     if let Some(contacts) = &args.contacts {
         if is_standard(contacts) && is_standard(&args.out) {

@@ -11,11 +11,11 @@ pub(super) use chosen::Chosen;
 use super::files::{input_name, open_courses, refuse_overwriting};
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::{Exit, complain};
+use crate::Scene;
 use crate::batch::{Question, Settings, SolverKind, time};
 use crate::picture::{Painter, scene_view};
 use crate::table::courses::Course;
 use crate::table::results::{self, ResultRow};
-use crate::Scene;
 use anyhow::{Context, Result, bail};
 use ccd_core::{Config, Instructions};
 use ccd_view::{Group, Page, View};
@@ -67,7 +67,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<()>
             None => Some(answered(&pair, &course, &settings, solver.as_mut())),
         };
         if let Some(row) = row {
-            chosen.offer(course, row);
+            chosen.offer(&course, &row);
         }
         if chosen.is_full() {
             break;
@@ -81,7 +81,10 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<()>
 pub(super) fn title(bodies: &BodiesArgs) -> String {
     let name = |text: &str| {
         let name = Path::new(text).file_name();
-        name.map_or_else(|| text.to_owned(), |name| name.to_string_lossy().into_owned())
+        name.map_or_else(
+            || text.to_owned(),
+            |name| name.to_string_lossy().into_owned(),
+        )
     };
     format!("{} and {}", name(&bodies.a), name(&bodies.b))
 }

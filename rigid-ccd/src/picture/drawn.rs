@@ -5,7 +5,7 @@ use ccd_core::order::greater;
 use ccd_core::{Body, Piece, Pose};
 use ccd_view::DrawnMesh;
 use parry3d_f64::transformation::try_convex_hull;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 /// The number of directions in which a rounded piece is drawn from each of its points.
@@ -33,14 +33,17 @@ pub fn drawn(body: &Body) -> DrawnMesh {
 /// three of each triangle of a face.
 pub(super) fn lit(body: &Body, pose: &Pose, feature: &str, witness: DVec3) -> Vec<DVec3> {
     let here = pose.inverse().transform_point(witness);
-    let triangles = || body.pieces().iter().flat_map(|piece| piece.mesh_triangles().collect::<Vec<_>>());
+    let triangles = || {
+        body.pieces()
+            .iter()
+            .flat_map(|piece| piece.mesh_triangles().collect::<Vec<_>>())
+    };
     let found = match feature.split_at_checked(1) {
         Some(("v", _)) => vec![here],
         Some(("e", _)) => {
             let edges = triangles().flat_map(|(_, [a, b, c])| [[a, b], [b, c], [c, a]]);
-            let nearest = edges.min_by(|one, two| {
-                distance(here, *one).total_cmp(&distance(here, *two))
-            });
+            let nearest =
+                edges.min_by(|one, two| distance(here, *one).total_cmp(&distance(here, *two)));
             nearest.map_or_else(Vec::new, |edge| edge.to_vec())
         }
         Some(("f", number)) => triangles()
@@ -49,7 +52,10 @@ pub(super) fn lit(body: &Body, pose: &Pose, feature: &str, witness: DVec3) -> Ve
             .collect(),
         _ => Vec::new(),
     };
-    found.iter().map(|point| pose.transform_point(*point)).collect()
+    found
+        .iter()
+        .map(|point| pose.transform_point(*point))
+        .collect()
 }
 
 fn distance(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
@@ -58,17 +64,23 @@ fn distance(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
     point.distance(from + share.clamp(0.0, 1.0) * along)
 }
 
-/// A mesh whose equal vertices are one.
+/// A mesh whose equal vertices, and faces, are one.
 #[derive(Default)]
 struct Sketch {
     mesh: DrawnMesh,
     numbers: HashMap<[u64; 3], u32>,
+    drawn: HashSet<[u32; 3]>,
 }
 
 impl Sketch {
     fn push(&mut self, corners: [DVec3; 3]) {
         let numbers = corners.map(|corner| self.number(corner));
-        self.mesh.faces.push(numbers);
+        let mut sorted = numbers;
+        sorted.sort_unstable();
+        // A face may be of two pieces, and both sides of a flat one.
+        if self.drawn.insert(sorted) {
+            self.mesh.faces.push(numbers);
+        }
     }
 
     fn number(&mut self, corner: DVec3) -> u32 {
@@ -83,10 +95,15 @@ impl Sketch {
     /// Adds the hull of a piece's points, grown by its radius. A flat one without a radius is not drawn.
     fn push_hull(&mut self, piece: &Piece<'_>) {
         let around: Vec<DVec3> = match piece.radius > 0.0 {
-            true => directions().map(|direction| piece.radius * direction).collect(),
+            true => directions()
+                .map(|direction| piece.radius * direction)
+                .collect(),
             false => vec![DVec3::ZERO],
         };
-        let grown = piece.points.iter().flat_map(|point| around.iter().map(move |by| *point + *by));
+        let grown = piece
+            .points
+            .iter()
+            .flat_map(|point| around.iter().map(move |by| *point + *by));
         let points: Vec<_> = grown.collect();
         let parrys: Vec<_> = points.iter().map(|p| (*p).to_array().into()).collect();
         let Ok((corners, faces)) = try_convex_hull(&parrys) else {

@@ -9,6 +9,8 @@ use ccd_core::{Body, Config, InputError, Stretch, Trajectory};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
+/// The most ghosts that are drawn of one query, but for the first.
+const GHOSTS: f64 = 12.0;
 /// The number of times at which the gap is measured.
 const TIMES: usize = 160;
 /// The most steps of conservative advancement.
@@ -45,8 +47,22 @@ impl GapOverTime {
         gaps.reduce(lesser)
     }
 
+    /// Returns the steps that are drawn: not too near to each other.
+    pub fn ghosts(&self, duration: f64) -> Vec<f64> {
+        let mut drawn: Vec<f64> = Vec::new();
+        for &step in &self.steps {
+            if drawn
+                .last()
+                .is_none_or(|last| step - last > duration / GHOSTS)
+            {
+                drawn.push(step);
+            }
+        }
+        drawn
+    }
+
     /// Returns the time of the least gap that was measured.
-    pub(super) fn nearest(&self) -> f64 {
+    pub fn nearest(&self) -> f64 {
         let points = self.gap.points.iter();
         let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
         nearest.map_or(0.0, |point| point.time)

@@ -32,7 +32,9 @@ pub(crate) fn scene_view(
     let mut known = HashMap::new();
     let shown = bodies.iter().enumerate().map(|(k, shown)| {
         let address: *const Body = shown.body;
-        let mesh = *known.entry(address).or_insert_with(|| meshes.add(&drawn(shown.body)));
+        let mesh = *known
+            .entry(address)
+            .or_insert_with(|| meshes.add(&drawn(shown.body)));
         let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
         let color = match moves {
             true => format!("hsl({:.0} 55% 52%)", (150.0 + HUE * k as f64) % 360.0),
@@ -41,7 +43,10 @@ pub(crate) fn scene_view(
         ShownBody::new(shown.name, mesh, &color, &shown.motion)
     });
     let shown: Vec<ShownBody> = shown.collect();
-    let hits: Vec<&Impact> = contacts.iter().filter_map(|found| found.as_ref().ok()).collect();
+    let hits: Vec<&Impact> = contacts
+        .iter()
+        .filter_map(|found| found.as_ref().ok())
+        .collect();
     let origin = bodies.first().map_or([0.0; 3], |first| {
         first.motion.start().translation().to_array()
     });
@@ -55,14 +60,17 @@ pub(crate) fn scene_view(
     (meshes, view)
 }
 
-fn verdict(
-    bodies: &[Shown<'_>],
-    contacts: &[Result<Impact, PairError>],
-    duration: f64,
-) -> String {
-    let hits: Vec<&Impact> = contacts.iter().filter_map(|found| found.as_ref().ok()).collect();
+fn verdict(bodies: &[Shown<'_>], contacts: &[Result<Impact, PairError>], duration: f64) -> String {
+    let hits: Vec<&Impact> = contacts
+        .iter()
+        .filter_map(|found| found.as_ref().ok())
+        .collect();
     let mut words = match hits.first() {
-        None => format!("{} bodies, no contact until {}.", bodies.len(), number(duration)),
+        None => format!(
+            "{} bodies, no contact until {}.",
+            bodies.len(),
+            number(duration)
+        ),
         Some(first) => {
             let [a, b] = first.bodies.map(|k| bodies[k].name);
             format!(
@@ -77,13 +85,19 @@ fn verdict(
     if let Some(error) = contacts.iter().find_map(|found| found.as_ref().err()) {
         let [a, b] = error.bodies.map(|k| bodies[k].name);
         let open = contacts.len() - hits.len();
-        words += &format!(" {open} pairs without an answer, such as {a} and {b}: {}.", error.error);
+        words += &format!(
+            " {open} pairs without an answer, such as {a} and {b}: {}.",
+            error.error
+        );
     }
     words
 }
 
 fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
-    let Impact { bodies: [a, b], hit } = *impact;
+    let Impact {
+        bodies: [a, b],
+        hit,
+    } = *impact;
     let (a, b) = (&bodies[a], &bodies[b]);
     let at = |shown: &Shown<'_>, feature: Option<Feature>, witness: DVec3| {
         let pose = shown.motion.pose(hit.time);
@@ -93,8 +107,16 @@ fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
     ShownContact {
         time: hit.time,
         words: format!("{}: {} and {}", number(hit.time), a.name, b.name),
-        lit_a: at(a, hit.contact.map(|contact| contact.feature_a), hit.witness_a),
-        lit_b: at(b, hit.contact.map(|contact| contact.feature_b), hit.witness_b),
+        lit_a: at(
+            a,
+            hit.contact.map(|contact| contact.feature_a),
+            hit.witness_a,
+        ),
+        lit_b: at(
+            b,
+            hit.contact.map(|contact| contact.feature_b),
+            hit.witness_b,
+        ),
         witnesses: Some([hit.witness_a, hit.witness_b]),
         normal: hit.contact.map(|contact| contact.separation.normal),
     }

@@ -13,7 +13,10 @@ pub(super) fn verdict(row: &ResultRow, end: f64, proven: Option<f64>) -> String 
             "First contact at {time}: {}. Proven: nothing touches before.",
             contact(row)
         ),
-        Status::Free => match row.distance_lower.map(|gap| greater(gap, proven.unwrap_or(gap))) {
+        Status::Free => match row
+            .distance_lower
+            .map(|gap| greater(gap, proven.unwrap_or(gap)))
+        {
             Some(gap) => format!(
                 "No contact until {}. Proven: never nearer than {}.",
                 number(end),
@@ -49,10 +52,10 @@ pub(super) fn contact(row: &ResultRow) -> String {
 fn apart(row: &ResultRow) -> String {
     match (row.distance_lower, row.distance_upper) {
         (Some(lower), Some(_)) if lower < 0.0 => {
-            format!("a shift by {} would part them", number(-lower))
+            format!("a shift by {} would part them", number_up(-lower))
         }
         (Some(lower), Some(upper)) => {
-            format!("between {} and {} apart", number(lower), number(upper))
+            format!("between {} and {} apart", number(lower), number_up(upper))
         }
         (Some(lower), None) => format!("at least {} apart", number(lower)),
         _ => "at an unknown distance".to_owned(),
@@ -61,19 +64,55 @@ fn apart(row: &ResultRow) -> String {
 
 /// Returns `vertex 7` for `v7`.
 fn feature(name: &str) -> String {
-    let kinds = [('v', "vertex"), ('e', "edge"), ('f', "face"), ('p', "piece")];
+    let kinds = [
+        ('v', "vertex"),
+        ('e', "edge"),
+        ('f', "face"),
+        ('p', "piece"),
+    ];
     let kind = kinds.iter().find(|(sign, _)| name.starts_with(*sign));
-    kind.map_or_else(|| name.to_owned(), |(_, kind)| format!("{kind} {}", &name[1..]))
+    kind.map_or_else(
+        || name.to_owned(),
+        |(_, kind)| format!("{kind} {}", &name[1..]),
+    )
 }
 
-/// Returns a number in at most seven digits.
+/// Returns a number in at most seven digits, rounded down: what is proven of it is proven of the text.
 pub(super) fn number(value: f64) -> String {
-    let size = value.abs();
-    match value == 0.0 || (1e-3..1e6).contains(&size) {
+    let text = short(value);
+    match text.parse::<f64>() {
+        Ok(read) if value < read => short(value - last_digit(value)),
+        _ => text,
+    }
+}
+
+/// Returns a number in at most seven digits, rounded up.
+fn number_up(value: f64) -> String {
+    let text = short(value);
+    match text.parse::<f64>() {
+        Ok(read) if read < value => short(value + last_digit(value)),
+        _ => text,
+    }
+}
+
+fn short(value: f64) -> String {
+    match is_plain(value) {
         true => {
             let text = format!("{value:.6}");
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
         }
         false => format!("{value:.3e}"),
     }
+}
+
+/// Returns the worth of the last digit that is written.
+fn last_digit(value: f64) -> f64 {
+    match is_plain(value) {
+        true => 1e-6,
+        false => 10f64.powf(value.abs().log10().floor() - 3.0),
+    }
+}
+
+fn is_plain(value: f64) -> bool {
+    value == 0.0 || (1e-3..1e6).contains(&value.abs())
 }

@@ -316,7 +316,10 @@ pub(crate) fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
     let mut reader = csv::Reader::from_reader(input);
     let header = reader.headers()?;
     if !header.iter().take(COLUMNS.len()).eq(COLUMNS) {
-        let message = format!("its columns are not those of results, {}", COLUMNS.join(","));
+        let message = format!(
+            "its columns are not those of results, {}",
+            COLUMNS.join(",")
+        );
         return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
     }
     let rows = reader.records().map(|record| record?.deserialize(None));

@@ -8,6 +8,7 @@ use std::process::{Command, Output, Stdio};
 pub(crate) struct Run {
     args: Vec<String>,
     stdin: String,
+    folder: PathBuf,
 }
 
 impl Run {
@@ -15,6 +16,7 @@ impl Run {
         let run = Run {
             args: Vec::new(),
             stdin: String::new(),
+            folder: ".".into(),
         };
         run.args(args)
     }
@@ -29,9 +31,16 @@ impl Run {
         self
     }
 
+    /// Runs in this folder.
+    pub(crate) fn folder(self, folder: &Path) -> Self {
+        let folder = folder.to_owned();
+        Run { folder, ..self }
+    }
+
     pub(crate) fn output(&self) -> Output {
         let mut child = Command::new(crate::PROGRAM)
             .args(&self.args)
+            .current_dir(&self.folder)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

@@ -9,6 +9,7 @@ mod messages;
 mod questions;
 mod refusals;
 mod resume;
+mod view;
 
 use command::{Row, Run, Scene, parse, stderr};
 

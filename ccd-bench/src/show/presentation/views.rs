@@ -7,8 +7,11 @@ use crate::show::report::Page;
 use crate::show::tables::TextTable;
 use crate::show::view::{Shot, View};
 use ccd_core::{Config, InputError, Instructions, Outcome};
+use rigid_ccd::Solver;
 use rigid_ccd::batch::SolverKind;
 use rigid_ccd::batch::solve;
+use rigid_ccd::picture::{Reached, gap};
+use rigid_ccd::table::courses::Course;
 use std::path::{Path, PathBuf};
 
 /// The numbers of motions of a scene to view: contacts, and others.
@@ -60,6 +63,7 @@ pub(super) fn write_page(
 /// Returns the view of a scene with the first motions of each kind.
 fn view(scene: &Scene) -> Result<View<'_>, InputError> {
     let mut solver = SolverKind::default().solver(Instructions::Best);
+    let mut measure = Solver::new();
     let mut shots = Vec::new();
     let (mut contacts, mut others) = (0, 0);
     for query in &scene.queries {
@@ -70,7 +74,17 @@ fn view(scene: &Scene) -> Result<View<'_>, InputError> {
         };
         if *seen < most {
             *seen += 1;
-            shots.push(Shot::answered(query.clone(), &answer));
+            let shot = Shot::answered(query.clone(), &answer);
+            let reached = match answer.outcome {
+                Outcome::Free { proven_gap } => Reached::Throughout(proven_gap),
+                _ => Reached::Nothing,
+            };
+            let course = Course::Motions(query.clone());
+            let found = gap(&mut measure, scene.bodies(), &course, reached)?;
+            shots.push(Shot {
+                gap: Some(found),
+                ..shot
+            });
         }
         if (contacts, others) == (CONTACTS, OTHERS) {
             break;

@@ -9,6 +9,7 @@ use crate::batch::{BatchSize, Bodies, Settings, Solve, Timed, time};
 use crate::command::bad_rows::BadRows;
 use crate::command::files::{CannotWrite, Rows, input_name};
 use crate::command::progress::Progress;
+use crate::command::view::Chosen;
 use crate::table::contacts;
 use crate::table::courses::{Course, CourseRow};
 use crate::table::motions::{RowError, RowPosition, TableError};
@@ -24,6 +25,8 @@ pub(super) struct Answering<'a> {
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
     pub(super) batch: BatchSize,
     pub(super) outputs: Outputs,
+    /// The rows for a page, if there is to be one.
+    pub(super) shown: Option<Chosen>,
     pub(super) summary: Summary,
     pub(super) bad_rows: BadRows,
     pub(super) progress: Progress,
@@ -71,12 +74,12 @@ impl Answering<'_> {
         });
         self.batch.adapt(start.elapsed());
         let mut answered = Vec::new();
-        for (row, answer) in batch.iter().zip(&answers) {
-            let (position, id) = match row {
+        for (batch, answer) in batch.iter().zip(&answers) {
+            let (position, id) = match batch {
                 Ok((position, course)) => (*position, course.id()),
                 Err(error) => (error.position, error.id.as_str()),
             };
-            let row = match (row, answer) {
+            let row = match (batch, answer) {
                 (Ok((_, course)), Ok(timed)) => {
                     let row = self.result(course, timed);
                     self.summary.add(row.status, timed);
@@ -89,6 +92,9 @@ impl Answering<'_> {
                     ResultRow::error(id, problem)
                 }
             };
+            if let (Some(shown), Ok((_, course))) = (&mut self.shown, batch) {
+                shown.offer(course, &row);
+            }
             let extent = self.args.extent();
             let results = &mut self.outputs.results;
             results.write(|writer| results::write(writer, extent, &row))?;

@@ -83,6 +83,12 @@ pub(in crate::command) struct QueryArgs {
     /// output, and needs --out FILE
     #[arg(long, value_name = "CSV")]
     pub(super) contacts: Option<PathBuf>,
+    /// Write a page that shows some rows to this file, HTML: up to 4 of each status, or those of --html-ids
+    #[arg(long, value_name = "HTML")]
+    pub(super) html: Option<PathBuf>,
+    /// Show the rows with these ids on the page
+    #[arg(long, value_name = "ID,...", value_delimiter = ',', requires = "html")]
+    pub(super) html_ids: Vec<String>,
     /// Add columns with counters to the table of results, and print their means
     #[arg(long)]
     pub(super) counters: bool,
@@ -129,6 +135,8 @@ impl QueryArgs {
             repeat,
             out: _,
             contacts,
+            html: _,
+            html_ids: _,
             counters,
             no_micros,
             resume: _,

@@ -23,13 +23,23 @@ pub(in crate::command) struct ViewArgs {
     #[command(flatten)]
     pieces: PiecesArgs,
     /// Table of motions or paths to show, CSV, as of `ccd query`; - reads standard input
-    #[arg(long, value_name = "CSV", required_unless_present = "scene", requires = "a")]
+    #[arg(
+        long,
+        value_name = "CSV",
+        required_unless_present = "scene",
+        requires = "a"
+    )]
     motions: Option<PathBuf>,
     /// Table of results of `ccd query`: show what it says, without solving anything
     #[arg(long, value_name = "CSV", requires = "motions")]
     pub(super) results: Option<PathBuf>,
     /// Show the rows with these ids [default: up to 4 of each status, in the table's order]
-    #[arg(long, value_name = "ID,...", value_delimiter = ',', requires = "motions")]
+    #[arg(
+        long,
+        value_name = "ID,...",
+        value_delimiter = ',',
+        requires = "motions"
+    )]
     pub(super) ids: Vec<String>,
     /// Table of the bodies of one scene, CSV: `body` as for --a, and px, vx, ... as in a table of motions
     #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]

@@ -59,7 +59,9 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
         rows: Vec::new(),
     };
     for (text, (position, query)) in described.into_iter().zip(table.rows) {
-        scene.load(&text, how).with_context(|| format!("{}: line {}", name(), position.line))?;
+        scene
+            .load(&text, how)
+            .with_context(|| format!("{}: line {}", name(), position.line))?;
         let id = match query.id.parse::<usize>() {
             Ok(_) => format!("{} {}", query.id, text),
             Err(_) => query.id,

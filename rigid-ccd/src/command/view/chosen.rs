@@ -34,13 +34,16 @@ impl Chosen {
     }
 
     /// Takes a row, if it is to be shown.
-    pub(in crate::command) fn offer(&mut self, course: Course, row: ResultRow) {
+    pub(in crate::command) fn offer(&mut self, course: &Course, row: &ResultRow) {
         let wanted = self.is_named(&row.id).unwrap_or_else(|| {
-            let alike = self.rows.iter().filter(|(_, known)| known.status == row.status);
+            let alike = self
+                .rows
+                .iter()
+                .filter(|(_, known)| known.status == row.status);
             alike.count() < OF_EACH
         });
         if wanted && !self.is_full() {
-            self.rows.push((course, row));
+            self.rows.push((course.clone(), row.clone()));
         }
     }
 
@@ -52,7 +55,10 @@ impl Chosen {
     /// Returns the ids that no row had.
     pub(super) fn missing(&self) -> impl Iterator<Item = &str> {
         let has = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
-        self.ids.iter().filter(move |id| !has(id)).map(String::as_str)
+        self.ids
+            .iter()
+            .filter(move |id| !has(id))
+            .map(String::as_str)
     }
 
     /// Returns the rows, in the order in which they were offered.

@@ -1,0 +1,286 @@
+//! Pages of `ccd view` and `ccd query --html`.
+
+use super::command::{Run, Scene, stderr};
+use serde_json::Value;
+use std::path::Path;
+
+const DROPS: &str =
+    "id,a_pz,a_vz,duration\nhit,4,-4,1\nshort,4,-1,1\nnever,4,1,1\nin,0,0,1\n\"<b>,\"\"\",4,-4,1\n";
+const CUBE_AND_SLAB: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+
+fn view(folder: &Path, more: &[&str]) -> Value {
+    let output = Run::bare(&["view"]).args(more).folder(folder).output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    data(&folder.join("view.html"))
+}
+
+fn data(page: &Path) -> Value {
+    let html = std::fs::read_to_string(page).unwrap();
+    let (_, rest) = html.split_once("id=\"views\">").unwrap();
+    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+}
+
+fn file(scene: &Scene, name: &str, text: &str) -> String {
+    scene.file(name, text).to_str().unwrap().to_owned()
+}
+
+fn views(data: &Value) -> &Vec<Value> {
+    data["groups"][0]["views"].as_array().unwrap()
+}
+
+fn names(data: &Value) -> Vec<&str> {
+    views(data)
+        .iter()
+        .map(|view| view["name"].as_str().unwrap())
+        .collect()
+}
+
+#[test]
+fn rows_are_shown_with_their_verdict_and_their_proven_gap() {
+    let scene = Scene::new("view");
+    let motions = file(&scene, "motions.csv", DROPS);
+    let shown = view(
+        &scene.directory,
+        &[&CUBE_AND_SLAB[..], &["--motions", &motions]].concat(),
+    );
+    let expected = [
+        "hit (contact)",
+        "short (free)",
+        "never (free)",
+        "in (overlapping)",
+        "<b>,\" (contact)",
+    ];
+    assert_eq!(names(&shown), expected);
+    let views = views(&shown);
+    assert!(
+        views[0]["verdict"]
+            .as_str()
+            .unwrap()
+            .starts_with("First contact at 0.62")
+    );
+    let contact = &views[0]["contacts"][0];
+    assert!((contact["time"].as_f64().unwrap() - 0.625).abs() < 1e-3);
+    // The gap of what falls 2.5 at speed 4, and the proven line under it.
+    let gap = &views[0]["gap"];
+    for point in gap["points"].as_array().unwrap() {
+        let [time, upper] = ["time", "upper"].map(|name| point[name].as_f64().unwrap());
+        let exact = ccd_core::order::greater(2.5 - 4.0 * time, 0.0);
+        assert!((upper - exact).abs() < 2e-3, "{upper} at {time}");
+    }
+    for point in gap["proven"].as_array().unwrap() {
+        let [time, proven] = [0, 1].map(|k| point[k].as_f64().unwrap());
+        assert!(proven <= ccd_core::order::greater(2.5 - 4.0 * time, 0.0) + 1e-9);
+    }
+    // The gap shrinks to 1.5.
+    assert!(
+        views[1]["verdict"]
+            .as_str()
+            .unwrap()
+            .contains("never nearer than 1.49999")
+    );
+    assert!(
+        views[3]["verdict"]
+            .as_str()
+            .unwrap()
+            .starts_with("Overlapping at the start")
+    );
+}
+
+#[test]
+fn rows_are_named_and_those_that_are_not_there_are_told() {
+    let scene = Scene::new("view-ids");
+    let motions = file(&scene, "motions.csv", DROPS);
+    let args = [
+        &CUBE_AND_SLAB[..],
+        &["--motions", &motions, "--ids", "never,hit,gone"],
+    ]
+    .concat();
+    let output = Run::bare(&["view"])
+        .args(&args)
+        .folder(&scene.directory)
+        .output();
+    assert!(output.status.success());
+    assert!(stderr(&output).contains("no row has the id \"gone\""));
+    assert_eq!(
+        names(&data(&scene.directory.join("view.html"))),
+        ["hit (contact)", "never (free)"]
+    );
+    let nothing = [
+        &CUBE_AND_SLAB[..],
+        &["--motions", &motions, "--ids", "gone"],
+    ]
+    .concat();
+    let output = Run::bare(&["view"])
+        .args(&nothing)
+        .folder(&scene.directory)
+        .output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("no row to show"));
+}
+
+#[test]
+fn results_are_shown_as_they_are() {
+    let scene = Scene::new("view-results");
+    let motions = file(&scene, "motions.csv", DROPS);
+    let query = [
+        &CUBE_AND_SLAB[..],
+        &[
+            "--motions",
+            &motions,
+            "--out",
+            "results.csv",
+            "--html",
+            "page.html",
+        ],
+    ]
+    .concat();
+    let output = Run::bare(&["query"])
+        .args(&query)
+        .folder(&scene.directory)
+        .output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let page = data(&scene.directory.join("page.html"));
+    let args = [
+        &CUBE_AND_SLAB[..],
+        &["--motions", &motions, "--results", "results.csv"],
+    ]
+    .concat();
+    let shown = view(&scene.directory, &args);
+    assert_eq!(names(&shown), names(&page));
+    for (one, other) in views(&shown).iter().zip(views(&page)) {
+        assert_eq!(one["contacts"], other["contacts"]);
+        assert_eq!(one["verdict"], other["verdict"]);
+    }
+    // A table that says something else is believed.
+    let table = std::fs::read_to_string(scene.directory.join("results.csv")).unwrap();
+    let line = table
+        .lines()
+        .find(|line| line.starts_with("never,"))
+        .unwrap();
+    let changed = table.replace(line, "never,unresolved,0.25,,,,,,,,,,,,,,1,1,1,budget");
+    file(&scene, "results.csv", &changed);
+    let shown = view(&scene.directory, &args);
+    let verdict = views(&shown)[2]["verdict"].as_str().unwrap();
+    assert!(
+        verdict.contains("(budget)") && verdict.contains("before 0.25"),
+        "{verdict}"
+    );
+    // Another table is none of results.
+    let wrong = [
+        &CUBE_AND_SLAB[..],
+        &["--motions", &motions, "--results", &motions],
+    ]
+    .concat();
+    let output = Run::bare(&["view"])
+        .args(&wrong)
+        .folder(&scene.directory)
+        .output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("not those of results"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn paths_are_shown_in_the_time_of_their_table() {
+    let scene = Scene::new("view-paths");
+    let motions = file(
+        &scene,
+        "paths.csv",
+        "id,t,a_pz\nvisit,10,4\nvisit,12,4\nvisit,14,0\n",
+    );
+    let shown = view(
+        &scene.directory,
+        &[&CUBE_AND_SLAB[..], &["--motions", &motions]].concat(),
+    );
+    let view = &views(&shown)[0];
+    assert_eq!(
+        (view["start"].as_f64(), view["duration"].as_f64()),
+        (Some(10.0), Some(4.0))
+    );
+    assert!(
+        view["verdict"]
+            .as_str()
+            .unwrap()
+            .starts_with("First contact at 13.24")
+    );
+    assert_eq!(
+        view["bodies"][0]["motion"]["keys"]
+            .as_array()
+            .unwrap()
+            .len(),
+        3
+    );
+}
+
+#[test]
+fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
+    let scene = Scene::new("view-scene");
+    let table = "body,id,pz,vz,wx\nbox:9,table,,,\nsphere:.5,ball,4,-4,1\nsphere:.5,slow,,,\n"
+        .replace("box:9", "\"box:9,9,1\"")
+        .replace("slow,,,", "slow,8,-5.5,");
+    let bodies = file(&scene, "scene.csv", &table);
+    let shown = view(&scene.directory, &["--scene", &bodies, "--duration", "2"]);
+    let view = &views(&shown)[0];
+    assert_eq!(view["bodies"].as_array().unwrap().len(), 3);
+    // Both balls are one mesh.
+    assert_eq!(shown["meshes"].as_array().unwrap().len(), 2);
+    let contacts = view["contacts"].as_array().unwrap();
+    let times: Vec<f64> = contacts
+        .iter()
+        .map(|contact| contact["time"].as_f64().unwrap())
+        .collect();
+    assert!(times.len() == 3 && times.is_sorted(), "{times:?}");
+    assert!((times[0] - 0.625).abs() < 1e-3);
+    assert!(
+        contacts[0]["words"]
+            .as_str()
+            .unwrap()
+            .ends_with("table and ball")
+    );
+    for (table, says) in [
+        ("id,pz\na,1\n", "no column `body`"),
+        ("body,pz\nbox:1,1\n", "line 2"),
+        ("body,pz\nsphere:1,x\n", "pz"),
+        ("body,speed\nsphere:1,1\n", "speed"),
+    ] {
+        let bodies = file(&scene, "wrong.csv", table);
+        let output = Run::bare(&["view", "--scene", &bodies])
+            .folder(&scene.directory)
+            .output();
+        assert_eq!(output.status.code(), Some(2), "{table}");
+        assert!(
+            stderr(&output).contains(says),
+            "{table}: {}",
+            stderr(&output)
+        );
+    }
+}
+
+#[test]
+fn a_page_overwrites_nothing_that_is_read() {
+    let scene = Scene::new("view-overwrites");
+    let motions = file(&scene, "motions.csv", DROPS);
+    let both = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
+    let bodies = file(&scene, "scene.csv", "body\nsphere:1\n");
+    for args in [
+        [&["view", "--out", &motions], &both[..]].concat(),
+        [&["query", "--html", &motions], &both[..]].concat(),
+        [&["query", "--out", "x.csv", "--html", "./x.csv"], &both[..]].concat(),
+        vec!["view", "--scene", &bodies, "--out", &bodies],
+    ] {
+        let output = Run::bare(&args).folder(&scene.directory).output();
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS);
+    }
+    for args in [
+        &["view"][..],
+        &["view", "--a", "sphere:1"],
+        &["view", "--scene", &bodies, "--a", "sphere:1"],
+    ] {
+        let output = Run::bare(args).folder(&scene.directory).output();
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+    }
+}
