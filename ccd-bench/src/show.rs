@@ -2,6 +2,7 @@
 
 pub mod atlas;
 pub mod chart;
+pub mod comparable;
 pub mod page;
 pub mod presentation;
 pub mod report;

@@ -3,7 +3,9 @@
 use crate::{METHODS, Method};
 use anyhow::Result;
 use ccd_core::order::greater;
+use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
 use std::path::Path;
 
@@ -16,15 +18,20 @@ pub(crate) struct Depths {
 /// Depths below this are drawn on the lower edge, in metres.
 const LEAST: f64 = 1e-6;
 
+/// The height of the legend, in pixels.
+const LEGEND: u32 = 36;
+
 /// The most values of a line: each is the deepest of its steps.
 const MOST_VALUES: usize = 300;
 
 /// Draws one panel for each world.
 pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
-    let size = (900, 260 * worlds.len() as u32);
+    let size = (900, LEGEND + 260 * worlds.len() as u32);
     let sheet = SVGBackend::new(path, size).into_drawing_area();
     sheet.fill(&WHITE)?;
-    for (panel, depths) in sheet.split_evenly((worlds.len(), 1)).iter().zip(worlds) {
+    let (legend, panels) = sheet.split_vertically(LEGEND);
+    draw_legend(&legend)?;
+    for (panel, depths) in panels.split_evenly((worlds.len(), 1)).iter().zip(worlds) {
         let steps = depths
             .methods
             .iter()
@@ -35,6 +42,7 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
         let mut chart = ChartBuilder::on(panel)
             .caption(depths.world, ("sans-serif", 18))
             .margin(10)
+            .margin_right(30)
             .x_label_area_size(36)
             .y_label_area_size(70)
             .build_cartesian_2d(0..steps, range.log_scale())?;
@@ -50,18 +58,23 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
             let line = deepest(values)
                 .into_iter()
                 .map(|(step, depth)| (step, greater(LEAST, depth)));
-            chart
-                .draw_series(LineSeries::new(line, style))?
-                .label(method.name())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+            chart.draw_series(LineSeries::new(line, style))?;
         }
-        let mut labels = chart.configure_series_labels();
-        labels
-            .position(SeriesLabelPosition::MiddleRight)
-            .background_style(WHITE.mix(0.8))
-            .draw()?;
     }
     sheet.present()?;
+    Ok(())
+}
+
+fn draw_legend(area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<()> {
+    let middle = LEGEND as i32 / 2;
+    for (number, method) in METHODS.iter().enumerate() {
+        let left = 80 + 240 * number as i32;
+        let line = [(left, middle), (left + 24, middle)];
+        area.draw(&PathElement::new(line, style(*method)))?;
+        let text = ("sans-serif", 15).into_font().into_text_style(area);
+        let text = text.pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(method.name(), (left + 32, middle), text))?;
+    }
     Ok(())
 }
 

@@ -38,10 +38,14 @@ use std::{fs, io};
 /// The paper's tolerance `[FAST06 §6.2]`, at which charts of one tolerance are drawn.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
 
+/// The remark on medians over other rows.
+const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on \
+                         the rows that both were asked.";
+
 /// The data of all charts.
 #[derive(Clone, Copy, Debug)]
 pub struct Charts<'a> {
-    /// Every method on every scene at every tolerance.
+    /// Every method on every scene at every tolerance, with medians that [can be compared](super::comparable).
     pub cells: &'a [Cell],
     /// Single queries, in the order of their scene.
     pub trials: &'a [Trial],

@@ -7,8 +7,10 @@ pub use readme::splice;
 
 use crate::method::Method;
 use crate::run::evaluation::{Evaluated, USUAL_TOLERANCE};
+use crate::run::measured::Cell;
 use crate::scene::Scene;
 use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
+use crate::show::comparable::Reference;
 use crate::show::tables::{self, TextTable};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
@@ -21,6 +23,8 @@ pub struct Presentation<'e> {
     /// The tables for a page or a README.
     pub comparisons: Vec<TextTable>,
     methods: Vec<(String, Family)>,
+    /// The cells, with medians that can be compared.
+    cells: Vec<Cell>,
 }
 
 /// The finer of the two tolerances at which methods are compared.
@@ -55,7 +59,8 @@ impl<'e> Presentation<'e> {
         );
         published.title += "; the paper reports 1.4 to 45.5 over CONTACT";
         let safety = tables::safety(journal.cells(), journal.trials());
-        let usual = tables::at_tolerance(journal.cells(), USUAL_TOLERANCE);
+        let reference = Reference::new(DEFAULT, journal.trials());
+        let usual = tables::at_tolerance(journal.cells(), USUAL_TOLERANCE, &reference);
         Presentation {
             evaluated,
             comparisons: vec![
@@ -67,6 +72,7 @@ impl<'e> Presentation<'e> {
             ],
             summary: vec![usual, safety],
             methods,
+            cells: reference.comparable(journal.cells()),
         }
     }
 
@@ -98,7 +104,7 @@ impl<'e> Presentation<'e> {
             })
             .collect();
         let charts = Charts {
-            cells: self.evaluated.journal.cells(),
+            cells: &self.cells,
             trials: self.evaluated.journal.trials(),
             scenes: &scenes,
             methods: &methods,

@@ -1,11 +1,12 @@
 //! Summaries of the measurements, as tables of text.
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use crate::method::Method;
 use crate::run::contest::Verdict;
 use crate::run::measured::{Cell, Trial};
+use crate::show::comparable::Reference;
 use comfy_table::presets::{ASCII_MARKDOWN, UTF8_BORDERS_ONLY};
 use comfy_table::{CellAlignment, Table, TableStyle};
 use rigid_ccd::batch::median;
@@ -78,15 +79,19 @@ impl TextTable {
     }
 }
 
-/// Compares every method on every scene at one tolerance.
-pub fn at_tolerance(cells: &[Cell], tolerance: f64) -> TextTable {
+/// Compares every method on every scene at one tolerance, and with the reference on the rows that both were asked.
+pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -> TextTable {
+    let ratio = format!("× {}", reference.name());
     let mut table = TextTable::new(
-        format!("Tolerance {tolerance:e}"),
+        format!(
+            "Tolerance {tolerance:e}; {ratio}: the median ratio on the rows that both were asked"
+        ),
         &[
             "scene",
             "method",
             "rows",
             "median µs",
+            &ratio,
             "mean µs",
             "p95 µs",
             "late",
@@ -106,6 +111,10 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64) -> TextTable {
             cell.method.clone(),
             cell.rows.to_string(),
             micros(cell.median_us),
+            match reference.ratio(cell) {
+                Some(ratio) => format!("{ratio:.2}"),
+                None => NOTHING.to_owned(),
+            },
             micros(cell.mean_us),
             micros(cell.p95_us),
             cell.late.to_string(),

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// The most ghosts that are drawn of one query, but for the first.
 const GHOSTS: f64 = 12.0;
 /// The number of times at which the gap is measured.
-const TIMES: usize = 160;
+const TIMES: usize = 96;
 /// The most steps of conservative advancement.
 const STEPS: usize = 48;
 /// The longest that the gap of one query is measured, but for one measurement.

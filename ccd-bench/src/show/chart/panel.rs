@@ -18,6 +18,8 @@ pub(super) const LEFT_MARGIN: f64 = Y_LABEL + 10.0;
 pub(super) const BOTTOM_MARGIN: f64 = X_LABEL + 18.0;
 /// The space above a panel for its title.
 pub(super) const TOP_MARGIN: f64 = 20.0;
+/// A tick closer to the end of its axis than this share is at the end.
+const END: f64 = 0.03;
 /// The height of the arrow on a value that is a lower bound.
 const ARROW: f64 = 12.0;
 
@@ -128,7 +130,12 @@ impl Panel<'_> {
                 .as_deref()
                 .filter(|_| self.labelled.x == Label::Written);
             if let Some(text) = written {
-                sheet.text(text, (x, bottom + TICK_GAP), format)?;
+                let across = across(tick.share);
+                sheet.text(
+                    text,
+                    (x, bottom + TICK_GAP),
+                    TextFormat { across, ..format },
+                )?;
             }
         }
         let middle = self.rect.left + 0.5 * self.rect.width;
@@ -169,6 +176,15 @@ impl Panel<'_> {
             Label::Written => sheet.text(self.y.label(), (left - Y_LABEL, middle), format),
             Label::Left => Ok(()),
         }
+    }
+}
+
+/// Returns where a label stands at its tick: labels at the ends stay within the panel, apart from those of the next.
+fn across(share: f64) -> HPos {
+    match share {
+        share if share < END => HPos::Left,
+        share if share > 1.0 - END => HPos::Right,
+        _ => HPos::Center,
     }
 }
 

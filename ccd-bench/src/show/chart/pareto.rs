@@ -6,7 +6,7 @@ use super::legend::Legend;
 use super::look::{Fill, Look, WARNING};
 use super::panel::{Kind, Panel, Point, mark, remark};
 use super::sheet::{DrawError, FRAME, Rect, Sheet, TextFormat};
-use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed};
+use super::{ChartError, Charts, Drawing, Family, MethodFacts, SAME_ROWS, SceneFacts, failed};
 use crate::run::measured::Cell;
 use ccd_core::order::greater;
 use plotters::style::Color;
@@ -112,11 +112,15 @@ fn draw(
 fn axes(cells: &[(&Cell, Fill)]) -> Option<(Axis, Axis)> {
     let times = cells.iter().map(|(cell, _)| cell.median_us);
     let safe = cells.iter().filter(|(_, fill)| *fill == Fill::Solid);
-    let errors = safe.map(|(cell, _)| greater(LEAST_ERROR, cell.mean_error));
+    let errors = safe
+        .map(|(cell, _)| cell.mean_error)
+        .filter(|error| *error > LEAST_ERROR);
+    let label = "mean error, share of duration";
     // A plane without points is still drawn: the strip shows the methods.
-    let errors = errors.chain([LEAST_ERROR]);
+    let errors = Axis::logarithmic(label, errors)
+        .or_else(|| Axis::logarithmic(label, [LEAST_ERROR].into_iter()));
     Some((
-        Axis::logarithmic("mean error, share of duration", errors)?,
+        errors?,
         Axis::logarithmic("time of a query, median, µs", times)?,
     ))
 }
@@ -132,9 +136,10 @@ fn strip_width(shown: &[Shown<'_>]) -> f64 {
 
 fn remarks(cells: &[(&Cell, Fill)]) -> Vec<String> {
     let mut remarks = vec![
-        "Errors are those of the time of contact; below 10⁻¹² they are drawn at the left edge. \
+        "Errors are those of the time of contact; below 10⁻¹² they are rounding, and drawn at the left edge. \
          A method that found nothing has no error and no marker."
             .to_owned(),
+        SAME_ROWS.to_owned(),
     ];
     if cells.iter().any(|(cell, _)| kind(cell) == Kind::AtLeast) {
         remarks.push(

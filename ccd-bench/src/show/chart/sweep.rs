@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::legend::Legend;
 use super::panel::{Kind, Point};
 use super::pareto::kind;
-use super::{ChartError, Charts, Drawing, Family, failed};
+use super::{ChartError, Charts, Drawing, Family, SAME_ROWS, failed};
 use crate::run::measured::Cell;
 
 /// Draws time against tolerance.
@@ -16,6 +16,7 @@ pub(super) fn tolerance(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartErr
         label: "time of a query, median, µs",
         value: |cell| cell.median_us,
         kind,
+        remark: Some(SAME_ROWS),
     }
     .draw(charts)
 }
@@ -28,6 +29,7 @@ pub(super) fn steps(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
         label: "steps in time of a query, mean",
         value: |cell| cell.mean_steps,
         kind: |_| Kind::Measured,
+        remark: None,
     }
     .draw(charts)
 }
@@ -38,6 +40,7 @@ struct Sweep {
     label: &'static str,
     value: fn(&Cell) -> f64,
     kind: fn(&Cell) -> Kind,
+    remark: Option<&'static str>,
 }
 
 impl Sweep {
@@ -93,12 +96,13 @@ impl Sweep {
     }
 
     fn remarks<'c>(&self, mut cells: impl Iterator<Item = &'c Cell>) -> Vec<String> {
-        match cells.any(|cell| (self.kind)(cell) == Kind::AtLeast) {
-            true => vec![
+        let mut remarks: Vec<String> = self.remark.map(str::to_owned).into_iter().collect();
+        if cells.any(|cell| (self.kind)(cell) == Kind::AtLeast) {
+            remarks.push(
                 "Arrow up: half of the queries or more were cut off; the time is at least that."
                     .to_owned(),
-            ],
-            false => Vec::new(),
+            );
         }
+        remarks
     }
 }

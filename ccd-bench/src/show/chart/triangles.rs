@@ -5,7 +5,9 @@ use super::grid::Grid;
 use super::legend::Legend;
 use super::panel::{Kind, Panel, Point, remark};
 use super::sheet::{DrawError, Sheet, TextFormat};
-use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed, is_papers};
+use super::{
+    ChartError, Charts, Drawing, Family, MethodFacts, SAME_ROWS, SceneFacts, failed, is_papers,
+};
 use plotters::style::text_anchor::{HPos, VPos};
 
 const NAME: &str = "triangles";
@@ -47,6 +49,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
             "Lines join sizes of one shape. Scenes of one body (turning or not) make one marker: \
              the geometric mean of their medians."
                 .to_owned(),
+            SAME_ROWS.to_owned(),
         ],
         legend: Legend::of(&shown),
         x,

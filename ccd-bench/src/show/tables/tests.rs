@@ -1,7 +1,8 @@
 use super::*;
 use crate::run::contest::sum_up;
 
-fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: Verdict) -> Trial {
+/// Returns a trial at tolerance 1e-3.
+pub(crate) fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: Verdict) -> Trial {
     Trial {
         scene: scene.to_owned(),
         method: method.to_owned(),
@@ -74,11 +75,13 @@ fn answers_are_counted_per_method_without_distances() {
             ["parry-f64", "1", "0", "0", "0", "0", "1", "1", "0"],
         ]
     );
-    let usual = at_tolerance(&cells, 1e-3);
-    assert_eq!(usual.rows[0][..4], ["santa", "C2A", "2", "55.0"]);
+    let reference = Reference::new("best-first direct", &all);
+    let usual = at_tolerance(&cells, 1e-3, &reference);
+    // Over rows 0 and 1, of ratios 3 and 4.
+    assert_eq!(usual.rows[0][..5], ["santa", "C2A", "2", "55.0", "3.50"]);
     assert_eq!(usual.rows[1][0], "", "a scene is named once");
-    assert_eq!(usual.rows[0][11], "1e-4");
-    assert_eq!(usual.rows[1][11], NOTHING);
+    assert_eq!(usual.rows[0][12], "1e-4");
+    assert_eq!(usual.rows[1][12], NOTHING);
 }
 
 #[test]

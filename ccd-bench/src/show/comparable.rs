@@ -1,0 +1,81 @@
+//! Medians that can be compared, of methods that were asked different rows.
+//!
+//! A slow method is stopped after a few rows, which may be the easy ones. Its time is then estimated as that of a
+//! reference that was asked more, times the median ratio of both over the rows that both were asked.
+
+use crate::run::measured::{Cell, Trial};
+use rigid_ccd::batch::median;
+use std::collections::HashMap;
+
+/// The place of a row: scene, tolerance, number.
+type Place<'a> = (&'a str, u64, usize);
+
+/// The times of a reference, by row.
+#[derive(Debug)]
+pub struct Reference<'a> {
+    name: &'a str,
+    trials: &'a [Trial],
+    times: HashMap<Place<'a>, f64>,
+}
+
+impl<'a> Reference<'a> {
+    /// Finds the times of a method.
+    pub fn new(name: &'a str, trials: &'a [Trial]) -> Self {
+        let own = trials.iter().filter(|trial| trial.method == name);
+        Reference {
+            name,
+            trials,
+            times: own.map(|trial| (place(trial), trial.micros)).collect(),
+        }
+    }
+
+    /// Returns the name of the method.
+    pub fn name(&self) -> &'a str {
+        self.name
+    }
+
+    /// Returns the median ratio of a method's times to those of the reference, over the rows that both were asked; none
+    /// without such rows.
+    pub fn ratio(&self, cell: &Cell) -> Option<f64> {
+        let of_cell = |trial: &&Trial| {
+            trial.method == cell.method
+                && trial.scene == cell.scene
+                && trial.tolerance == cell.tolerance
+        };
+        let ratios = self.trials.iter().filter(of_cell).filter_map(|trial| {
+            let ratio = trial.micros / self.times.get(&place(trial))?;
+            ratio.is_finite().then_some(ratio)
+        });
+        let mut ratios: Vec<f64> = ratios.collect();
+        (!ratios.is_empty()).then(|| median(&mut ratios))
+    }
+
+    /// Returns the cells with medians that can be compared. A cell keeps its own where the reference was not asked.
+    pub fn comparable(&self, cells: &[Cell]) -> Vec<Cell> {
+        let at = |cell: &&Cell| cell.method == self.name;
+        let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))
+            .map(|cell| {
+                (
+                    (cell.scene.as_str(), cell.tolerance.to_bits()),
+                    cell.median_us,
+                )
+            })
+            .collect();
+        let moved = cells.iter().map(|cell| {
+            let here = (cell.scene.as_str(), cell.tolerance.to_bits());
+            let median_us = medians.get(&here).zip(self.ratio(cell));
+            Cell {
+                median_us: median_us.map_or(cell.median_us, |(time, ratio)| time * ratio),
+                ..cell.clone()
+            }
+        });
+        moved.collect()
+    }
+}
+
+fn place(trial: &Trial) -> Place<'_> {
+    (&trial.scene, trial.tolerance.to_bits(), trial.row)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,60 @@
+use super::*;
+use crate::run::contest::{Verdict, sum_up};
+use crate::show::tables::tests::trial;
+
+const OURS: &str = "best-first direct";
+
+/// Returns ours on four rows, of which the last two are hard, and a slow method on the first two.
+fn trials() -> Vec<Trial> {
+    let of = |method: &str, times: &[f64]| {
+        let rows = times.iter().enumerate();
+        rows.map(|(row, micros)| trial("santa", method, &row.to_string(), *micros, Verdict::Right))
+            .collect::<Vec<_>>()
+    };
+    [of(OURS, &[1.0, 2.0, 90.0, 110.0]), of("slow", &[3.0, 8.0])].concat()
+}
+
+fn cell_of(trials: &[Trial], method: &str) -> Cell {
+    let own = trials.iter().filter(|trial| trial.method == method);
+    sum_up(&own.cloned().collect::<Vec<_>>())
+}
+
+#[test]
+fn a_method_that_was_asked_easy_rows_alone_is_slower_than_the_reference() {
+    let trials = trials();
+    let cells = [cell_of(&trials, OURS), cell_of(&trials, "slow")];
+    assert!(
+        cells[1].median_us < cells[0].median_us,
+        "the plain medians mislead"
+    );
+    let moved = Reference::new(OURS, &trials).comparable(&cells);
+    assert_eq!(moved[0], cells[0], "the reference keeps its median, 46");
+    // Ratios 3 and 4.
+    assert_eq!(moved[1].median_us, 46.0 * 3.5);
+    assert_eq!(moved[1].rows, 2);
+}
+
+#[test]
+fn a_cell_keeps_its_median_where_there_is_nothing_to_compare() {
+    let mut trials = trials();
+    let slow = cell_of(&trials, "slow");
+    let finer = Cell {
+        tolerance: 1e-6,
+        ..slow.clone()
+    };
+    let elsewhere = Cell {
+        scene: "bunny".to_owned(),
+        ..slow.clone()
+    };
+    let reference = Reference::new(OURS, &trials);
+    for cell in [&finer, &elsewhere] {
+        assert_eq!(reference.ratio(cell), None);
+    }
+    let both = [finer, elsewhere];
+    assert_eq!(reference.comparable(&both), both);
+    trials.retain(|trial| trial.method != OURS);
+    assert_eq!(
+        Reference::new(OURS, &trials).comparable(&[slow.clone()]),
+        [slow]
+    );
+}
