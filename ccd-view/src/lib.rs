@@ -35,5 +35,5 @@ mod view;
 
 pub use course::{Course, Key};
 pub use mesh::{DrawnMesh, Meshes};
-pub use page::{HTML, Page, PageError, STYLE, data, escape, filled, json, scripts};
+pub use page::{HTML, Page, PageError, STYLE, data, escape, filled, json, scripts, stage_scripts};
 pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};

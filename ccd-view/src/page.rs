@@ -68,18 +68,30 @@ impl Page<'_> {
 
 /// Returns the scripts that fill [`HTML`] with the [`data`] of an element with the id `views`, which stands before them.
 pub fn scripts() -> String {
-    [
-        include_str!("../vendor/three/three.min.js"),
-        include_str!("page/motion.js"),
-        include_str!("page/stage.js"),
+    let views = [
         include_str!("page/coarse.js"),
-        include_str!("page/player.js"),
         include_str!("page/gap.js"),
         include_str!("page/marks.js"),
         include_str!("page/view.js"),
-    ]
-    .map(|script| format!("<script>\n{script}</script>\n"))
-    .concat()
+    ];
+    stage_scripts() + &elements(&views)
+}
+
+/// Returns the scripts for another page with a stage of its own: three.js, `Motion`, `Stage` and `Player`.
+pub fn stage_scripts() -> String {
+    elements(&[
+        include_str!("../vendor/three/three.min.js"),
+        include_str!("page/motion.js"),
+        include_str!("page/stage.js"),
+        include_str!("page/player.js"),
+    ])
+}
+
+fn elements(scripts: &[&str]) -> String {
+    let elements = scripts
+        .iter()
+        .map(|script| format!("<script>\n{script}</script>\n"));
+    elements.collect()
 }
 
 /// Returns views as JSON for an element `<script type="application/json" id="views">`.

@@ -25,6 +25,9 @@ class Stage {
     this.scene.add(this.content);
     this.controls = new THREE.OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => this.render());
+    // What fits is fitted again when the page changes its size, until somebody turns the view.
+    this.fitted = null;
+    this.controls.addEventListener("start", () => { this.fitted = null; });
     this.asked = null;
     new ResizeObserver(() => this.resize()).observe(holder);
     this.resize();
@@ -36,6 +39,7 @@ class Stage {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (this.fitted !== null) this.fit(this.fitted);
     this.render();
   }
 
@@ -58,6 +62,7 @@ class Stage {
 
   // Looks at all of some points from above, across their longer side.
   fit(points) {
+    this.fitted = points;
     const box = new THREE.Box3().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
     const middle = box.getCenter(new THREE.Vector3());
     const depth = (side) => Math.max(...points.map((p) => Math.abs(new THREE.Vector3(...p).sub(middle).dot(side))));

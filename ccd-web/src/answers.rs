@@ -1,0 +1,43 @@
+//! Answers of this machine, for the page to compare its own with.
+
+use ccd_web::{Part, Throw, WebError};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+
+/// The number of throws.
+const THROWS: u32 = 400;
+/// The steps that look at each.
+const STEPS: u32 = 60;
+
+/// Returns throws at random, with what is found and seen.
+pub(crate) fn answers() -> Result<Value, WebError> {
+    let mut random = Pcg64Mcg::seed_from_u64(7);
+    let (parts, targets) = Part::NAMES.split_at(5);
+    let mut answer = || {
+        let part = parts[random.random_range(0..parts.len())];
+        let target = [targets, &["knot"]].concat()[random.random_range(0..=targets.len())];
+        let mut within = |half: f64| [0; 3].map(|_| random.random_range(-half..half));
+        let (place, aim, spin) = (within(1.5), within(0.4), within(2.0 * TAU));
+        let speed = random.random_range(1.0..4.0);
+        let throw = Throw {
+            place,
+            velocity: [0, 1, 2].map(|k| speed * (aim[k] - place[k])),
+            spin,
+        };
+        let (one, other) = (Part::named(part)?, Part::named(target)?);
+        let found = throw.first_contact(&one, &other)?;
+        let seen = throw.steps(&one, &other, STEPS)?;
+        let numbers = [throw.place, throw.velocity, throw.spin].concat();
+        Ok(json!({
+            "part": part,
+            "target": target,
+            "throw": numbers,
+            "verdict": found.verdict.name(),
+            "time": found.time,
+            "steps": seen.into_iter().map(u8::from).collect::<Vec<_>>(),
+        }))
+    };
+    (0..THROWS).map(|_| answer()).collect()
+}

@@ -1,0 +1,109 @@
+//! What the page calls.
+#![allow(unreachable_pub, reason = "JavaScript reaches it")]
+
+use crate::{Found, Part, Throw};
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+/// A part.
+#[wasm_bindgen(js_name = Part)]
+#[derive(Debug)]
+pub struct BrowserPart(Part);
+
+/// What is proven of a throw.
+#[wasm_bindgen(js_name = Found)]
+#[derive(Debug)]
+pub struct BrowserFound(Found);
+
+#[wasm_bindgen(js_class = Part)]
+impl BrowserPart {
+    /// Makes a part by its name.
+    pub fn named(name: &str) -> Result<Self, JsError> {
+        Ok(BrowserPart(Part::named(name)?))
+    }
+
+    /// Reads a mesh.
+    pub fn from_file(name: &str, bytes: &[u8], size: f64) -> Result<Self, JsError> {
+        Ok(BrowserPart(Part::from_file(name, bytes, size)?))
+    }
+
+    /// The vertices that are drawn.
+    pub fn vertices(&self) -> Vec<f32> {
+        self.0.vertices()
+    }
+
+    /// The faces that are drawn.
+    pub fn faces(&self) -> Vec<u32> {
+        self.0.faces()
+    }
+
+    /// The greatest distance from the part's origin.
+    pub fn reach(&self) -> f64 {
+        self.0.reach()
+    }
+}
+
+#[wasm_bindgen(js_class = Found)]
+impl BrowserFound {
+    /// The verdict's name.
+    #[wasm_bindgen(getter)]
+    pub fn verdict(&self) -> String {
+        self.0.verdict.name().to_owned()
+    }
+
+    /// Nothing touches before this time.
+    #[wasm_bindgen(getter)]
+    pub fn time(&self) -> f64 {
+        self.0.time
+    }
+
+    /// The nearest points of both parts, and the normal; nothing without a contact.
+    pub fn points(&self) -> Vec<f64> {
+        let Some(hit) = self.0.hit else {
+            return Vec::new();
+        };
+        let mut points = [hit.witness_a, hit.witness_b]
+            .map(|p| p.to_array())
+            .concat();
+        points.extend(
+            hit.contact
+                .iter()
+                .flat_map(|contact| contact.separation.normal.to_array()),
+        );
+        points
+    }
+}
+
+/// Finds the first contact of a throw: place, velocity and spin are nine numbers.
+#[wasm_bindgen]
+pub fn first_contact(
+    part: &BrowserPart,
+    target: &BrowserPart,
+    throw: &[f64],
+) -> Result<BrowserFound, JsError> {
+    Ok(BrowserFound(
+        thrown(throw)?.first_contact(&part.0, &target.0)?,
+    ))
+}
+
+/// Looks at evenly spaced instants of a throw: 1 where the parts touch.
+#[wasm_bindgen]
+pub fn steps(
+    part: &BrowserPart,
+    target: &BrowserPart,
+    throw: &[f64],
+    count: u32,
+) -> Result<Vec<u8>, JsError> {
+    let touches = thrown(throw)?.steps(&part.0, &target.0, count)?;
+    Ok(touches.into_iter().map(u8::from).collect())
+}
+
+fn thrown(numbers: &[f64]) -> Result<Throw, JsError> {
+    let &[px, py, pz, vx, vy, vz, wx, wy, wz] = numbers else {
+        return Err(JsError::new("a throw is nine numbers"));
+    };
+    Ok(Throw {
+        place: [px, py, pz],
+        velocity: [vx, vy, vz],
+        spin: [wx, wy, wz],
+    })
+}

@@ -1,0 +1,31 @@
+//! Parts that are thrown at each other, in a browser or anywhere: the certified first contact, and what stepping sees.
+//!
+//! | to … | use |
+//! |---|---|
+//! | make a part | [`Part::named`], [`Part::from_file`] |
+//! | throw it at another one | [`Throw`], then [`Throw::first_contact`] |
+//! | look at some instants of the same throw | [`Throw::steps`] |
+//!
+//! In a browser the same is called as `Part`, `first_contact` and `steps` of the module `wasm_bindgen`. The command
+//! `ccd-web` writes it into a page of one file.
+//!
+//! # Example
+//! ```
+//! use ccd_web::{Part, Throw};
+//! let (bullet, sheet) = (Part::named("bullet")?, Part::named("sheet")?);
+//! let throw = Throw { place: [-1.0, 0.0, 0.0], velocity: [10.0, 0.0, 0.0], spin: [0.0; 3] };
+//! let found = throw.first_contact(&bullet, &sheet)?;
+//! assert!(found.time < 0.1);
+//! // Sixty steps a second pass through the sheet.
+//! assert!(!throw.steps(&bullet, &sheet, 60)?.contains(&true));
+//! # Ok::<(), ccd_web::WebError>(())
+//! ```
+
+#[cfg(target_family = "wasm")]
+mod browser;
+mod part;
+mod shapes;
+mod throw;
+
+pub use part::{Part, WebError};
+pub use throw::{Found, Throw, Verdict};

@@ -1,0 +1,28 @@
+//! The command `ccd-web`: writes the page.
+
+#[cfg(not(target_family = "wasm"))]
+mod answers;
+#[cfg(not(target_family = "wasm"))]
+mod page;
+
+/// Writes the page on which a visitor throws parts: one file that works from disk.
+#[cfg(not(target_family = "wasm"))]
+#[derive(clap::Parser)]
+struct Args {
+    /// The page.
+    #[arg(default_value = "throw.html")]
+    out: std::path::PathBuf,
+    /// Let the page check itself when it is opened: its answers against this machine's, and a throw by pointer. What is
+    /// wrong goes to the console.
+    #[arg(long)]
+    check: bool,
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn main() -> anyhow::Result<()> {
+    let args = <Args as clap::Parser>::parse();
+    page::write(&args.out, args.check)
+}
+
+#[cfg(target_family = "wasm")]
+fn main() {}

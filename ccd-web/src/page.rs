@@ -1,0 +1,97 @@
+//! The page: the module for WebAssembly, the scripts and the style in one file.
+
+use crate::answers::answers;
+use anyhow::{Context, Result, ensure};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+use wasm_bindgen_cli_support::Bindgen;
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// Builds the module, and writes the page.
+pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(build()?).no_modules(true)?;
+    bindgen
+        .typescript(false)
+        .remove_name_section(true)
+        .remove_producers_section(true);
+    let mut module = bindgen.generate_output()?;
+    let code = BASE64_STANDARD.encode(zipped(&module.wasm_mut().emit_wasm())?);
+    let checks = match check {
+        true => format!(
+            "<script type=\"application/json\" id=\"answers\">{}</script>\n<script>\n{}</script>",
+            ccd_view::json(&answers()?)?,
+            include_str!("page/check.js")
+        ),
+        false => String::new(),
+    };
+    let glue = module.js();
+    let scripts = [
+        glue,
+        include_str!("page/throw.js"),
+        include_str!("page/side.js"),
+        include_str!("page/page.js"),
+    ];
+    let parts = [
+        ("style", include_str!("page/page.css").to_owned()),
+        ("code", code),
+        ("stage", ccd_view::stage_scripts()),
+        (
+            "scripts",
+            scripts
+                .map(|script| format!("<script>\n{script}</script>\n"))
+                .concat(),
+        ),
+        ("checks", checks),
+    ];
+    let text = ccd_view::filled(include_str!("page/page.html"), &parts);
+    fs::write(out, text).with_context(|| format!("cannot write {}", out.display()))
+}
+
+/// Compresses the module, which halves the page.
+fn zipped(bytes: &[u8]) -> Result<Vec<u8>> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes)?;
+    Ok(encoder.finish()?)
+}
+
+/// Builds this crate for the browser, and returns the module.
+fn build() -> Result<PathBuf> {
+    // This command is at TARGET_DIR/PROFILE/ccd-web.
+    let command = env::current_exe()?;
+    let folder = command
+        .ancestors()
+        .nth(2)
+        .context("this command has no target folder")?;
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let built = Command::new(cargo)
+        .args([
+            "build",
+            "--locked",
+            "--release",
+            "--lib",
+            "--package",
+            "ccd-web",
+            "--target",
+            TARGET,
+            "--target-dir",
+        ])
+        .arg(folder)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        // Every browser that has WebAssembly at all computes with vectors of 128 bits since 2023.
+        .env("CARGO_ENCODED_RUSTFLAGS", "-Ctarget-feature=+simd128")
+        .status()
+        .context("cannot start cargo")?;
+    ensure!(
+        built.success(),
+        "cargo cannot build for {TARGET}; run `rustup target add {TARGET}`"
+    );
+    Ok(folder.join(TARGET).join("release").join("ccd_web.wasm"))
+}

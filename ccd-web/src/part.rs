@@ -1,0 +1,126 @@
+//! Parts: bodies with the mesh that is drawn.
+
+use crate::shapes::{self, Surface};
+use rigid_ccd::mesh::{
+    AffineMap, Detail, Format, MeshError, MeshFault, MeshFile, PrepareError, TriangleMesh,
+    body_from_mesh,
+};
+use rigid_ccd::{Body, InputError, Pose};
+
+/// A body with its drawing, both about the same origin.
+#[derive(Debug)]
+pub struct Part {
+    pub(crate) body: Body,
+    surface: Surface,
+}
+
+/// A part or a throw is refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WebError {
+    /// No part has this name.
+    #[error("no part is called {0:?}; there are {names}", names = Part::NAMES.join(", "))]
+    UnknownPart(String),
+    /// The file's name has no known extension.
+    #[error(transparent)]
+    Format(#[from] MeshFault),
+    /// The file is no mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The mesh makes no body.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+    /// A number is out of range.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The throw is no valid query.
+    #[error(transparent)]
+    Query(#[from] rigid_ccd::Error),
+}
+
+impl Part {
+    /// The names of the parts that need no file.
+    pub const NAMES: [&str; 8] = [
+        "bullet", "coin", "rod", "ball", "knot", "sheet", "slot", "post",
+    ];
+
+    /// Makes a part by its name, with lengths in metres.
+    ///
+    /// # Errors
+    /// [`WebError::UnknownPart`].
+    pub fn named(name: &str) -> Result<Self, WebError> {
+        match name {
+            "bullet" => Part::capsule(0.025, 0.035),
+            "coin" => Part::cuboid([0.1, 0.1, 0.006]),
+            "rod" => Part::capsule(0.02, 0.3),
+            "ball" => Part::capsule(0.12, 0.0),
+            "knot" => Part::mesh(shapes::knot(0.3, 0.05)),
+            "sheet" => Part::cuboid([0.001, 0.4, 0.4]),
+            "slot" => Part::mesh(shapes::slot([0.02, 0.4, 0.45], [0.06, 0.36])),
+            "post" => Part::capsule(0.015, 0.45),
+            _ => Err(WebError::UnknownPart(name.to_owned())),
+        }
+    }
+
+    /// Reads a mesh, in the format of its file's name, and brings it to a size about its middle.
+    ///
+    /// # Errors
+    /// [`WebError`] when the file is no mesh.
+    pub fn from_file(name: &str, bytes: &[u8], size: f64) -> Result<Self, WebError> {
+        let mesh = MeshFile::from_reader(Format::from_path(name)?, bytes)?.into_mesh()?;
+        let [low, high] = mesh.bounding_box();
+        let scale = size / (high - low).length();
+        let middle = 0.5 * low + 0.5 * high;
+        let mesh = mesh.transformed(AffineMap::scaled(scale, Pose::at(-middle * scale)?))?;
+        Part::of_mesh(&mesh)
+    }
+
+    /// The vertices that are drawn, three numbers each.
+    pub fn vertices(&self) -> Vec<f32> {
+        let vertices = self.surface.vertices.iter();
+        vertices.flat_map(|v| v.as_vec3().to_array()).collect()
+    }
+
+    /// The faces that are drawn, the numbers of three vertices each.
+    pub fn faces(&self) -> Vec<u32> {
+        self.surface.faces.concat()
+    }
+
+    fn cuboid(half: [f64; 3]) -> Result<Self, WebError> {
+        Ok(Part {
+            body: Body::cuboid(half)?,
+            surface: shapes::cuboid(half),
+        })
+    }
+
+    fn capsule(radius: f64, half: f64) -> Result<Self, WebError> {
+        let body = match half > 0.0 {
+            true => Body::capsule(radius, half)?,
+            false => Body::ball(radius)?,
+        };
+        let surface = shapes::capsule(radius, half);
+        Ok(Part { body, surface })
+    }
+
+    fn mesh(surface: Surface) -> Result<Self, WebError> {
+        Part::of_mesh(&TriangleMesh::new(surface.vertices, &surface.faces)?)
+    }
+
+    fn of_mesh(mesh: &TriangleMesh) -> Result<Self, WebError> {
+        let surface = Surface {
+            vertices: mesh.vertices().to_vec(),
+            faces: mesh.faces().to_vec(),
+        };
+        let body = body_from_mesh(mesh, Detail::Auto)?.body;
+        Ok(Part { body, surface })
+    }
+
+    /// The greatest distance of what is drawn from the part's origin.
+    pub fn reach(&self) -> f64 {
+        let lengths = self.surface.vertices.iter().map(|v| v.length());
+        lengths.max_by(f64::total_cmp).unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;
