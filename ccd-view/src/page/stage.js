@@ -108,13 +108,17 @@ class Stage {
     this.content.add(line);
   }
 
-  // Adds filled triangles, three points each, in front of everything.
+  // Adds filled triangles, three points each; what hides them lets them shine through.
   addTriangles(points, color) {
     const geometry = new THREE.BufferGeometry().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
-    const material = new THREE.MeshBasicMaterial({ color, side: THREE.DoubleSide, transparent: true, opacity: 0.6, depthTest: false });
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.renderOrder = 1;
-    this.content.add(mesh);
+    const common = { color, side: THREE.DoubleSide, transparent: true, depthWrite: false };
+    const seen = { ...common, opacity: 0.6, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 };
+    const hidden = { ...common, opacity: 0.15, depthTest: false };
+    for (const look of [seen, hidden]) {
+      const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(look));
+      mesh.renderOrder = 1;
+      this.content.add(mesh);
+    }
   }
 
   addBall(centre, radius, color) {

@@ -55,9 +55,12 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<()>
     let settings = settings(args);
     let mut solver = settings.method.solver(Instructions::Best);
     for row in rows.take(LOOKED_AT) {
-        let Ok((_, course)) = row.with_context(|| input_name(motions))? else {
-            // `ccd query` says what is wrong with it.
-            continue;
+        let course = match row.with_context(|| input_name(motions))? {
+            Ok((_, course)) => course,
+            Err(fault) => {
+                chosen.leave_out(fault.to_string());
+                continue;
+            }
         };
         if chosen.is_named(course.id()) == Some(false) {
             continue;
@@ -105,7 +108,7 @@ fn answered(
 pub(super) fn write_rows(
     title: &str,
     pair: &Pair,
-    chosen: Chosen,
+    mut chosen: Chosen,
     out: &Path,
     quiet: bool,
 ) -> Result<()> {
@@ -114,9 +117,14 @@ pub(super) fn write_rows(
     }
     let mut painter = Painter::new(pair.bodies());
     let mut views = Vec::new();
-    for (course, row) in chosen.into_rows() {
-        let view = painter.view(&course, &row);
-        views.push(view.with_context(|| format!("row {}", row.id))?);
+    for (course, row) in chosen.take_rows() {
+        match painter.view(&course, &row) {
+            Ok(view) => views.push(view),
+            Err(error) => chosen.leave_out(format!("row {}: {error}", row.id)),
+        }
+    }
+    if let Some(faults) = chosen.faults() {
+        complain(&faults);
     }
     if views.is_empty() {
         bail!("there is no row to show");

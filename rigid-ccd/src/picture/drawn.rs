@@ -109,6 +109,10 @@ impl Sketch {
         let Ok((corners, faces)) = try_convex_hull(&parrys) else {
             return;
         };
+        // parry's hull of denormal points has none: too small to be drawn.
+        if !corners.iter().all(|corner| corner.is_finite()) {
+            return;
+        }
         for face in faces {
             self.push(face.map(|k| DVec3::from_array(corners[k as usize].into())));
         }

@@ -37,7 +37,8 @@ pub(crate) fn scene_view(
             .or_insert_with(|| meshes.add(&drawn(shown.body)));
         let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
         let color = match moves {
-            true => format!("hsl({:.0} 55% 52%)", (150.0 + HUE * k as f64) % 360.0),
+            // With commas, as three.js reads it.
+            true => format!("hsl({:.0}, 55%, 52%)", (150.0 + HUE * k as f64) % 360.0),
             false => FIXED.to_owned(),
         };
         ShownBody::new(shown.name, mesh, &color, &shown.motion)
@@ -74,10 +75,10 @@ fn verdict(bodies: &[Shown<'_>], contacts: &[Result<Impact, PairError>], duratio
         Some(first) => {
             let [a, b] = first.bodies.map(|k| bodies[k].name);
             format!(
-                "{} bodies, {} pairs in contact, each until its first. The first of all at {}: {a} and {b}. \
+                "{} bodies, {} in contact, each until its first. The first of all at {}: {a} and {b}. \
                  Proven: no pair touches before its time.",
                 bodies.len(),
-                hits.len(),
+                pairs(hits.len()),
                 number(first.hit.time),
             )
         }
@@ -86,11 +87,19 @@ fn verdict(bodies: &[Shown<'_>], contacts: &[Result<Impact, PairError>], duratio
         let [a, b] = error.bodies.map(|k| bodies[k].name);
         let open = contacts.len() - hits.len();
         words += &format!(
-            " {open} pairs without an answer, such as {a} and {b}: {}.",
+            " {} without an answer, such as {a} and {b}: {}.",
+            pairs(open),
             error.error
         );
     }
     words
+}
+
+fn pairs(count: usize) -> String {
+    match count {
+        1 => "one pair".to_owned(),
+        count => format!("{count} pairs"),
+    }
 }
 
 fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {

@@ -54,7 +54,7 @@ fn a_cell_keeps_its_median_where_there_is_nothing_to_compare() {
     assert_eq!(reference.comparable(&both), both);
     trials.retain(|trial| trial.method != OURS);
     assert_eq!(
-        Reference::new(OURS, &trials).comparable(&[slow.clone()]),
+        Reference::new(OURS, &trials).comparable(std::slice::from_ref(&slow)),
         [slow]
     );
 }

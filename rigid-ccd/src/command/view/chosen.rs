@@ -14,6 +14,9 @@ pub(in crate::command) struct Chosen {
     /// The ids to show; empty for some of each status.
     ids: Vec<String>,
     rows: Vec<(Course, ResultRow)>,
+    /// The number of rows that cannot be shown, and what is wrong with the first.
+    left_out: usize,
+    first_fault: Option<String>,
 }
 
 impl Chosen {
@@ -22,6 +25,8 @@ impl Chosen {
         Chosen {
             ids,
             rows: Vec::new(),
+            left_out: 0,
+            first_fault: None,
         }
     }
 
@@ -61,8 +66,25 @@ impl Chosen {
             .map(String::as_str)
     }
 
-    /// Returns the rows, in the order in which they were offered.
-    pub(super) fn into_rows(self) -> Vec<(Course, ResultRow)> {
-        self.rows
+    /// Takes out the rows, in the order in which they were offered.
+    pub(super) fn take_rows(&mut self) -> Vec<(Course, ResultRow)> {
+        std::mem::take(&mut self.rows)
+    }
+
+    /// Counts a row that cannot be shown.
+    pub(super) fn leave_out(&mut self, fault: String) {
+        self.left_out += 1;
+        self.first_fault.get_or_insert(fault);
+    }
+
+    /// Says what was left out.
+    pub(super) fn faults(&self) -> Option<String> {
+        let fault = self.first_fault.as_ref()?;
+        Some(match self.left_out {
+            1 => format!("one row is no valid query, and is not shown: {fault}"),
+            count => {
+                format!("{count} rows are no valid queries, and are not shown; the first: {fault}")
+            }
+        })
     }
 }
