@@ -59,7 +59,7 @@ pub(crate) fn knot(size: f64, radius: f64) -> Surface {
         let ahead = (curve(t + 1e-4) - curve(t - 1e-4)).normalize();
         let out = ahead.cross(DVec3::Z).normalize();
         let (sine, cosine) = (TAU * around).sin_cos();
-        curve(t) + radius * (cosine * out + sine * out.cross(ahead))
+        curve(t) + radius * (cosine * out + sine * ahead.cross(out))
     })
 }
 

@@ -6,7 +6,7 @@
   const page = document.documentElement.dataset;
   const { named } = wasm_bindgen.Part;
 
-  // The answers of the machine that wrote the page. Times may differ in their last bits.
+  // The answers of the machine that wrote the page. Times may differ in their last bits, as docs/building.md says.
   const ROUNDING = 1e-14;
   const wrong = [];
   const answers = JSON.parse(document.getElementById("answers").textContent);

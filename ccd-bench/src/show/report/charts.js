@@ -5,6 +5,7 @@
   const plot = document.getElementById("plane-plot");
   const select = document.getElementById("plane-scene");
   const LEAST_ERROR = 1e-12;
+  const NARROW = 760;
   const DASHES = { ours: "solid", rival: "dash", peer: "dot", model: "dashdot" };
   const HOVER = "<b>%{customdata[0]}</b><br>tolerance %{customdata[1]}<br>"
     + "median %{customdata[2]:.4~g} µs, mean %{customdata[3]:.4~g} µs<br>"
@@ -40,12 +41,13 @@
     const power = { type: "log", exponentformat: "power", dtick: 1, gridcolor: "#e4e4e4" };
     const layout = {
       margin: { l: 70, r: 10, t: 36, b: 60 },
-      legend: { orientation: "v" },
+      // Below the plot where there is no room beside it.
+      legend: plot.clientWidth < NARROW ? { orientation: "h", y: -0.25 } : { orientation: "v" },
       uirevision: "kept",
       xaxis: { ...power, domain: strip ? [0, 0.74] : [0, 1], dtick: 2, title: { text: "mean error of the time of contact, share of duration" } },
       yaxis: { ...power, title: { text: "time of a query, median, µs" } },
     };
-    if (strip) layout.xaxis2 = { domain: [0.77, 1], type: "category", tickangle: -60, automargin: true };
+    if (strip) layout.xaxis2 = { domain: [0.77, 1], type: "category", showticklabels: false, title: { text: "unsafe" } };
     return Plotly.react(plot, traces, layout, { responsive: true, displaylogo: false });
   }
 
