@@ -133,7 +133,7 @@ impl Sheet<'_> {
             sheet.area.present()?;
         }
         let inside = text.split_once('>').map_or("", |(_, inside)| inside);
-        let title = escape(title);
+        let title = ccd_view::escape(title);
         Ok(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\
@@ -226,19 +226,4 @@ fn to_units(spot: Spot) -> (i32, i32) {
 // The cast saturates, and a sheet is some thousand pixels wide.
 fn units(pixels: f64) -> i32 {
     (pixels * UNITS).round() as i32
-}
-
-/// Escapes a text for XML.
-fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }
