@@ -14,6 +14,7 @@ pub use course::course;
 pub use drawn::drawn;
 pub use gap::{GapOverTime, Reached, gap};
 pub(crate) use scene::{Shown, scene_view};
+pub(crate) use verdict::{Asked, Claim};
 
 use crate::Solver;
 use crate::batch::Bodies;
@@ -30,18 +31,41 @@ pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 /// Makes views of the answers about two bodies.
 pub(crate) struct Painter<'a> {
     bodies: Bodies<'a>,
+    asked: Asked,
     meshes: Meshes,
     numbers: [usize; 2],
     solver: Solver,
 }
 
+/// A row cannot be shown.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum ViewError {
+    /// The motions are out of range.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The bodies are not those of the row.
+    #[error(
+        "at {time} the bodies are at least {measured} apart, but the row says at most {told}: it is the answer about \
+         other bodies, or other motions"
+    )]
+    OtherBodies {
+        /// The time of the row.
+        time: f64,
+        /// The distance of the bodies.
+        measured: f64,
+        /// The distance in the row.
+        told: f64,
+    },
+}
+
 impl<'a> Painter<'a> {
-    /// Draws two bodies.
-    pub(crate) fn new(bodies: Bodies<'a>) -> Self {
+    /// Draws two bodies, for answers to a question.
+    pub(crate) fn new(bodies: Bodies<'a>, asked: Asked) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn(body)));
         Painter {
             bodies,
+            asked,
             meshes,
             numbers,
             solver: Solver::new(),
@@ -56,18 +80,23 @@ impl<'a> Painter<'a> {
     /// Makes the view of a row.
     ///
     /// # Errors
-    /// If the motions are out of range.
-    pub(crate) fn view(&mut self, query: &Course, row: &ResultRow) -> Result<View, InputError> {
+    /// [`ViewError`].
+    pub(crate) fn view(&mut self, query: &Course, row: &ResultRow) -> Result<View, ViewError> {
         let start = query.start();
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
+        if self.asked.claim == Claim::Told {
+            self.compare(row, [a, b])?;
+        }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
         let mut view = View::of(&format!("{} ({})", row.id, row.status.name()), "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
-            let reached = match (row.status, row.distance_lower) {
-                (Status::Free, Some(proven)) => Reached::Throughout(proven),
+            let reached = match (row.status, row.distance_lower, self.asked.claim) {
+                (Status::Free, Some(proven), Claim::First | Claim::Any) => {
+                    Reached::Throughout(proven)
+                }
                 _ => Reached::Nothing,
             };
             let found = gap(&mut self.solver, self.bodies, query, reached)?;
@@ -76,7 +105,7 @@ impl<'a> Painter<'a> {
             nearest = found.nearest();
             view.gap = Some(found.gap);
         }
-        view.verdict = verdict::verdict(row, start + duration, proven);
+        view.verdict = verdict::verdict(row, self.asked, start + duration, proven);
         let motions = course(query)?;
         let names = ["A", "B"];
         view.bodies = (names.iter().zip(self.numbers).zip(COLORS).zip(motions))
@@ -93,6 +122,24 @@ impl<'a> Painter<'a> {
             contacts: contact.into_iter().collect(),
             ..view
         })
+    }
+
+    /// Holds the distance of a row that was read from a table against the bodies' own.
+    fn compare(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
+        let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
+            return Ok(());
+        };
+        let found = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
+        let measured = found.outcome.lower();
+        // Poses are rounded on their way through the table.
+        if measured > told + found.tolerance {
+            return Err(ViewError::OtherBodies {
+                time,
+                measured,
+                told,
+            });
+        }
+        Ok(())
     }
 
     /// Returns what touches, or is nearest, with its features.

@@ -7,7 +7,7 @@ const Marks = (() => {
 
   function feature(stage, points, color, size) {
     if (points.length === 1) stage.addBall(points[0], 0.012 * size, color);
-    else if (points.length === 2) stage.addLines(points, color);
+    else if (points.length === 2) stage.addBar(points, 0.004 * size, color);
     else stage.addTriangles(points, color);
   }
 

@@ -20,7 +20,7 @@ class Player {
   go(t) {
     this.t = t;
     this.slider.value = this.duration > 0 ? Math.round((1000 * t) / this.duration) : 0;
-    this.now.textContent = (this.start + t).toPrecision(6);
+    this.now.textContent = Player.written(this.start + t);
     this.show(t);
   }
 
@@ -50,6 +50,12 @@ class Player {
     this.button.textContent = "Play";
   }
 }
+
+// A time in at most seven digits, rounded down as the verdict's are.
+Player.written = (time) => {
+  const plain = time === 0 || (Math.abs(time) >= 1e-3 && Math.abs(time) < 1e6);
+  return plain ? (Math.floor(time * 1e6 + 1e-6) / 1e6).toFixed(6) : time.toExponential(3);
+};
 
 // What the whole duration takes on the screen.
 Player.SECONDS = 4;

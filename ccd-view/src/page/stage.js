@@ -100,12 +100,15 @@ class Stage {
     mesh.matrixWorldNeedsUpdate = true;
   }
 
-  // Adds lines through points, in front of everything.
-  addLines(points, color) {
-    const geometry = new THREE.BufferGeometry().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
-    const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color, depthTest: false }));
-    line.renderOrder = 2;
-    this.content.add(line);
+  // Adds a bar from one point to another, in front of everything.
+  addBar([from, to], radius, color) {
+    const [start, end] = [from, to].map((p) => new THREE.Vector3(...p));
+    const way = end.clone().sub(start);
+    const bar = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, way.length(), 8), new THREE.MeshBasicMaterial({ color, depthTest: false }));
+    bar.position.copy(start).addScaledVector(way, 0.5);
+    bar.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.normalize());
+    bar.renderOrder = 2;
+    this.content.add(bar);
   }
 
   // Adds filled triangles, three points each; what hides them lets them shine through.

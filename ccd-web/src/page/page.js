@@ -9,6 +9,8 @@ const Workshop = (() => {
   const RED = "#d55e00";
   // Ghosts of more steps than this hide what they show.
   const GHOSTS = 60;
+  // The ghosts of the part on its way to the contact.
+  const WAY = 6;
   // A pointer that misses a part by this many pixels still takes it.
   const NEAR = 22;
   // A scene is first seen this long after the contact, in seconds.
@@ -90,7 +92,7 @@ const Workshop = (() => {
     if (verdict === "contact" && first < 0) say("seen", `None of ${rate()} steps sees the contact: the part passes through.`, "bad");
     else if (verdict === "contact") {
       const far = late * Math.hypot(...state.velocity);
-      say("seen", `Sees it at ${at.toFixed(6)} s: ${(1000 * late).toPrecision(3)} ms late, after ${(100 * far).toPrecision(3)} cm more.`, late > 1e-3 ? "bad" : "");
+      say("seen", `Sees it at ${at.toFixed(6)} s: ${(1000 * late).toPrecision(3)} ms late, after ${(100 * far).toPrecision(3)} cm farther on.`, late > 1e-3 ? "bad" : "");
     } else if (verdict === "free" || verdict === "unresolved") say("seen", "Sees no contact at its steps, and proves nothing between them.", "");
     else say("seen", "Sees it at the start, too.", "");
   }
@@ -106,10 +108,16 @@ const Workshop = (() => {
     return within.filter(({ k }, n) => n % every === 0 || k === state.seen.first).map(({ k, pose: at }) => ({ pose: at, color: k === state.seen.first ? RED : GREEN }));
   }
 
+  // Where the part comes from.
+  function way() {
+    const times = Array.from({ length: WAY }, (_, k) => (k * state.found.time) / WAY);
+    return times.map((t) => ({ pose: pose(t), color: GREEN }));
+  }
+
   function draw() {
     const common = { part: state.part.geometry, target: state.target.geometry, size: span() };
     const missed = state.found.verdict === "contact" && state.seen.time > state.found.time + 1e-3;
-    sides[0].draw({ ...common, color: GREEN, ghosts: [], marks: state.found.points });
+    sides[0].draw({ ...common, color: GREEN, ghosts: way(), marks: state.found.points });
     sides[1].draw({ ...common, color: missed ? RED : GREEN, ghosts: ghosts(), marks: [] });
     page.certified = "drawn";
     page.stepping = "drawn";

@@ -214,6 +214,14 @@ impl PendingFile {
     }
 }
 
+/// Refuses a file that cannot be written, for want of its folder, before work is done for it.
+pub(super) fn refuse_missing_folder(path: &Path) -> Result<(), CannotWrite> {
+    check_folder(path).map_err(|source| CannotWrite {
+        place: path.display().to_string(),
+        source,
+    })
+}
+
 /// Checks that the folder of a new file exists.
 pub(super) fn check_folder(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| *folder != "");

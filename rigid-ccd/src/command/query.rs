@@ -12,14 +12,17 @@ mod summary;
 pub(super) use args::QueryArgs;
 
 use super::bad_rows::BadRows;
-use super::files::{Rows, input_name, is_standard, open_courses, refuse_overwriting};
-use super::view::{Chosen, title, write_rows};
+use super::files::{
+    Rows, input_name, is_standard, open_courses, refuse_missing_folder, refuse_overwriting,
+};
+use super::view::{Chosen, Drawn, title, write_rows};
 use super::{Exit, complain};
 use crate::batch::{
     BatchSize, BoundKind, Question, ScheduleKind, Settings, SolverKind, on_threads,
 };
 use crate::command::pair::{Loading, Pair};
 use crate::command::progress::{Progress, Total};
+use crate::picture::{Asked, Claim};
 use answering::Answering;
 use anyhow::{Result, bail};
 use ccd_core::{Config, StartPolicy};
@@ -34,6 +37,9 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
     check_question(args)?;
+    if let Some(html) = &args.html {
+        refuse_missing_folder(html)?;
+    }
     let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
     check_rows(args, &rows)?;
     let pair = Pair::load(Loading {
@@ -44,8 +50,14 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     let (mut outputs, earlier) = match Opened::new(args, &recorded(args, &pair))? {
         Opened::New(outputs) => (outputs, None),
         Opened::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
-        Opened::Finished(end) => return resume::leave_finished(args, &mut rows, end),
+        Opened::Finished(end) => {
+            tell_of_page(args);
+            return resume::leave_finished(args, &mut rows, end);
+        }
     };
+    if earlier.is_some() {
+        tell_of_page(args);
+    }
     if args.resume {
         resume::report(args, earlier);
     }
@@ -80,8 +92,14 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     answering.outputs.finish(end)?;
     drop(answering.progress);
     answering.bad_rows.close();
+    let mut shown = Exit::AllAnswered;
     if let (Some(chosen), Some(html)) = (answering.shown, &args.html) {
-        write_rows(&title(&args.bodies), &pair, chosen, html, args.quiet)?;
+        let subject = Drawn {
+            title: &title(&args.bodies),
+            pair: &pair,
+            asked: asked(args),
+        };
+        shown = write_rows(subject, chosen, html, args.quiet)?;
     }
     if answering.summary.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
@@ -89,7 +107,37 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     if !args.quiet {
         print_summary(args, &answering.summary);
     }
-    Ok(exit(end))
+    Ok(match exit(end) {
+        Exit::AllAnswered => shown,
+        bad => bad,
+    })
+}
+
+/// Says which rows a page of a resumed run does not show.
+fn tell_of_page(args: &QueryArgs) {
+    if args.html.is_some() {
+        complain(
+            "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
+        );
+    }
+}
+
+/// Returns what a page may say of the answers.
+fn asked(args: &QueryArgs) -> Asked {
+    let claim = match (args.bound, args.ask) {
+        (Some(BoundKind::Published), _) => Claim::Published,
+        (_, Question::IsFree) => Claim::Any,
+        (_, Question::Distance) => Claim::Then,
+        _ if leaves(args) => Claim::FirstLater,
+        (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
+            Claim::First
+        }
+    };
+    Asked {
+        claim,
+        margin: args.margin,
+        clearance: args.clearance,
+    }
 }
 
 /// Refuses an output that is also an input or the other output.

@@ -8,17 +8,19 @@ pub(super) use args::ViewArgs;
 use args::{SceneArgs, Subject};
 pub(super) use chosen::Chosen;
 
-use super::files::{input_name, open_courses, refuse_overwriting};
+use super::files::{
+    CannotWrite, input_name, open_courses, refuse_missing_folder, refuse_overwriting,
+};
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::{Exit, complain};
 use crate::Scene;
 use crate::batch::{Question, Settings, SolverKind, time};
-use crate::picture::{Painter, scene_view};
+use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Config, Instructions};
-use ccd_view::{Group, Page, View};
+use ccd_view::{Group, Page, PageError, View};
 use std::collections::HashMap;
 use std::fs::File;
 use std::num::NonZeroUsize;
@@ -29,15 +31,18 @@ const LOOKED_AT: usize = 10_000;
 
 /// Writes the page.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
+    refuse_missing_folder(&args.out)?;
     match args.subject() {
-        Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions)?,
-        Some(Subject::Scene(path, how)) => view_scene(args, path, how)?,
+        Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
+        Some(Subject::Scene(path, how)) => {
+            view_scene(args, path, how)?;
+            Ok(Exit::AllAnswered)
+        }
         None => bail!("give either --a, --b and --motions, or --scene"),
     }
-    Ok(Exit::AllAnswered)
 }
 
-fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<()> {
+fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exit> {
     let mut read = bodies.files()?;
     read.push(("--motions", motions.to_owned()));
     read.extend(args.results.iter().map(|path| ("--results", path.clone())));
@@ -53,6 +58,14 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<()>
     let known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = Chosen::new(args.ids.clone());
     let settings = settings(args);
+    let asked = Asked {
+        claim: match known {
+            Some(_) => Claim::Told,
+            None => Claim::First,
+        },
+        margin: args.margin,
+        clearance: None,
+    };
     let mut solver = settings.method.solver(Instructions::Best);
     for row in rows.take(LOOKED_AT) {
         let course = match row.with_context(|| input_name(motions))? {
@@ -77,7 +90,27 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<()>
         }
     }
     let title = title(bodies);
-    write_rows(&title, &pair, chosen, &args.out, args.quiet)
+    if let (Some(results), true) = (&args.results, chosen.is_empty()) {
+        bail!(
+            "no row of {} is in {}",
+            input_name(motions),
+            results.display()
+        );
+    }
+    let subject = Drawn {
+        title: &title,
+        pair: &pair,
+        asked,
+    };
+    write_rows(subject, chosen, &args.out, args.quiet)
+}
+
+/// What a page of rows is about.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn<'a> {
+    pub(super) title: &'a str,
+    pub(super) pair: &'a Pair,
+    pub(super) asked: Asked,
 }
 
 /// Returns the title of a page about two bodies: their names without folders.
@@ -104,18 +137,18 @@ fn answered(
     }
 }
 
-/// Writes the page of chosen rows.
+/// Writes the page of chosen rows. Without any there is none, which is told.
 pub(super) fn write_rows(
-    title: &str,
-    pair: &Pair,
+    Drawn { title, pair, asked }: Drawn<'_>,
     mut chosen: Chosen,
     out: &Path,
     quiet: bool,
-) -> Result<()> {
+) -> Result<Exit> {
+    let all_found = chosen.missing().next().is_none();
     for id in chosen.missing() {
         complain(&format!("no row has the id {id:?}"));
     }
-    let mut painter = Painter::new(pair.bodies());
+    let mut painter = Painter::new(pair.bodies(), asked);
     let mut views = Vec::new();
     for (course, row) in chosen.take_rows() {
         match painter.view(&course, &row) {
@@ -127,16 +160,34 @@ pub(super) fn write_rows(
         complain(&faults);
     }
     if views.is_empty() {
-        bail!("there is no row to show");
+        complain("there is no row to show, and no page");
+        return Ok(Exit::SomeRowsBad);
     }
     let page = Page {
         title,
         groups: vec![group(views)],
         meshes: painter.into_meshes(),
     };
-    page.write(out)?;
-    told(out, quiet);
-    Ok(())
+    write_page(&page, out, quiet)?;
+    Ok(match all_found && chosen.is_whole() {
+        true => Exit::AllAnswered,
+        false => Exit::SomeRowsBad,
+    })
+}
+
+fn write_page(page: &Page<'_>, out: &Path, quiet: bool) -> Result<()> {
+    match page.write(out) {
+        Err(PageError::Write { path, source }) => Err(CannotWrite {
+            place: path.display().to_string(),
+            source,
+        }
+        .into()),
+        other => {
+            other?;
+            told(out, quiet);
+            Ok(())
+        }
+    }
 }
 
 fn group(views: Vec<View>) -> Group {
@@ -176,6 +227,9 @@ fn settings(args: &ViewArgs) -> Settings {
 fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     refuse_overwriting(("--scene", path), ("--out", &args.out))?;
     let table = bodies::read(path, how)?;
+    if !args.quiet {
+        table.report();
+    }
     for (option, path) in table.files() {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
@@ -187,12 +241,13 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     let contacts = scene.contacts(args.duration);
     let title = input_name(path);
     let (meshes, view) = scene_view(&title, &shown, &contacts, args.duration);
+    if !args.quiet {
+        complain(&view.verdict);
+    }
     let page = Page {
         title: &title,
         meshes,
         groups: vec![group(vec![view])],
     };
-    page.write(&args.out)?;
-    told(&args.out, args.quiet);
-    Ok(())
+    write_page(&page, &args.out, args.quiet)
 }

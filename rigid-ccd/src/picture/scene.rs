@@ -2,7 +2,7 @@
 
 use super::drawn::{drawn, lit};
 use super::verdict::number;
-use crate::{Impact, PairError};
+use crate::{HitKind, Impact, PairError};
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Feature, Motion};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};
@@ -67,16 +67,22 @@ fn verdict(bodies: &[Shown<'_>], contacts: &[Result<Impact, PairError>], duratio
         .filter_map(|found| found.as_ref().ok())
         .collect();
     let mut words = match hits.first() {
+        None if !contacts.is_empty() => {
+            format!(
+                "{} bodies, no contact found, to the end at {}.",
+                bodies.len(),
+                number(duration)
+            )
+        }
         None => format!(
-            "{} bodies, no contact until {}.",
+            "{} bodies, no contact, to the end at {}. Proven.",
             bodies.len(),
             number(duration)
         ),
         Some(first) => {
             let [a, b] = first.bodies.map(|k| bodies[k].name);
             format!(
-                "{} bodies, {} in contact, each until its first. The first of all at {}: {a} and {b}. \
-                 Proven: no pair touches before its time.",
+                "{} bodies, {} in contact. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
                 bodies.len(),
                 pairs(hits.len()),
                 number(first.hit.time),
@@ -115,7 +121,13 @@ fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
     };
     ShownContact {
         time: hit.time,
-        words: format!("{}: {} and {}", number(hit.time), a.name, b.name),
+        words: match hit.kind {
+            HitKind::Contact => format!("{}: {} and {}", number(hit.time), a.name, b.name),
+            HitKind::Touching => format!("at the start: {} and {}", a.name, b.name),
+            HitKind::Overlapping(_) => {
+                format!("overlapping at the start: {} and {}", a.name, b.name)
+            }
+        },
         lit_a: at(
             a,
             hit.contact.map(|contact| contact.feature_a),

@@ -3,37 +3,134 @@
 use crate::table::results::{ResultRow, Status};
 use ccd_core::order::greater;
 
+/// What rows are answers to, as far as it is known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    /// What their times say.
+    pub(crate) claim: Claim,
+    /// The distance that was to be kept.
+    pub(crate) margin: f64,
+    /// The distance that was compared with.
+    pub(crate) clearance: Option<f64>,
+}
+
+/// What the time of an answer says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Claim {
+    /// Nothing touches before it, which is proven.
+    First,
+    /// As [`First`](Claim::First), but for contacts at the start, which were let go.
+    FirstLater,
+    /// The bodies touch then, and perhaps earlier.
+    Any,
+    /// The distance was measured then.
+    Then,
+    /// As [`First`](Claim::First) by the published bound, which proves nothing.
+    Published,
+    /// A table says so, which tells neither the question nor the bound.
+    Told,
+}
+
 /// Returns the answer of a row as sentences; `end` is the end of its motions, `proven` a gap that is proven at all times.
-pub(super) fn verdict(row: &ResultRow, end: f64, proven: Option<f64>) -> String {
+pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
     let time = row.time.map_or("an unknown time".to_owned(), number);
-    let apart = apart(row);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
+    let clearance = match asked.clearance {
+        Some(length) => format!("The clearance of {}", number(length)),
+        None => "The clearance".to_owned(),
+    };
     match row.status {
-        Status::Contact => format!(
-            "First contact at {time}: {}. Proven: nothing touches before.",
-            contact(row)
-        ),
-        Status::Free => match row
-            .distance_lower
-            .map(|gap| greater(gap, proven.unwrap_or(gap)))
-        {
-            Some(gap) => format!(
-                "No contact until {}. Proven: never nearer than {}.",
-                number(end),
-                number(gap)
-            ),
-            None => format!("No contact until {}. Proven.", number(end)),
-        },
+        Status::Contact => on_the_way(row, asked, &time),
+        Status::Free => free(row, asked, end, proven),
+        Status::Touching if asked.margin > 0.0 => {
+            format!("Within the margin at the start: {}.", contact(row))
+        }
         Status::Touching => format!("In contact at the start: {}.", contact(row)),
         Status::Overlapping => format!("Overlapping at the start: {}.", contact(row)),
-        Status::Measured => format!("Nearest at {time}: {apart}."),
-        Status::Kept => format!("The clearance is kept: nearest at {time}, {apart}."),
-        Status::Violated => format!("The clearance is violated: nearest at {time}, {apart}."),
-        Status::Unverified => format!("The clearance is not verified: {reason}."),
-        Status::Unresolved => format!(
-            "Not resolved ({reason}). Proven: nothing touches before {time}. After it nothing is known."
+        Status::Measured if asked.claim == Claim::Then => format!("At {time}: {}.", apart(row)),
+        Status::Measured => format!("Nearest at {time}: {}.", apart(row)),
+        Status::Kept => format!("{clearance} is kept: nearest at {time}, {}.", apart(row)),
+        Status::Violated => format!(
+            "{clearance} is violated: nearest at {time}, {}.",
+            apart(row)
         ),
+        Status::Unverified => format!("{clearance} is not verified: {reason}."),
+        Status::Unresolved => match asked.claim {
+            Claim::Published => format!("Not resolved ({reason}) after {time}. Not certified."),
+            Claim::Told => format!("Not resolved ({reason}) after {time}, as the table says."),
+            Claim::FirstLater => format!(
+                "Not resolved ({reason}). Proven: nothing touches before {time}, but for a contact at the start that \
+                 was let go."
+            ),
+            _ => format!(
+                "Not resolved ({reason}). Proven: nothing touches before {time}. After it nothing is known."
+            ),
+        },
         Status::Error => format!("Not answered: {reason}."),
+    }
+}
+
+/// Returns the words for a contact on the way.
+fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
+    let margin = number(asked.margin);
+    let (first, at, before) = match asked.margin > 0.0 {
+        true => (
+            format!("First within the margin of {margin}"),
+            format!("Within the margin of {margin}"),
+            "not within it before",
+        ),
+        false => (
+            "First contact".to_owned(),
+            "Contact".to_owned(),
+            "nothing touches before",
+        ),
+    };
+    let touching = contact(row);
+    match (asked.claim, row.last_time) {
+        (Claim::First, None) => format!("{first} at {time}: {touching}. Proven: {before}."),
+        (Claim::First, Some(last)) => format!(
+            "{first} at {time}: {touching}. Proven: {before}, nor after {}.",
+            number_up(last)
+        ),
+        (Claim::FirstLater, _) => format!(
+            "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
+        ),
+        (Claim::Any | Claim::Then, _) => {
+            format!("{at} at {time}: {touching}. There may be an earlier one.")
+        }
+        (Claim::Published, _) => {
+            format!("{at} at {time}: {touching}. Not certified: it may be late.")
+        }
+        (Claim::Told, _) => format!("{at} at {time}, as the table says: {touching}."),
+    }
+}
+
+fn free(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
+    let end = number(end);
+    // What a table says is not what is proven here.
+    let told = match asked.claim {
+        Claim::Published | Claim::Told => None,
+        _ => row.distance_lower,
+    };
+    let gap = match (told, proven) {
+        (Some(told), Some(proven)) => Some(greater(told, proven)),
+        (told, proven) => told.or(proven),
+    };
+    match (asked.claim, gap.filter(|gap| *gap > 0.0)) {
+        (_, Some(gap)) => format!(
+            "No contact, to the end at {end}. Proven: never nearer than {}.",
+            number(gap)
+        ),
+        (Claim::Published, None) => {
+            format!("No contact found, to the end at {end}. Not certified.")
+        }
+        (Claim::Told, None) => format!("No contact, to the end at {end}, as the table says."),
+        (Claim::FirstLater, None) => {
+            format!(
+                "No contact, to the end at {end}. Proven, but for one at the start that was let go."
+            )
+        }
+        (_, None) => format!("No contact, to the end at {end}. Proven."),
     }
 }
 
@@ -51,9 +148,14 @@ pub(super) fn contact(row: &ResultRow) -> String {
 
 fn apart(row: &ResultRow) -> String {
     match (row.distance_lower, row.distance_upper) {
-        (Some(lower), Some(_)) if lower < 0.0 => {
-            format!("a shift by {} would part them", number_up(-lower))
-        }
+        (Some(lower), Some(_)) if lower < 0.0 => format!(
+            "two pieces that a shift by {} would part; the bodies may overlap by more",
+            number_up(-lower)
+        ),
+        (Some(0.0), Some(upper)) => format!(
+            "at most {} apart: they touch, or nearly so",
+            number_up(upper)
+        ),
         (Some(lower), Some(upper)) => {
             format!("between {} and {} apart", number(lower), number_up(upper))
         }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
 #[derive(Clone, Debug, Args)]
-#[command(after_help = AFTER_HELP)]
+#[command(after_help = AFTER_HELP, arg_required_else_help = true)]
 pub(in crate::command) struct ViewArgs {
     /// Body A, in the forms of `ccd query --a`
     #[arg(long, value_name = "BODY", requires_all = ["b", "motions"])]
@@ -31,14 +31,20 @@ pub(in crate::command) struct ViewArgs {
     )]
     motions: Option<PathBuf>,
     /// Table of results of `ccd query`: show what it says, without solving anything
-    #[arg(long, value_name = "CSV", requires = "motions")]
+    #[arg(
+        long,
+        value_name = "CSV",
+        requires = "motions",
+        conflicts_with = "scene"
+    )]
     pub(super) results: Option<PathBuf>,
     /// Show the rows with these ids [default: up to 4 of each status, in the table's order]
     #[arg(
         long,
         value_name = "ID,...",
         value_delimiter = ',',
-        requires = "motions"
+        requires = "motions",
+        conflicts_with = "scene"
     )]
     pub(super) ids: Vec<String>,
     /// Table of the bodies of one scene, CSV: `body` as for --a, and px, vx, ... as in a table of motions
@@ -95,7 +101,8 @@ impl ViewArgs {
 
 const AFTER_HELP: &str = "\
 The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
-time, ghosts of the steps, the measured gap with the line that is proven to be under it, and what touches.
+time, ghosts of the steps, the measured gap over time with a proven lower bound, and what touches.
+A motion is shown for its first contact. `ccd query --ask ... --html` shows the other questions.
 
 Examples:
   ccd view --a knot.obj --b knot.obj --motions motions.csv --ids 3,17
@@ -105,5 +112,5 @@ Examples:
 Table of a scene: a row for each body.
   body,id,px,py,pz,vx,vz,wy
   part.obj,lid,0,0,2,0,-1,3
-  box:1,1,.1,table,,,,,,
-(A body with commas in it is quoted: \"box:1,1,.1\". One without velocities stands still.)";
+  \"box:1,1,0.1\",table,,,,,,
+(A body with commas in it is quoted. One without velocities stands still.)";

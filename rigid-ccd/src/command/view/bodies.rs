@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail};
 use ccd_core::{Body, Motion};
 use ccd_decomp::BodySource;
 use std::collections::HashMap;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The column that names a body.
@@ -17,6 +18,8 @@ pub(super) struct SceneTable {
     /// By description.
     bodies: HashMap<String, Body>,
     files: Vec<PathBuf>,
+    /// What was found about each.
+    reports: Vec<String>,
     /// The description, the name and the motion of each.
     rows: Vec<(String, String, Motion)>,
 }
@@ -30,8 +33,17 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
         .with_context(name)?;
     let header = reader.headers().with_context(name)?.clone();
     let Some(column) = header.iter().position(|column| column == BODY) else {
-        bail!("{}: has no column `{BODY}`", name());
+        bail!(
+            "{}: has no column `{BODY}`; a table of motions is shown with --a, --b and --motions",
+            name()
+        );
     };
+    if header.iter().any(|column| column == "duration") {
+        bail!(
+            "{}: all motions of a scene end together: give --duration in place of the column",
+            name()
+        );
+    }
     // The other columns are those of body A in a table of motions.
     let mut motions = csv::Writer::from_writer(Vec::new());
     let others = |record: &csv::StringRecord, prefix: &dyn Fn(&str) -> String| -> Vec<String> {
@@ -45,17 +57,31 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     motions.write_record(others(&header, &prefixed))?;
     let mut described = Vec::new();
     for record in reader.records() {
-        let record = record.with_context(name)?;
+        let record = record.with_context(|| {
+            format!(
+                "{}: a body with commas in it is quoted: \"box:1,1,0.1\"",
+                name()
+            )
+        })?;
         described.push(record.get(column).unwrap_or_default().to_owned());
         motions.write_record(others(&record, &str::to_owned))?;
     }
-    let table = MotionTable::read(motions.into_inner()?.as_slice()).with_context(name)?;
+    // The columns have no prefix here.
+    let plain = |error: String| error.replace("`a_", "`").replace("column a_", "column ");
+    let table = match MotionTable::read(motions.into_inner()?.as_slice()) {
+        Ok(table) => table,
+        Err(error) => bail!("{}: {}", name(), plain(error.to_string())),
+    };
     if let Some(error) = table.errors.first() {
-        bail!("{}: {error}", name());
+        bail!("{}: {}", name(), plain(error.to_string()));
+    }
+    if table.rows.is_empty() {
+        bail!("{}: has no bodies", name());
     }
     let mut scene = SceneTable {
         bodies: HashMap::new(),
         files: Vec::new(),
+        reports: Vec::new(),
         rows: Vec::new(),
     };
     for (text, (position, query)) in described.into_iter().zip(table.rows) {
@@ -82,14 +108,24 @@ impl SceneTable {
             Some(unit) => source.load_in(unit, detail),
             None => source.load(detail),
         };
-        self.bodies.insert(text.to_owned(), prepared?.body);
+        let prepared = prepared?;
+        self.reports.push(format!("{text}: {}", prepared.report));
+        self.bodies.insert(text.to_owned(), prepared.body);
         self.files.extend(source.files()?);
         Ok(())
     }
 
-    /// Returns the files that were read, each with the option that names it.
+    /// Returns the files that were read, each with what names it.
     pub(super) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
-        self.files.iter().map(|path| ("--scene", path.as_path()))
+        let files = self.files.iter();
+        files.map(|path| ("a body of --scene", path.as_path()))
+    }
+
+    /// Prints what was found about each body.
+    pub(super) fn report(&self) {
+        for report in &self.reports {
+            let _ = writeln!(io::stderr(), "{report}");
+        }
     }
 
     /// Returns the bodies in the order of their rows.

@@ -1,7 +1,7 @@
 //! The rows that are shown.
 
 use crate::table::courses::Course;
-use crate::table::results::ResultRow;
+use crate::table::results::{ResultRow, Status};
 
 /// The most rows of one status that are shown, where none are named.
 const OF_EACH: usize = 4;
@@ -47,7 +47,12 @@ impl Chosen {
                 .filter(|(_, known)| known.status == row.status);
             alike.count() < OF_EACH
         });
-        if wanted && !self.is_full() {
+        if row.status == Status::Error {
+            if self.is_named(&row.id) != Some(false) {
+                let reason = row.reason.as_deref().unwrap_or("not answered");
+                self.leave_out(format!("row {}: {reason}", row.id));
+            }
+        } else if wanted && !self.is_full() {
             self.rows.push((course.clone(), row.clone()));
         }
     }
@@ -75,6 +80,16 @@ impl Chosen {
     pub(super) fn leave_out(&mut self, fault: String) {
         self.left_out += 1;
         self.first_fault.get_or_insert(fault);
+    }
+
+    /// Returns whether nothing was chosen or left out.
+    pub(super) fn is_empty(&self) -> bool {
+        self.rows.is_empty() && self.left_out == 0
+    }
+
+    /// Returns whether no row was left out.
+    pub(super) fn is_whole(&self) -> bool {
+        self.left_out == 0
     }
 
     /// Says what was left out.
