@@ -21,7 +21,7 @@ pub enum Course {
         /// The rotation at the start, by rows.
         rotation: [f64; 9],
     },
-    /// From pose to pose, in straight lines and with the shortest rotations.
+    /// From pose to pose, in straight lines and by the keys' rotations.
     Keys {
         /// The poses, by increasing times.
         keys: Vec<Key>,
@@ -35,15 +35,18 @@ pub struct Key {
     place: [f64; 3],
     /// By rows.
     rotation: [f64; 9],
+    /// The rotation vector that leads to the next key, in the world: at half a turn the poses do not tell which way.
+    turn: [f64; 3],
 }
 
 impl Key {
-    /// Creates a key.
-    pub fn new(time: f64, pose: &Pose) -> Self {
+    /// Creates a key, from which the body turns by a rotation vector until the next one.
+    pub fn new(time: f64, pose: &Pose, turn: DVec3) -> Self {
         Key {
             time,
             place: pose.translation().to_array(),
             rotation: rows(pose),
+            turn: turn.to_array(),
         }
     }
 }

@@ -40,6 +40,13 @@ impl Meshes {
         })
     }
 
+    /// Returns the middle of the box about a mesh.
+    pub fn middle(&self, number: usize) -> DVec3 {
+        self.0
+            .get(number)
+            .map_or(DVec3::ZERO, |mesh| mesh.middle.into())
+    }
+
     pub(crate) fn data(&self) -> impl Serialize {
         &self.0
     }

@@ -118,7 +118,8 @@ impl<'a> Painter<'a> {
                 Status::Free => nearest,
                 _ => time.unwrap_or(nearest),
             },
-            origin: query.poses(0.0)?[1].translation().to_array(),
+            origin: (query.poses(0.0)?[1].transform_point(self.meshes.middle(self.numbers[1])))
+                .to_array(),
             contacts: contact.into_iter().collect(),
             ..view
         })

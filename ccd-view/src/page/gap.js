@@ -27,9 +27,11 @@ class GapPlot {
     const { gap, contacts, start, duration } = view;
     const parts = [];
     const step = GapPlot.niceStep(duration / (this.width / 160));
-    for (let n = Math.ceil(start / step); duration > 0 && n * step <= start + duration; n += 1) {
-      const x = this.x(n * step - start);
-      parts.push(`<line class="grid" x1="${x}" x2="${x}" y1="${GapPlot.UP}" y2="${this.floor()}"/><text x="${x}" y="${this.floor() + 16}" text-anchor="middle">${GapPlot.text(n * step, step)}</text>`);
+    // From the first tick on: beside a large start, small steps are lost.
+    const first = Math.ceil(start / step) * step;
+    for (let n = 0; duration > 0 && n < GapPlot.TICKS && first - start + n * step <= duration; n += 1) {
+      const x = this.x(first - start + n * step);
+      parts.push(`<line class="grid" x1="${x}" x2="${x}" y1="${GapPlot.UP}" y2="${this.floor()}"/><text x="${x}" y="${this.floor() + 16}" text-anchor="middle">${GapPlot.text(first + n * step, step)}</text>`);
     }
     if (gap !== null) parts.push(...this.curves(gap, most));
     for (const contact of contacts) parts.push(`<line class="contact" x1="${this.x(contact.time)}" x2="${this.x(contact.time)}" y1="${GapPlot.UP}" y2="${this.floor()}"/>`);
@@ -85,8 +87,8 @@ class GapPlot {
   static text(value, step) {
     if (value === 0) return "0";
     const digits = Math.ceil(-Math.log10(step));
-    return digits > 4 || Math.abs(value) >= 1e5 ? value.toExponential(1) : value.toFixed(Math.max(digits, 0));
+    return digits > 4 || step >= 1e5 || Math.abs(value) >= 1e15 ? value.toExponential(1) : value.toFixed(Math.max(digits, 0));
   }
 }
 
-[GapPlot.LEFT, GapPlot.RIGHT, GapPlot.UP] = [64, 16, 8];
+[GapPlot.LEFT, GapPlot.RIGHT, GapPlot.UP, GapPlot.TICKS] = [64, 16, 8, 100];

@@ -29,32 +29,17 @@ const Motion = (() => {
     return { rotation: turned, place: from.map((p, k) => p + velocity[k] * t - back[k]) };
   }
 
-  // Between two keys: a straight line, and the shortest rotation.
+  // Between two keys: a straight line, and the first one's rotation.
   function keyed(keys, t) {
     let next = keys.findIndex((key) => key.time > t);
     if (next < 0) next = keys.length - 1;
     const [one, two] = [keys[Math.max(next - 1, 0)], keys[next]];
     const share = two.time > one.time ? Math.min(Math.max((t - one.time) / (two.time - one.time), 0), 1) : 0;
-    const way = turnVector(one.rotation, two.rotation);
+    const way = one.turn;
     return {
       rotation: product(turn(way.map((w) => w * share)), one.rotation),
       place: one.place.map((p, k) => p + share * (two.place[k] - p)),
     };
-  }
-
-  // The rotation vector that leads from one rotation to another, of at most half a turn.
-  function turnVector(from, to) {
-    const back = [0, 1, 2].flatMap((r) => [0, 1, 2].map((c) => from[3 * c + r]));
-    const m = product(to, back);
-    const axis = [m[7] - m[5], m[2] - m[6], m[3] - m[1]];
-    const sine = Math.hypot(...axis) / 2;
-    const angle = Math.atan2(sine, (m[0] + m[4] + m[8] - 1) / 2);
-    if (sine > 1e-9) return axis.map((a) => (a * angle) / (2 * sine));
-    if (angle < 1) return [0, 0, 0];
-    // Half a turn: the longest column of m + 1 is along the axis.
-    const columns = [0, 1, 2].map((c) => [0, 1, 2].map((r) => m[3 * r + c] + (r === c ? 1 : 0)));
-    const longest = columns.reduce((best, column) => (Math.hypot(...column) > Math.hypot(...best) ? column : best));
-    return longest.map((component) => (component * angle) / Math.hypot(...longest));
   }
 
   const pose = (motion, t) => (motion.keys ? keyed(motion.keys, t) : steady(motion, t));

@@ -53,7 +53,7 @@ class Player {
 
 // A time in at most seven digits, rounded down as the verdict's are.
 Player.written = (time) => {
-  const plain = time === 0 || (Math.abs(time) >= 1e-3 && Math.abs(time) < 1e6);
+  const plain = time === 0 || (Math.abs(time) >= 1e-3 && Math.abs(time) < 1e12);
   return plain ? (Math.floor(time * 1e6 + 1e-6) / 1e6).toFixed(6) : time.toExponential(3);
 };
 

@@ -56,7 +56,10 @@ class Stage {
   }
 
   clear() {
-    this.content.traverse((object) => object.material?.dispose());
+    this.content.traverse((object) => {
+      object.material?.dispose();
+      if (object.userData.own) object.geometry.dispose();
+    });
     this.content.clear();
   }
 
@@ -65,7 +68,7 @@ class Stage {
     this.fitted = points;
     const box = new THREE.Box3().setFromPoints(points.map((p) => new THREE.Vector3(...p)));
     const middle = box.getCenter(new THREE.Vector3());
-    const depth = (side) => Math.max(...points.map((p) => Math.abs(new THREE.Vector3(...p).sub(middle).dot(side))));
+    const depth = (side) => points.reduce((most, p) => Math.max(most, Math.abs(new THREE.Vector3(...p).sub(middle).dot(side))), 0);
     const sides = [[0.55, -0.75, 0.4], [0.75, 0.55, 0.4]].map((side) => new THREE.Vector3(...side).normalize());
     const back = depth(sides[0]) <= depth(sides[1]) ? sides[0] : sides[1];
     const right = new THREE.Vector3(0, 0, 1).cross(back).normalize();
@@ -108,7 +111,7 @@ class Stage {
     bar.position.copy(start).addScaledVector(way, 0.5);
     bar.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.normalize());
     bar.renderOrder = 2;
-    this.content.add(bar);
+    this.own(bar);
   }
 
   // Adds filled triangles, three points each; what hides them lets them shine through.
@@ -120,7 +123,7 @@ class Stage {
     for (const look of [seen, hidden]) {
       const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(look));
       mesh.renderOrder = 1;
-      this.content.add(mesh);
+      this.own(mesh);
     }
   }
 
@@ -128,7 +131,7 @@ class Stage {
     const ball = new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color, depthTest: false }));
     ball.position.set(...centre);
     ball.renderOrder = 3;
-    this.content.add(ball);
+    this.own(ball);
   }
 
   addArrow(from, direction, length, color) {
@@ -137,6 +140,13 @@ class Stage {
       part.material.depthTest = false;
       part.renderOrder = 3;
     }
+    // ArrowHelper shares its geometries among all arrows.
     this.content.add(arrow);
+  }
+
+  // Adds what has a geometry of its own, which ends with it.
+  own(object) {
+    object.userData.own = true;
+    this.content.add(object);
   }
 }

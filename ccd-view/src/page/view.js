@@ -6,6 +6,8 @@
   const element = (id) => document.getElementById(`view-${id}`);
   const [groups, views, list, words] = ["scene", "shot", "contacts", "status"].map(element);
   const GHOST = 0.13;
+  // The most contacts in the list; the plot of times has all.
+  const LISTED = 1000;
   let [stage, player, plot, shown] = [null, null, null, null];
 
   const bytes = (text) => Uint8Array.from(atob(text), (character) => character.charCodeAt(0)).buffer;
@@ -113,7 +115,7 @@
     element("steps").hidden = view.ghosts.length === 0;
     element("gap-words").hidden = view.gap === null;
     list.hidden = view.contacts.length < 2;
-    list.replaceChildren(...view.contacts.map(({ words: text }, number) => {
+    list.replaceChildren(...view.contacts.slice(0, LISTED).map(({ words: text }, number) => {
       const item = document.createElement("li");
       const button = document.createElement("button");
       button.type = "button";

@@ -11,8 +11,12 @@ const Workshop = (() => {
   const GHOSTS = 60;
   // The ghosts of the part on its way to the contact.
   const WAY = 6;
+  // A step that is later than a contact by less than this, in seconds, is at the same time.
+  const ROUNDING = 1e-9;
   // A pointer that misses a part by this many pixels still takes it.
   const NEAR = 22;
+  // The size of a visitor's own part, in metres.
+  const SIZE = 0.5;
   // A scene is first seen this long after the contact, in seconds.
   const SHOWN_AFTER = 0.04;
   const AXIS = [0.36, 0.48, 0.8];
@@ -75,7 +79,7 @@ const Workshop = (() => {
 
   function proven(micros) {
     const { verdict, time } = state.found;
-    const took = micros > 0 ? ` Answered in ${micros < 1000 ? `${micros.toPrecision(2)} µs` : `${(micros / 1000).toPrecision(2)} ms`}.` : "";
+    const took = micros > 0 ? ` Answered in ${micros < 100 ? `${micros.toPrecision(2)} µs` : micros < 1000 ? `${Math.round(micros)} µs` : `${(micros / 1000).toPrecision(2)} ms`}.` : "";
     const words = {
       contact: `Contact at ${time.toFixed(6)} s. Nothing touches before: proven.`,
       free: "Nothing touches in the whole second: proven.",
@@ -90,10 +94,12 @@ const Workshop = (() => {
     const [{ verdict, time }, { first, time: at }] = [state.found, state.seen];
     const late = at - time;
     if (verdict === "contact" && first < 0) say("seen", `None of ${rate()} steps sees the contact: the part passes through.`, "bad");
+    else if (verdict === "contact" && late < ROUNDING) say("seen", "A step falls on the contact, and sees it.", "");
     else if (verdict === "contact") {
       const far = late * Math.hypot(...state.velocity);
       say("seen", `Sees it at ${at.toFixed(6)} s: ${(1000 * late).toPrecision(3)} ms late, after ${(100 * far).toPrecision(3)} cm farther on.`, late > 1e-3 ? "bad" : "");
-    } else if (verdict === "free" || verdict === "unresolved") say("seen", "Sees no contact at its steps, and proves nothing between them.", "");
+    } else if (first > 0) say("seen", `Sees a gap of less than a micrometre at ${at.toFixed(6)} s.`, "");
+    else if (verdict === "free" || verdict === "unresolved") say("seen", "Sees no contact at its steps, and proves nothing between them.", "");
     else say("seen", "Sees it at the start, too.", "");
   }
 
@@ -131,9 +137,9 @@ const Workshop = (() => {
   }
 
   function show(t) {
-    sides[0].place(pose(Math.min(t, state.found.time)));
     const held = Math.min(t, state.seen.time);
-    sides[1].place(pose(Math.floor(held * rate() + 1e-9) / rate()));
+    const times = [Math.min(t, state.found.time), Math.floor(held * rate() + 1e-9) / rate()];
+    sides.forEach((side, k) => side.place(pose(times[k])));
   }
 
   // While the part is held.
@@ -164,7 +170,8 @@ const Workshop = (() => {
   }
 
   function grab(side, event) {
-    const shown = state.shown ?? state.place;
+    if (event.button !== 0 || !event.isPrimary) return;
+    const shown = side.shown;
     const spot = side.spot(shown);
     const rim = side.spot(new THREE.Vector3(...shown).addScaledVector(new THREE.Vector3(1, 0, 0).applyQuaternion(side.stage.camera.quaternion), state.part.part.reach()).toArray());
     const radius = Math.hypot(rim.clientX - spot.clientX, rim.clientY - spot.clientY);
@@ -178,28 +185,48 @@ const Workshop = (() => {
     const offset = new THREE.Vector3(...state.place).sub(from);
     const places = [];
     const follow = (moved) => {
+      if (moved.pointerId !== event.pointerId) return;
       const at = side.ray(moved).intersectPlane(within, new THREE.Vector3());
       if (at === null) return;
       state.place = at.add(offset).clampLength(0, 1e3).toArray();
-      places.push({ at: performance.now(), place: state.place });
+      places.push({ at: moved.timeStamp, place: state.place });
       hold();
     };
-    const release = (last) => {
-      for (const [name, handler] of [["pointermove", follow], ["pointerup", release], ["pointercancel", release]]) window.removeEventListener(name, handler);
+    const handlers = { pointermove: follow, pointerup: release, pointercancel: put };
+    function end({ pointerId }) {
+      if (pointerId !== event.pointerId) return false;
+      for (const [name, handler] of Object.entries(handlers)) window.removeEventListener(name, handler);
+      return true;
+    }
+    function put(last) {
+      if (end(last)) thrown(0);
+    }
+    function release(last) {
+      if (!end(last)) return;
       follow(last);
       const velocity = Throw.velocity(places);
-      if (velocity === null) { thrown(0); return; }
-      setSpeed(velocity);
+      if (velocity !== null) setSpeed(velocity);
       thrown(0);
-      player.toggle();
-    };
-    for (const [name, handler] of [["pointermove", follow], ["pointerup", release], ["pointercancel", release]]) window.addEventListener(name, handler);
+      if (velocity !== null) player.toggle();
+    }
+    for (const [name, handler] of Object.entries(handlers)) window.addEventListener(name, handler);
     follow(event);
+  }
+
+  // Takes other parts in place of the present ones, whose memory ends.
+  function replace(parts) {
+    for (const [role, part] of Object.entries(parts)) {
+      state[role]?.part.free();
+      state[role]?.geometry.dispose();
+      state[role] = part;
+    }
   }
 
   function open() {
     const scene = SCENES[element("scene").selectedIndex];
-    [state.part, state.target] = [scene.part, scene.target].map((name) => drawn(wasm_bindgen.Part.named(name)));
+    const [part, target] = [scene.part, scene.target].map((name) => drawn(wasm_bindgen.Part.named(name)));
+    replace({ part, target });
+    element("file").value = "";
     begin(scene);
   }
 
@@ -217,10 +244,11 @@ const Workshop = (() => {
     const [file] = element("file").files;
     if (!file) return;
     try {
-      state.part = drawn(wasm_bindgen.Part.from_file(file.name, new Uint8Array(await file.arrayBuffer()), 0.5));
+      replace({ part: drawn(wasm_bindgen.Part.from_file(file.name, new Uint8Array(await file.arrayBuffer()), SIZE)) });
       begin(SCENES[element("scene").selectedIndex]);
     } catch (error) {
       say("proven", `${file.name}: ${error.message}`, "bad");
+      say("seen", "The part is still the one before.", "");
     }
   }
 
@@ -264,7 +292,7 @@ const Workshop = (() => {
     player = new Player(element, show);
     element("rate").value = Math.log10(60);
     listen();
-    element("scene").selectedIndex = Math.min(Number(location.hash.slice(1)) || 0, SCENES.length - 1);
+    element("scene").selectedIndex = Math.min(Math.max(Math.floor(Number(location.hash.slice(1))) || 0, 0), SCENES.length - 1);
     open();
   }
 

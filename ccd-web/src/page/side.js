@@ -21,6 +21,7 @@ class Side {
   }
 
   place(pose) {
+    this.shown = pose.place;
     this.stage.place(this.part, pose);
     this.stage.render();
   }

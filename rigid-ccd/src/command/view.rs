@@ -21,7 +21,7 @@ use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Config, Instructions};
 use ccd_view::{Group, Page, PageError, View};
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -55,7 +55,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         method: SolverKind::default(),
         quiet: args.quiet,
     })?;
-    let known = args.results.as_deref().map(read_results).transpose()?;
+    let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = Chosen::new(args.ids.clone());
     let settings = settings(args);
     let asked = Asked {
@@ -78,8 +78,8 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         if chosen.is_named(course.id()) == Some(false) {
             continue;
         }
-        let row = match &known {
-            Some(known) => known.get(course.id()).cloned(),
+        let row = match &mut known {
+            Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
             None => Some(answered(&pair, &course, &settings, solver.as_mut())),
         };
         if let Some(row) = row {
@@ -203,12 +203,16 @@ fn told(out: &Path, quiet: bool) {
     }
 }
 
-/// Reads a table of results, by id.
-fn read_results(path: &Path) -> Result<HashMap<String, ResultRow>> {
+/// Reads a table of results, by id; rows of the same id stay in their order.
+fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     let name = || path.display().to_string();
     let file = File::open(path).with_context(name)?;
     let rows = results::read(file).with_context(name)?;
-    Ok(rows.into_iter().map(|row| (row.id.clone(), row)).collect())
+    let mut known: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
+    for row in rows {
+        known.entry(row.id.clone()).or_default().push_back(row);
+    }
+    Ok(known)
 }
 
 fn settings(args: &ViewArgs) -> Settings {

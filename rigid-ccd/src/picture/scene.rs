@@ -48,14 +48,19 @@ pub(crate) fn scene_view(
         .iter()
         .filter_map(|found| found.as_ref().ok())
         .collect();
-    let origin = bodies.first().map_or([0.0; 3], |first| {
-        first.motion.start().translation().to_array()
-    });
+    let origin = bodies
+        .first()
+        .zip(shown.first())
+        .map_or(DVec3::ZERO, |(body, first)| {
+            body.motion
+                .start()
+                .transform_point(meshes.middle(first.mesh))
+        });
     let view = View {
         bodies: shown,
         contacts: hits.iter().map(|impact| contact(bodies, impact)).collect(),
         time: hits.first().map_or(0.0, |impact| impact.hit.time),
-        origin,
+        origin: origin.to_array(),
         ..View::of(name, &verdict(bodies, contacts, duration), duration)
     };
     (meshes, view)
@@ -66,24 +71,25 @@ fn verdict(bodies: &[Shown<'_>], contacts: &[Result<Impact, PairError>], duratio
         .iter()
         .filter_map(|found| found.as_ref().ok())
         .collect();
+    let all = match bodies.len() {
+        1 => "One body".to_owned(),
+        count => format!("{count} bodies"),
+    };
     let mut words = match hits.first() {
         None if !contacts.is_empty() => {
             format!(
-                "{} bodies, no contact found, to the end at {}.",
-                bodies.len(),
+                "{all}, no contact found, to the end at {}.",
                 number(duration)
             )
         }
         None => format!(
-            "{} bodies, no contact, to the end at {}. Proven.",
-            bodies.len(),
+            "{all}, no contact, to the end at {}. Proven.",
             number(duration)
         ),
         Some(first) => {
             let [a, b] = first.bodies.map(|k| bodies[k].name);
             format!(
-                "{} bodies, {} in contact. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
-                bodies.len(),
+                "{all}, {} in contact. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
                 pairs(hits.len()),
                 number(first.hit.time),
             )

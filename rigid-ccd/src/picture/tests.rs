@@ -210,3 +210,38 @@ fn numbers_in_words_are_short_and_never_say_more_than_is_proven() {
         );
     }
 }
+
+#[test]
+fn keys_lead_where_the_engine_goes() {
+    let mut random = Pcg64Mcg::seed_from_u64(11);
+    for k in 0..60 {
+        let mut way = path(&mut random);
+        if let (Course::Path(way), true) = (&mut way, k % 2 == 0) {
+            // Half a turn: the sign of the quaternion tells which way.
+            let sign = if k % 4 == 0 { 1.0 } else { -1.0 };
+            let half = DQuat::from_xyzw(0.0, 0.0, sign, 0.0);
+            let turned = Pose::new(DVec3::X, half).unwrap();
+            way.a = Poses::new(vec![(0.0, Pose::IDENTITY), (1.5, turned)]).unwrap();
+        }
+        let shown = serde_json::to_value(&course(&way).unwrap()[0]).unwrap();
+        let keys = shown["keys"].as_array().unwrap();
+        let vector = |value: &serde_json::Value| {
+            DVec3::from_array([0, 1, 2].map(|n| value[n].as_f64().unwrap()))
+        };
+        for two in keys.windows(2) {
+            let [from, to] = [0, 1].map(|n| two[n]["time"].as_f64().unwrap());
+            let start = way.poses(from).unwrap()[0].rotation();
+            for share in [0.2, 0.5, 0.9] {
+                let pose = way.poses(from + share * (to - from)).unwrap()[0];
+                let turned = DQuat::from_scaled_axis(share * vector(&two[0]["turn"])) * start;
+                let off = (turned * pose.rotation().conjugate())
+                    .to_scaled_axis()
+                    .length();
+                assert!(
+                    off < 1e-7 || off > 2.0 * std::f64::consts::PI - 1e-7,
+                    "{k}: {off}"
+                );
+            }
+        }
+    }
+}

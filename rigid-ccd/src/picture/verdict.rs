@@ -216,5 +216,5 @@ fn last_digit(value: f64) -> f64 {
 }
 
 fn is_plain(value: f64) -> bool {
-    value == 0.0 || (1e-3..1e6).contains(&value.abs())
+    value == 0.0 || (1e-3..1e12).contains(&value.abs())
 }
