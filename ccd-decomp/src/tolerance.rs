@@ -273,8 +273,9 @@ pub(crate) const REPEATED: u64 = 1 << 20;
 /// byte …
 pub(crate) const REPEATED_PER_BYTE: u64 = 1 << 8;
 
-/// … and no more than this in any case: about six million triangles, which take 0.8 GB at most.
-pub(crate) const REPEATED_AT_MOST: u64 = 1 << 25;
+/// … and no more than this in any case: about five million triangles, which take 1.6 GB at most until they are a body
+/// (10 million took 3 GB).
+pub(crate) const REPEATED_AT_MOST: u64 = 1 << 24;
 
 /// The number of bytes to which the parts of a compressed file may unpack together, in addition to …
 ///

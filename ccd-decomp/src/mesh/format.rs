@@ -19,8 +19,8 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// Wavefront OBJ: statements `v` and `f`, in f64. Lines, points, curves, normals, texture
-    /// coordinates, colours and materials are passed over.
+    /// Wavefront OBJ: statements `v` and `f`, in f64. A fourth number of a vertex divides the others. Lines,
+    /// points, curves, normals, texture coordinates, colours and materials are passed over.
     ///
     /// Its parts are its objects (`o`) or, in a file without any, its groups (`g`).
     Obj,

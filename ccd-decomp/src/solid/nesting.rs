@@ -1,6 +1,7 @@
 //! Shells within shells: the parts of a closed mesh that bound material, and those that bound a cavity.
 
 mod closed_parts;
+mod shell_boxes;
 
 use crate::exact::predicates::{is_degenerate, too_fine};
 use crate::exact::rays::{crossing, probe};
@@ -16,6 +17,7 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use closed_parts::closed_parts;
+use shell_boxes::ShellBoxes;
 
 /// The shells of a closed mesh whose orientation does not fit their surroundings.
 ///
@@ -37,7 +39,8 @@ impl Nesting {
     /// Examines a closed mesh, given with its edges between welded vertices: along every edge as many faces run one
     /// way as the other. A mesh in one part needs no turning.
     ///
-    /// Exact. O(n log n) where few boxes of triangles of different shells meet.
+    /// Exact. O(n log n) where few boxes of triangles of different shells meet, and few boxes of shells overlap along
+    /// the mesh's longest axis.
     pub(crate) fn of(mesh: &TriangleMesh, edges: &Edges) -> Self {
         let shell_of = closed_parts(mesh, edges);
         let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
@@ -54,6 +57,7 @@ struct Shells<'m> {
     boxes: TriangleBoxes,
     shell_of: Vec<u32>,
     faces_of: Vec<Vec<u32>>,
+    shell_boxes: ShellBoxes,
 }
 
 /// The other shells that surround a shell without crossing it.
@@ -72,7 +76,12 @@ impl<'m> Shells<'m> {
         for (face, &shell) in shell_of.iter().enumerate() {
             faces_of[shell as usize].push(face as u32);
         }
+        let vertices = |faces: &Vec<u32>| {
+            let faces = faces.clone().into_iter();
+            faces.flat_map(|face| mesh.triangle(face))
+        };
         Shells {
+            shell_boxes: ShellBoxes::new(faces_of.iter().map(vertices)),
             boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
             mesh,
             shell_of,
@@ -177,6 +186,10 @@ impl<'m> Shells<'m> {
     /// Finds the other shells that wind about one; none when every ray grazes something.
     fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
+        let corner = self.mesh.triangle(faces[0])[0];
+        if !self.shell_boxes.any_other_about(shell, corner) {
+            return Some(Vec::new());
+        }
         let size = self.boxes.reach(self.mesh.triangle(faces[0])[0]);
         let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
         // Shells may touch at a corner, so that every try takes another one.
@@ -207,9 +220,10 @@ impl<'m> Shells<'m> {
         let region = Region::segment(ray);
         let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
             let other = self.shell_of[face as usize];
-            let found = match other == shell {
-                true => Some(0),
-                false => crossing(ray, self.mesh.triangle(face)),
+            let winds = other != shell && self.shell_boxes.is_about(other, ray[0]);
+            let found = match winds {
+                false => Some(0),
+                true => crossing(ray, self.mesh.triangle(face)),
             };
             met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
             found.is_some()

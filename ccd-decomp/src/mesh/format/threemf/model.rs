@@ -1,7 +1,7 @@
 //! A model of a package: its objects, and the items of its build.
 
 use super::transform;
-use super::xml::{Element, Step, Xml};
+use super::xml::{Element, Origin, Step, Xml};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::{MeshFault, Quote};
 use crate::mesh::polygons::Polygons;
@@ -127,6 +127,9 @@ impl Model {
 
     /// Takes up the start of an element within another one.
     fn start(&mut self, within: Option<Tag>, element: &Element<'_>) -> Result<Tag, MeshFault> {
+        if element.origin() == Origin::Extension {
+            return Ok(self.extension(within, element.name()));
+        }
         match (within, element.name()) {
             (None, "model") => self.begin(element).map(|()| Tag::Model),
             (None, _) => {
@@ -137,10 +140,9 @@ impl Model {
             (Some(Tag::Model), "build") => Ok(Tag::Build),
             (Some(Tag::Build), "item") => self.add_item(element),
             (Some(Tag::Resources), "object") => self.add_object(element),
-            (Some(Tag::Object), name) => Ok(self.shape_of(name)),
+            (Some(Tag::Object), name) => self.shape_of(name),
             (Some(Tag::Mesh), "vertices") => Ok(Tag::Vertices),
             (Some(Tag::Mesh), "triangles") => Ok(Tag::Triangles),
-            (Some(Tag::Mesh), name @ "beamlattice") => Ok(self.foreign(name)),
             (Some(Tag::Vertices), "vertex") => self.add_vertex(element),
             (Some(Tag::Triangles), "triangle") => self.add_triangle(element),
             (Some(Tag::Components), "component") => self.add_component(element),
@@ -183,24 +185,37 @@ impl Model {
     }
 
     /// Takes up the element that says which shape an object has.
-    fn shape_of(&mut self, name: &str) -> Tag {
+    fn shape_of(&mut self, name: &str) -> Result<Tag, MeshFault> {
         let Some(object) = self.objects.last_mut() else {
-            return Tag::Other;
+            return Ok(Tag::Other);
         };
         let (shape, tag) = match name {
             "mesh" => (Shape::Mesh(Polygons::default()), Tag::Mesh),
             "components" => (Shape::Components(Vec::new()), Tag::Components),
-            "metadatagroup" => return Tag::Other,
-            other => (Shape::Foreign(other.into()), Tag::Other),
+            "metadatagroup" => return Ok(Tag::Other),
+            other => return Ok(self.extension(Some(Tag::Object), other)),
         };
+        if matches!(object.shape, Shape::Mesh(_) | Shape::Components(_)) {
+            return Err(MeshFault::syntax(
+                None,
+                "has two shapes; an object has one".into(),
+            ));
+        }
         object.shape = shape;
-        tag
+        Ok(tag)
     }
 
-    /// Takes up an element of a mesh that makes it more than its triangles.
-    fn foreign(&mut self, name: &str) -> Tag {
-        if let Some(object) = self.objects.last_mut() {
-            object.shape = Shape::Foreign(name.into());
+    /// Takes up an element of an extension: it may be the shape of an object, or make a mesh more than its triangles.
+    /// What else extensions say is passed over.
+    fn extension(&mut self, within: Option<Tag>, name: &str) -> Tag {
+        if let Some(ModelObject { shape, .. }) = self.objects.last_mut() {
+            match (within, &shape) {
+                (Some(Tag::Object), Shape::Foreign(_)) => *shape = Shape::Foreign(name.into()),
+                (Some(Tag::Mesh), _) if name == "beamlattice" => {
+                    *shape = Shape::Foreign(name.into());
+                }
+                _ => {}
+            }
         }
         Tag::Other
     }

@@ -188,6 +188,21 @@ fn the_order_and_other_elements_do_not_matter() {
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
 }
 
+/// Elements of extensions that a reader need not know, under the names of the core's.
+#[test]
+fn elements_of_other_namespaces_are_passed_over() {
+    let model = model(
+        r#"xmlns:q="http://example.com/q""#,
+        r#"<q:object id="1"/><object id="1"><q:before/><mesh><vertices><vertex x="0" y="0" z="0"/><q:vertex x="9" y="9" z="9"/>
+        <vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices>
+        <triangles><q:triangle v1="7" v2="8" v3="9"/><triangle v1="0" v2="1" v3="2"/></triangles></mesh><q:mesh/></object>"#,
+        r#"<q:item objectid="77"/><item objectid="1"/>"#,
+    );
+    let mesh = read(&one(&model));
+    assert_eq!(mesh.vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
+    assert_eq!(mesh.faces(), [[0, 1, 2]]);
+}
+
 #[test]
 fn a_package_without_relationships_has_the_usual_model() {
     let model = model("", &tetrahedron(r#"id="1""#), r#"<item objectid="1"/>"#);

@@ -3,16 +3,22 @@
 use crate::mesh::error::{MeshFault, Quote};
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
-use quick_xml::reader::Reader;
+use quick_xml::name::ResolveResult;
+use quick_xml::reader::NsReader;
 use std::borrow::Cow;
 use std::io::BufRead;
 
 /// A text that is read one element after the other. What is between them is passed over.
 pub(super) struct Xml<R> {
-    reader: Reader<R>,
+    reader: NsReader<R>,
     buffer: Vec<u8>,
     depth: usize,
+    /// The namespace of the outermost element.
+    own: Option<Namespace>,
 }
+
+/// A namespace; none is the one of names without any.
+type Namespace = Option<String>;
 
 /// The next thing of a text.
 pub(super) enum Step<'a> {
@@ -27,11 +33,23 @@ pub(super) enum Step<'a> {
 }
 
 /// The start of an element.
-pub(super) struct Element<'a>(BytesStart<'a>);
+pub(super) struct Element<'a> {
+    start: BytesStart<'a>,
+    origin: Origin,
+}
+
+/// Where the name of an element comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// The namespace of the outermost element.
+    Own,
+    /// Another one: an extension.
+    Extension,
+}
 
 impl<R: BufRead> Xml<R> {
     pub(super) fn new(reader: R) -> Self {
-        let mut reader = Reader::from_reader(reader);
+        let mut reader = NsReader::from_reader(reader);
         let config = reader.config_mut();
         config.expand_empty_elements = true;
         // Texts are passed over, and so is what is wrong with them.
@@ -40,6 +58,7 @@ impl<R: BufRead> Xml<R> {
             reader,
             buffer: Vec::new(),
             depth: 0,
+            own: None,
         }
     }
 
@@ -49,11 +68,19 @@ impl<R: BufRead> Xml<R> {
 
     pub(super) fn next(&mut self) -> Result<Step<'_>, MeshFault> {
         self.buffer.clear();
-        let event = self.reader.read_event_into(&mut self.buffer);
-        match event.map_err(|error| fault(&error, self.reader.buffer_position()))? {
+        let event = match self.reader.read_event_into(&mut self.buffer) {
+            Ok(event) => event,
+            Err(error) => return Err(fault(&error, self.reader.buffer_position())),
+        };
+        match event {
             Event::Start(start) => {
                 self.depth += 1;
-                Ok(Step::Start(Element(start)))
+                let namespace = namespace(self.reader.resolver().resolve_element(start.name()).0);
+                let origin = match *self.own.get_or_insert_with(|| namespace.clone()) == namespace {
+                    true => Origin::Own,
+                    false => Origin::Extension,
+                };
+                Ok(Step::Start(Element { start, origin }))
             }
             Event::End(_) => {
                 self.depth = self.depth.saturating_sub(1);
@@ -76,7 +103,12 @@ impl<R: BufRead> Xml<R> {
 impl<'a> Element<'a> {
     /// The name without prefix.
     pub(super) fn name(&self) -> &str {
-        self.0.local_name().into_inner()
+        self.start.local_name().into_inner()
+    }
+
+    /// Where the name comes from.
+    pub(super) fn origin(&self) -> Origin {
+        self.origin
     }
 
     /// The values of some attributes: of those without prefix or, for a name that begins with a colon, with any.
@@ -102,7 +134,7 @@ impl<'a> Element<'a> {
         &'s self,
         mut visit: impl FnMut(Option<&str>, &str, Cow<'s, str>),
     ) -> Result<(), MeshFault> {
-        for attribute in self.0.attributes() {
+        for attribute in self.start.attributes() {
             let attribute = attribute.map_err(|error| problem(&error))?;
             let value = attribute.normalized_value(XmlVersion::Explicit1_0);
             let prefix = attribute.key.prefix();
@@ -115,6 +147,14 @@ impl<'a> Element<'a> {
             );
         }
         Ok(())
+    }
+}
+
+fn namespace(resolved: ResolveResult<'_>) -> Namespace {
+    match resolved {
+        ResolveResult::Bound(namespace) => Some(namespace.as_ref().to_owned()),
+        ResolveResult::Unbound => None,
+        ResolveResult::Unknown(prefix) => Some(prefix),
     }
 }
 

@@ -89,6 +89,7 @@ fn good() -> String {
     "metadatagroup>",
     "object 1: holds a shape of another kind, \"nothing\""
 )]
+#[case::two_shapes("</mesh>", "</mesh><components/>", "object 1: has two shapes")]
 #[case::unclosed("</model>", "", "ends before its XML")]
 #[case::crossed("</resources>", "</objects>", "its XML is not valid before byte")]
 #[case::quote("x=\"1\"", "x=1", "its XML has a bad attribute")]
@@ -194,9 +195,17 @@ fn components_may_be_deep() {
 
 #[test]
 fn elements_may_be_deep() {
-    let deep = format!("{}{}", "<a>".repeat(300_000), "</a>".repeat(300_000));
-    let bytes = one(&good().replace("<resources>", &format!("{deep}<resources>")));
-    assert_eq!(file(&bytes).into_mesh().unwrap().faces().len(), 4);
+    let nested = |depth| {
+        let deep = format!("{}{}", "<a>".repeat(depth), "</a>".repeat(depth));
+        one(&good().replace("<resources>", &format!("{deep}<resources>")))
+    };
+    assert_eq!(file(&nested(60_000)).into_mesh().unwrap().faces().len(), 4);
+    // quick-xml follows namespaces to this depth.
+    let message = error(&nested(300_000)).to_string();
+    assert!(
+        message.contains("deeper than the supported limit"),
+        "{message}"
+    );
 }
 
 #[test]
