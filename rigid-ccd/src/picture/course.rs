@@ -15,7 +15,7 @@ pub fn course(course: &Course) -> Result<[Shown; 2], InputError> {
         Course::Path(path) => path,
     };
     let mut keys = [Vec::new(), Vec::new()];
-    let times: Vec<f64> = path.times().into_iter().collect();
+    let times: Vec<f64> = path.times().collect();
     for (k, &time) in times.iter().enumerate() {
         let poses = path.poses(time)?;
         // Half the way is a quarter of a turn at most, which is the shortest way alone.

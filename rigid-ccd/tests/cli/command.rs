@@ -32,6 +32,7 @@ impl Run {
     }
 
     /// Runs in this folder.
+    #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
     pub(crate) fn folder(self, folder: &Path) -> Self {
         let folder = folder.to_owned();
         Run { folder, ..self }
