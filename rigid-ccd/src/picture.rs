@@ -90,7 +90,19 @@ impl<'a> Painter<'a> {
             self.compare(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
-        let mut view = View::of(&format!("{} ({})", row.id, row.status.name()), "", duration);
+        let name = match (self.asked.claim, row.time) {
+            // Of a path there is a row for each of its poses.
+            (Claim::Then, Some(time)) => {
+                format!(
+                    "{} at {} ({})",
+                    row.id,
+                    verdict::number(time),
+                    row.status.name()
+                )
+            }
+            _ => format!("{} ({})", row.id, row.status.name()),
+        };
+        let mut view = View::of(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
             let reached = match (row.status, row.distance_lower, self.asked.claim) {

@@ -97,7 +97,7 @@ const Workshop = (() => {
     else if (verdict === "contact" && late < ROUNDING) say("seen", "A step falls on the contact, and sees it.", "");
     else if (verdict === "contact") {
       const far = late * Math.hypot(...state.velocity);
-      say("seen", `Sees it at ${at.toFixed(6)} s: ${(1000 * late).toPrecision(3)} ms late, after ${(100 * far).toPrecision(3)} cm farther on.`, late > 1e-3 ? "bad" : "");
+      say("seen", `Sees it at ${at.toFixed(6)} s: ${(1000 * late).toPrecision(3)} ms late, ${(100 * far).toPrecision(3)} cm farther on.`, late > 1e-3 ? "bad" : "");
     } else if (first > 0) say("seen", `Sees a gap of less than a micrometre at ${at.toFixed(6)} s.`, "");
     else if (verdict === "free" || verdict === "unresolved") say("seen", "Sees no contact at its steps, and proves nothing between them.", "");
     else say("seen", "Sees it at the start, too.", "");

@@ -113,7 +113,7 @@ pub(super) struct Drawn<'a> {
     pub(super) asked: Asked,
 }
 
-/// Returns the title of a page about two bodies: their names without folders.
+/// Returns the title of a page about two bodies: their names without folders, and the unit.
 pub(super) fn title(bodies: &BodiesArgs) -> String {
     let name = |text: &str| {
         let name = Path::new(text).file_name();
@@ -122,7 +122,9 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
             |name| name.to_string_lossy().into_owned(),
         )
     };
-    format!("{} and {}", name(&bodies.a), name(&bodies.b))
+    let unit = bodies.unit.unit();
+    let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
+    format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }
 
 fn answered(
