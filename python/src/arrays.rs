@@ -1,0 +1,102 @@
+//! Arrays, by NumPy's own rules.
+
+use crate::errors::input;
+use numpy::{PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+/// Reads rows of `N` numbers, from whatever NumPy makes an array of.
+pub(crate) fn rows<const N: usize>(
+    values: &Bound<'_, PyAny>,
+    what: &str,
+) -> PyResult<Vec<[f64; N]>> {
+    let array = as_array(values, "float64", what)?;
+    let array: PyReadonlyArray2<'_, f64> = of_shape(&array, N, what)?;
+    let rows = array.as_array();
+    Ok(rows
+        .rows()
+        .into_iter()
+        .map(|row| std::array::from_fn(|k| row[k]))
+        .collect())
+}
+
+/// Reads rows of three indices.
+pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
+    let numpy = values.py().import("numpy")?;
+    let given = numpy.call_method1("asarray", (values,))?;
+    let kind: String = given.getattr("dtype")?.getattr("kind")?.extract()?;
+    let empty: usize = given.getattr("size")?.extract()?;
+    if kind != "i" && kind != "u" && empty > 0 {
+        return Err(input(format!(
+            "faces: indices are integers, not {}",
+            given.getattr("dtype")?
+        )));
+    }
+    let array = as_array(&given, "int64", "faces")?;
+    let array: PyReadonlyArray2<'_, i64> = of_shape(&array, 3, "faces")?;
+    let index = |(face, index): (usize, i64)| {
+        u32::try_from(index).map_err(|_| input(format!("faces: face {face} has the index {index}")))
+    };
+    let rows = array.as_array();
+    let rows = rows.rows().into_iter().enumerate();
+    rows.map(|(face, row)| {
+        Ok([
+            index((face, row[0]))?,
+            index((face, row[1]))?,
+            index((face, row[2]))?,
+        ])
+    })
+    .collect()
+}
+
+/// Reads three numbers.
+pub(crate) fn vector(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; 3]> {
+    numbers(values, what)
+}
+
+/// Reads `N` numbers.
+pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; N]> {
+    let array = as_array(values, "float64", what)?;
+    let found: Vec<f64> = array
+        .call_method0("ravel")?
+        .call_method0("tolist")?
+        .extract()?;
+    let length = found.len();
+    found
+        .try_into()
+        .map_err(|_| input(format!("{what}: {N} numbers are needed, not {length}")))
+}
+
+/// Returns the shape of what NumPy makes of some values.
+pub(crate) fn shape(values: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+    let numpy = values.py().import("numpy")?;
+    numpy.call_method1("shape", (values,))?.extract()
+}
+
+fn as_array<'py>(
+    values: &Bound<'py, PyAny>,
+    dtype: &str,
+    what: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let numpy = values.py().import("numpy")?;
+    let array = numpy.call_method1("asarray", (values, dtype));
+    array.map_err(|error| input(format!("{what}: {}", error.value(values.py()))))
+}
+
+fn of_shape<'py, T: numpy::Element>(
+    array: &Bound<'py, PyAny>,
+    columns: usize,
+    what: &str,
+) -> PyResult<PyReadonlyArray2<'py, T>> {
+    let wrong = |shape: &[usize]| {
+        input(format!(
+            "{what}: an array of shape (n, {columns}) is needed, not {shape:?}"
+        ))
+    };
+    let Ok(array) = array.cast::<numpy::PyArray2<T>>() else {
+        return Err(wrong(&shape(array)?));
+    };
+    match array.shape()[1] == columns {
+        true => Ok(array.readonly()),
+        false => Err(wrong(array.shape())),
+    }
+}

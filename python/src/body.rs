@@ -1,0 +1,180 @@
+//! Bodies.
+
+use crate::arrays::{rows, triangles};
+use crate::errors::{InputError, input};
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::mesh::{BodySource, Detail, Prepared, TriangleMesh, Unit, body_from_mesh};
+use rigid_ccd::{Body, Volume};
+use std::path::PathBuf;
+
+/// A rigid body: a mesh, a box, a ball or a capsule.
+///
+/// A mesh is a solid when it is closed and consistently oriented. Otherwise it is a surface. A body inside a solid
+/// overlaps it; a body inside a surface does not.
+///
+/// Args:
+///     vertices: array of shape (n, 3), in any unit of length.
+///     faces: array of shape (m, 3), integers from 0.
+///     pieces: the convex pieces to make: "auto", "triangles", "patches" or "hull".
+///
+/// Raises:
+///     InputError: the mesh is no mesh; the message names the element.
+///
+/// >>> from rigid_ccd import Body
+/// >>> Body([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).is_solid
+/// False
+#[pyclass(name = "Body", module = "rigid_ccd", frozen)]
+pub(crate) struct PyBody {
+    pub(crate) body: Body,
+    #[pyo3(get)]
+    /// What was found about the mesh, in words.
+    report: String,
+}
+
+#[pymethods]
+impl PyBody {
+    #[new]
+    #[pyo3(signature = (vertices, faces, *, pieces = "auto"))]
+    fn new(vertices: &Bound<'_, PyAny>, faces: &Bound<'_, PyAny>, pieces: &str) -> PyResult<Self> {
+        let py = vertices.py();
+        let points: Vec<DVec3> = rows::<3>(vertices, "vertices")?
+            .into_iter()
+            .map(DVec3::from)
+            .collect();
+        let faces = triangles(faces)?;
+        let detail = detail(pieces)?;
+        py.detach(|| {
+            let mesh = TriangleMesh::new(points, &faces).map_err(input)?;
+            PyBody::of(body_from_mesh(&mesh, detail).map_err(input)?)
+        })
+    }
+
+    /// Reads a mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply, .off), or a prepared body (.ccd).
+    ///
+    /// Args:
+    ///     path: the file.
+    ///     part: the name or the number of a part of a scene; None for all of it.
+    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files that state their unit (glTF, 3MF) to it.
+    ///     pieces: as of `Body`.
+    ///
+    /// Raises:
+    ///     InputError: the file is no mesh; OSError is raised for one that cannot be read.
+    #[classmethod]
+    #[pyo3(signature = (path, *, part = None, unit = None, pieces = "auto"))]
+    fn from_file(
+        class: &Bound<'_, PyType>,
+        path: PathBuf,
+        part: Option<String>,
+        unit: Option<&str>,
+        pieces: &str,
+    ) -> PyResult<Self> {
+        let detail = detail(pieces)?;
+        let unit = unit.map(named_unit).transpose()?;
+        // A file that cannot be read is an OSError, with its number.
+        std::fs::File::open(&path)?;
+        let source = match part {
+            Some(part) => BodySource::Part { file: path, part },
+            None => BodySource::of_file(path),
+        };
+        class.py().detach(|| {
+            let prepared = match unit {
+                Some(unit) => source.load_in(unit, detail),
+                None => source.load(detail),
+            };
+            PyBody::of(prepared.map_err(input)?)
+        })
+    }
+
+    /// Takes a mesh of trimesh, or whatever has `vertices` and `faces`.
+    #[classmethod]
+    #[pyo3(signature = (mesh, *, pieces = "auto"))]
+    fn from_trimesh(
+        _class: &Bound<'_, PyType>,
+        mesh: &Bound<'_, PyAny>,
+        pieces: &str,
+    ) -> PyResult<Self> {
+        PyBody::new(&mesh.getattr("vertices")?, &mesh.getattr("faces")?, pieces)
+    }
+
+    /// Makes a box about its origin, by its half extents along x, y and z.
+    #[classmethod]
+    fn r#box(_class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
+        PyBody::simple(
+            Body::cuboid([x, y, z]),
+            format!("box of half extents {x}, {y}, {z}"),
+        )
+    }
+
+    /// Makes a ball about its origin.
+    #[classmethod]
+    fn sphere(_class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
+        PyBody::simple(Body::ball(radius), format!("ball of radius {radius}"))
+    }
+
+    /// Makes a capsule along z; half its height is from its middle to the centre of either cap.
+    #[classmethod]
+    fn capsule(_class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
+        let report = format!("capsule of radius {radius} and half height {half_height}");
+        PyBody::simple(Body::capsule(radius, half_height), report)
+    }
+
+    /// Whether the body fills what it bounds.
+    #[getter]
+    fn is_solid(&self) -> bool {
+        self.body.volume() == Volume::Solid
+    }
+
+    /// The number of convex pieces.
+    #[getter]
+    fn pieces(&self) -> usize {
+        self.body.pieces().len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Body({})", self.report)
+    }
+}
+
+impl PyBody {
+    fn of(prepared: Prepared) -> PyResult<Self> {
+        Ok(PyBody {
+            report: prepared.report.to_string(),
+            body: prepared.body,
+        })
+    }
+
+    fn simple(body: Result<Body, rigid_ccd::InputError>, report: String) -> PyResult<Self> {
+        let body = body.map_err(input)?;
+        Ok(PyBody { body, report })
+    }
+}
+
+fn detail(name: &str) -> PyResult<Detail> {
+    match name {
+        "auto" => Ok(Detail::Auto),
+        "triangles" => Ok(Detail::Triangles),
+        "patches" => Ok(Detail::Patches(Default::default())),
+        "hull" => Ok(Detail::Hull),
+        _ => Err(InputError::new_err(format!(
+            "pieces: {name:?} is none of \"auto\", \"triangles\", \"patches\", \"hull\""
+        ))),
+    }
+}
+
+fn named_unit(name: &str) -> PyResult<Unit> {
+    let units = [
+        Unit::Micrometre,
+        Unit::Millimetre,
+        Unit::Centimetre,
+        Unit::Metre,
+        Unit::Inch,
+        Unit::Foot,
+    ];
+    let found = units.into_iter().find(|unit| unit.symbol() == name);
+    found.ok_or_else(|| {
+        let known = units.map(|unit| unit.symbol()).join(", ");
+        InputError::new_err(format!("unit: {name:?} is none of {known}"))
+    })
+}

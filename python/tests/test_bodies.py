@@ -1,0 +1,86 @@
+"""Bodies, from arrays, files and trimesh."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from rigid_ccd import Body, InputError
+
+CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+# Outward.
+FACES = np.array(
+    [
+        [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+        [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
+    ]
+)  # fmt: skip
+
+
+def test_a_cube_is_a_solid_of_one_piece() -> None:
+    cube = Body(CORNERS, FACES)
+    assert cube.is_solid and cube.pieces == 1
+    assert "solid" in repr(cube)
+    assert Body(CORNERS, FACES, pieces="triangles").pieces == 12
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int16])
+def test_vertices_of_any_kind_of_number_are_taken(dtype: type) -> None:
+    assert Body(CORNERS.astype(dtype), FACES.astype(np.uint8)).is_solid
+    assert Body(np.asfortranarray(CORNERS.astype(dtype)), FACES[::-1].tolist()).is_solid
+    wide: NDArray[np.generic] = np.zeros((16, 6), dtype=dtype)
+    wide[::2, ::2] = CORNERS
+    assert Body(wide[::2, ::2], FACES).is_solid
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces", "message"),
+    [
+        (CORNERS[:, :2], FACES, "vertices: an array of shape"),
+        (CORNERS.ravel(), FACES, "vertices: an array of shape"),
+        ([["a", "b", "c"]], FACES, "vertices: "),
+        (CORNERS, FACES.astype(float), "faces: indices are integers"),
+        (CORNERS, FACES - 1, "faces: face 0 has the index -1"),
+        (CORNERS, FACES + 1, "vertex"),
+        (CORNERS * np.nan, FACES, "vertex 0"),
+        (CORNERS * np.inf, FACES, "vertex 0"),
+        (CORNERS, np.zeros((0, 3), dtype=int), "face"),
+        (np.zeros((0, 3)), np.zeros((0, 3), dtype=int), "vert"),
+        (None, FACES, "vertices"),
+    ],
+)
+def test_what_is_no_mesh_is_refused(vertices: object, faces: object, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Body(vertices, faces)  # type: ignore[arg-type]
+
+
+def test_names_are_checked() -> None:
+    with pytest.raises(InputError, match="pieces"):
+        Body(CORNERS, FACES, pieces="cubes")  # type: ignore[arg-type]
+    with pytest.raises(InputError):
+        Body.sphere(-1)
+    with pytest.raises(InputError):
+        Body.capsule(float("nan"), 1)
+
+
+def test_files_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "cube.obj"
+    lines = ["v " + " ".join(map(str, v)) for v in CORNERS] + ["f " + " ".join(map(str, f + 1)) for f in FACES]
+    path.write_text("\n".join(lines))
+    assert Body.from_file(path).is_solid
+    assert Body.from_file(str(path)).pieces == 1
+    with pytest.raises(FileNotFoundError):
+        Body.from_file(tmp_path / "nothing.obj")
+    with pytest.raises(InputError, match="unit"):
+        Body.from_file(path, unit="mile")  # type: ignore[arg-type]
+    path.write_text("v 1 2\n")
+    with pytest.raises(InputError):
+        Body.from_file(path)
+
+
+def test_meshes_of_trimesh_are_taken() -> None:
+    trimesh = pytest.importorskip("trimesh")
+    assert Body.from_trimesh(trimesh.creation.icosphere(2)).is_solid
+    with pytest.raises(AttributeError):
+        Body.from_trimesh("mesh")  # type: ignore[arg-type]

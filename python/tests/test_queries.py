@@ -1,0 +1,127 @@
+"""Queries, against closed forms."""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rigid_ccd import Body, InputError, Motion, Unresolved, closest_approach, distance, first_contact, is_free
+
+BALL = Body.sphere(0.5)
+WALL = Body.box(0.1, 5, 5)
+
+
+@pytest.mark.parametrize("speed", [2.5, 4, 100, 1e5])
+def test_a_ball_flies_at_a_wall(speed: float) -> None:
+    flies = Motion([-3, 0, 0], velocity=[speed, 0, 0], spin=[0, 3, 50])
+    exact = 2.4 / speed
+    hit = first_contact(BALL, WALL, flies)
+    assert hit is not None and hit.kind == "contact"
+    assert exact - 1.01e-3 / speed <= hit.time <= exact
+    assert hit.normal == pytest.approx((1, 0, 0), abs=1e-6)
+    assert hit.witness_b[0] == pytest.approx(-0.1, abs=1e-9)
+    assert hit.distance is not None and 0 <= hit.distance[0] <= hit.distance[1] <= 1e-3
+    assert not is_free(BALL, WALL, flies)
+    assert "Contact(time=" in repr(hit)
+
+
+def test_a_slow_ball_stays_apart() -> None:
+    flies = Motion([-3, 0, 0], velocity=[2, 0, 0])
+    assert first_contact(BALL, WALL, flies) is None
+    assert is_free(BALL, WALL, flies)
+    nearest = closest_approach(BALL, WALL, flies, tolerance=1e-6)
+    assert nearest.lower <= 0.4 <= nearest.upper + 1e-12 and nearest.upper - nearest.lower <= 1e-6
+    assert nearest.time == pytest.approx(1)
+
+
+def test_what_touches_at_the_start_is_told() -> None:
+    inside = first_contact(BALL, WALL)
+    assert inside is not None and (inside.kind, inside.time) == ("overlapping", 0)
+    beside = first_contact(BALL, WALL, Motion([0.6, 0, 0]))
+    assert beside is not None and beside.kind == "touching"
+    with pytest.raises(AttributeError):
+        beside.time = 1  # type: ignore[misc]
+
+
+def test_distances_at_rest() -> None:
+    pose = np.eye(4)
+    pose[:3, 3] = [2, 0, 0]
+    for given in (pose, pose.tolist(), ([2, 0, 0], np.eye(3)), ([2, 0, 0], [1, 0, 0, 0])):
+        found = distance(BALL, WALL, given, tolerance=1e-9)
+        assert found.lower <= 1.4 <= found.upper + 1e-12
+        assert found.witness_a is not None and found.witness_a[0] == pytest.approx(1.5)
+
+
+def test_rotations_come_in_three_forms() -> None:
+    half = math.pi / 4
+    turned: list[Any] = [
+        [math.cos(half), 0, 0, math.sin(half)],
+        [[0, -1, 0], [1, 0, 0], [0, 0, 1]],
+        np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]], dtype=np.float32),
+    ]
+    try:
+        from scipy.spatial.transform import Rotation
+
+        turned.append(Rotation.from_euler("z", 90, degrees=True))
+    except ImportError:
+        pass
+    for rotation in turned:
+        pose = Motion([1, 2, 3], rotation).pose(0.5)
+        assert pose == pytest.approx(np.array([[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]), abs=1e-15)
+
+
+def test_motions_between_poses() -> None:
+    start, end = np.eye(4), np.eye(4)
+    end[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+    end[:3, 3] = [4, 0, 0]
+    motion = Motion.between(start, end, duration=2)
+    assert motion.pose(0) == pytest.approx(start, abs=1e-15)
+    assert motion.pose(2) == pytest.approx(end, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"position": [1, 2]}, "position: 3 numbers"),
+        ({"position": [1, 2, math.nan]}, "finite|NaN"),
+        ({"position": "abc"}, "position"),
+        ({"rotation": [[2, 0, 0], [0, 1, 0], [0, 0, 1]]}, "no rotation"),
+        ({"rotation": [[-1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "no rotation"),
+        ({"rotation": [0, 0, 0, 0]}, "orientation|quaternion|rotation"),
+        ({"rotation": [1, 0]}, "rotation: a matrix"),
+        ({"velocity": [math.inf, 0, 0]}, "motion"),
+    ],
+)
+def test_bad_motions_are_refused(arguments: dict[str, object], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Motion(**arguments)  # type: ignore[arg-type]
+
+
+def test_bad_settings_are_refused() -> None:
+    flies = Motion([-3, 0, 0], velocity=[4, 0, 0])
+    for settings in ({"duration": -1}, {"tolerance": 0}, {"tolerance": math.nan}, {"margin": -1}, {"deadline": -1}):
+        with pytest.raises(InputError):
+            first_contact(BALL, WALL, flies, **settings)
+    with pytest.raises(TypeError):
+        first_contact(BALL, "wall")  # type: ignore[arg-type]
+
+
+def test_a_used_up_budget_says_what_is_proven() -> None:
+    rods = Body.capsule(0.01, 2)
+    flies = Motion([-3, 0, 0], velocity=[4, 0, 0], spin=[300, 200, 100])
+    with pytest.raises(Unresolved) as error:
+        first_contact(rods, rods, flies, tolerance=1e-9, budget=1)
+    assert 0 <= error.value.safe_until <= 1
+
+
+def test_threads_give_the_same_bits() -> None:
+    def ask(speed: float) -> float:
+        hit = first_contact(BALL, WALL, Motion([-3, 0, 0], velocity=[speed, 0, 0]))
+        assert hit is not None
+        return hit.time
+
+    speeds = [3 + 0.01 * k for k in range(400)]
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(ask, speeds)) == [ask(speed) for speed in speeds]
