@@ -54,7 +54,9 @@ class Player {
 // A time in at most seven digits, rounded down as the verdict's are.
 Player.written = (time) => {
   const plain = time === 0 || (Math.abs(time) >= 1e-3 && Math.abs(time) < 1e12);
-  return plain ? (Math.floor(time * 1e6 + 1e-6) / 1e6).toFixed(6) : time.toExponential(3);
+  if (!plain) return time.toExponential(3);
+  const text = time.toFixed(6);
+  return Number(text) > time ? (time - 1e-6).toFixed(6) : text;
 };
 
 // What the whole duration takes on the screen.
