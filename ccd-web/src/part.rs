@@ -87,10 +87,9 @@ impl Part {
     }
 
     fn cuboid(half: [f64; 3]) -> Result<Self, WebError> {
-        Ok(Part {
-            body: Body::cuboid(half)?,
-            surface: shapes::cuboid(half),
-        })
+        let body = Body::cuboid(half)?;
+        let surface = shapes::faces(&body);
+        Ok(Part { body, surface })
     }
 
     fn capsule(radius: f64, half: f64) -> Result<Self, WebError> {

@@ -1,5 +1,6 @@
 //! Surfaces of simple shapes.
 
+use rigid_ccd::Body;
 use rigid_ccd::glam::{DVec3, dvec3};
 use std::f64::consts::{PI, TAU};
 
@@ -10,23 +11,18 @@ pub(crate) struct Surface {
     pub(crate) faces: Vec<[u32; 3]>,
 }
 
-/// The surface of a box.
-pub(crate) fn cuboid(half: [f64; 3]) -> Surface {
-    let corner = |k: usize| {
-        let side = |axis: usize| half[axis] * if k >> axis & 1 == 1 { 1.0 } else { -1.0 };
-        dvec3(side(0), side(1), side(2))
-    };
-    let sides: [[u32; 4]; 6] = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
+/// The faces of a body without rounded pieces.
+pub(crate) fn faces(body: &Body) -> Surface {
+    let pieces = body.pieces().iter();
+    let corners = pieces.flat_map(|piece| {
+        let triangles = piece.mesh_triangles().map(|(_, corners)| corners);
+        triangles.collect::<Vec<_>>()
+    });
+    let vertices: Vec<DVec3> = corners.flatten().collect();
+    let faces = (0..vertices.len() as u32 / 3).map(|face| [0, 1, 2].map(|k| 3 * face + k));
     Surface {
-        vertices: (0..8).map(corner).collect(),
-        faces: sides.into_iter().flat_map(halves).collect(),
+        faces: faces.collect(),
+        vertices,
     }
 }
 

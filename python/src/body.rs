@@ -71,7 +71,8 @@ impl PyBody {
         pieces: &str,
     ) -> PyResult<Self> {
         let detail = detail(pieces)?;
-        let unit = unit.map(named_unit).transpose()?;
+        let unit = unit.map(str::parse::<Unit>).transpose();
+        let unit = unit.map_err(|error| input(format!("unit: {error}")))?;
         // A file that cannot be read is an OSError, with its number.
         std::fs::File::open(&path)?;
         let source = match part {
@@ -161,20 +162,4 @@ fn detail(name: &str) -> PyResult<Detail> {
             "pieces: {name:?} is none of \"auto\", \"triangles\", \"patches\", \"hull\""
         ))),
     }
-}
-
-fn named_unit(name: &str) -> PyResult<Unit> {
-    let units = [
-        Unit::Micrometre,
-        Unit::Millimetre,
-        Unit::Centimetre,
-        Unit::Metre,
-        Unit::Inch,
-        Unit::Foot,
-    ];
-    let found = units.into_iter().find(|unit| unit.symbol() == name);
-    found.ok_or_else(|| {
-        let known = units.map(|unit| unit.symbol()).join(", ");
-        InputError::new_err(format!("unit: {name:?} is none of {known}"))
-    })
 }

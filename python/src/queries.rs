@@ -6,7 +6,7 @@ use crate::errors::{input, query, unresolved};
 use crate::motion::{PyMotion, pose_of};
 use pyo3::prelude::*;
 use rigid_ccd::schedule::ClosestApproach;
-use rigid_ccd::{Config, Motion, Solver};
+use rigid_ccd::{Config, Motion, Moving, Solver};
 use std::time::Duration;
 
 /// Settings of a query, as keyword arguments.
@@ -30,8 +30,18 @@ fn config(
     })
 }
 
-fn of(motion: Option<&Bound<'_, PyMotion>>) -> Motion {
-    motion.map_or(Motion::STILL, |motion| motion.get().motion)
+/// Asks a solver about two bodies and their motions, without the GIL.
+fn ask<T: Send>(
+    py: Python<'_>,
+    config: Config,
+    bodies: [(&Bound<'_, PyBody>, Option<&Bound<'_, PyMotion>>); 2],
+    question: impl FnOnce(&mut Solver, Moving<'_>, Moving<'_>) -> T + Send,
+) -> T {
+    let [a, b] = bodies.map(|(body, motion)| {
+        let motion = motion.map_or(Motion::STILL, |motion| motion.get().motion);
+        (&body.get().body, motion)
+    });
+    py.detach(|| question(&mut Solver::new().with_config(config), a.into(), b.into()))
 }
 
 /// Finds the first contact of two moving bodies, from time 0 to `duration`; None when they stay apart.
@@ -72,11 +82,12 @@ pub(crate) fn first_contact(
     deadline: Option<f64>,
 ) -> PyResult<Option<PyContact>> {
     let config = config(tolerance, margin, budget, deadline)?;
-    let (a, b, motion_a, motion_b) = (a.get(), b.get(), of(motion_a), of(motion_b));
-    let found = py.detach(|| {
-        let mut solver = Solver::new().with_config(config);
-        solver.first_contact((&a.body, motion_a), (&b.body, motion_b), duration)
-    });
+    let found = ask(
+        py,
+        config,
+        [(a, motion_a), (b, motion_b)],
+        |solver, a, b| solver.first_contact(a, b, duration),
+    );
     match found {
         Ok(hit) => Ok(hit.as_ref().map(PyContact::of)),
         Err(error) => Err(query(py, error)),
@@ -102,11 +113,12 @@ pub(crate) fn is_free(
     deadline: Option<f64>,
 ) -> PyResult<bool> {
     let config = config(tolerance, margin, budget, deadline)?;
-    let (a, b, motion_a, motion_b) = (a.get(), b.get(), of(motion_a), of(motion_b));
-    let found = py.detach(|| {
-        let mut solver = Solver::new().with_config(config);
-        solver.is_free((&a.body, motion_a), (&b.body, motion_b), duration)
-    });
+    let found = ask(
+        py,
+        config,
+        [(a, motion_a), (b, motion_b)],
+        |solver, a, b| solver.is_free(a, b, duration),
+    );
     found.map_err(|error| query(py, error))
 }
 
@@ -128,11 +140,12 @@ pub(crate) fn closest_approach(
     deadline: Option<f64>,
 ) -> PyResult<PyDistance> {
     let config = config(tolerance, 0.0, budget, deadline)?;
-    let (a, b, motion_a, motion_b) = (a.get(), b.get(), of(motion_a), of(motion_b));
-    let found = py.detach(|| {
-        let mut solver = Solver::new().with_config(config);
-        solver.closest_approach((&a.body, motion_a), (&b.body, motion_b), duration)
-    });
+    let found = ask(
+        py,
+        config,
+        [(a, motion_a), (b, motion_b)],
+        |solver, a, b| solver.closest_approach(a, b, duration),
+    );
     bracket(py, &found.map_err(input)?.outcome)
 }
 

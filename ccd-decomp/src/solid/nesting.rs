@@ -76,12 +76,10 @@ impl<'m> Shells<'m> {
         for (face, &shell) in shell_of.iter().enumerate() {
             faces_of[shell as usize].push(face as u32);
         }
-        let vertices = |faces: &Vec<u32>| {
-            let faces = faces.clone().into_iter();
-            faces.flat_map(|face| mesh.triangle(face))
-        };
+        let shells = faces_of.iter();
+        let vertices = shells.map(|faces| faces.iter().flat_map(|&face| mesh.triangle(face)));
         Shells {
-            shell_boxes: ShellBoxes::new(faces_of.iter().map(vertices)),
+            shell_boxes: ShellBoxes::new(vertices),
             boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
             mesh,
             shell_of,
@@ -190,7 +188,7 @@ impl<'m> Shells<'m> {
         if !self.shell_boxes.any_other_about(shell, corner) {
             return Some(Vec::new());
         }
-        let size = self.boxes.reach(self.mesh.triangle(faces[0])[0]);
+        let size = self.boxes.reach(corner);
         let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
         // Shells may touch at a corner, so that every try takes another one.
         let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
@@ -220,10 +218,10 @@ impl<'m> Shells<'m> {
         let region = Region::segment(ray);
         let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
             let other = self.shell_of[face as usize];
-            let winds = other != shell && self.shell_boxes.is_about(other, ray[0]);
-            let found = match winds {
-                false => Some(0),
+            let may_wind = other != shell && self.shell_boxes.is_about(other, ray[0]);
+            let found = match may_wind {
                 true => crossing(ray, self.mesh.triangle(face)),
+                false => Some(0),
             };
             met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
             found.is_some()

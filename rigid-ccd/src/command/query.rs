@@ -37,9 +37,6 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
     check_question(args)?;
-    if let Some(html) = &args.html {
-        refuse_missing_folder(html)?;
-    }
     let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
     check_rows(args, &rows)?;
     let pair = Pair::load(Loading {
@@ -50,14 +47,8 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     let (mut outputs, earlier) = match Opened::new(args, &recorded(args, &pair))? {
         Opened::New(outputs) => (outputs, None),
         Opened::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
-        Opened::Finished(end) => {
-            tell_of_page(args);
-            return resume::leave_finished(args, &mut rows, end);
-        }
+        Opened::Finished(end) => return resume::leave_finished(args, &mut rows, end),
     };
-    if earlier.is_some() {
-        tell_of_page(args);
-    }
     if args.resume {
         resume::report(args, earlier);
     }
@@ -92,15 +83,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     answering.outputs.finish(end)?;
     drop(answering.progress);
     answering.bad_rows.close();
-    let mut shown = Exit::AllAnswered;
-    if let (Some(chosen), Some(html)) = (answering.shown, &args.html) {
-        let subject = Drawn {
-            title: &title(&args.bodies),
-            pair: &pair,
-            asked: asked(args),
-        };
-        shown = write_rows(subject, chosen, html, args.quiet)?;
-    }
+    let shown = write_page(args, &pair, answering.shown)?;
     if answering.summary.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
     }
@@ -113,13 +96,17 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     })
 }
 
-/// Says which rows a page of a resumed run does not show.
-fn tell_of_page(args: &QueryArgs) {
-    if args.html.is_some() {
-        complain(
-            "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
-        );
-    }
+/// Writes the page of the rows that were chosen, if there is to be one.
+fn write_page(args: &QueryArgs, pair: &Pair, chosen: Option<Chosen>) -> Result<Exit> {
+    let (Some(chosen), Some(html)) = (chosen, &args.html) else {
+        return Ok(Exit::AllAnswered);
+    };
+    let subject = Drawn {
+        title: &title(&args.bodies),
+        pair,
+        asked: asked(args),
+    };
+    write_rows(subject, chosen, html, args.quiet)
 }
 
 /// Returns what a page may say of the answers.
@@ -155,6 +142,7 @@ fn check_paths(args: &QueryArgs) -> Result<()> {
     }
     if let Some(html) = &args.html {
         refuse_overwriting(("--out", &args.out), ("--html", html))?;
+        refuse_missing_folder(html)?;
     }
     if let Some(contacts) = &args.contacts {
         if is_standard(contacts) && is_standard(&args.out) {

@@ -1,7 +1,8 @@
 //! The boxes of shells, to find those that may surround a point.
 
+use crate::bounds::Bounds;
 use ccd_core::glam::DVec3;
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::greater;
 
 /// The boxes of shells, in the order of their lower ends along one axis.
 pub(super) struct ShellBoxes {
@@ -13,8 +14,7 @@ pub(super) struct ShellBoxes {
 
 struct ShellBox {
     shell: u32,
-    low: DVec3,
-    high: DVec3,
+    bounds: Bounds,
     /// The greatest upper end of this box and those before it.
     reach: f64,
 }
@@ -22,32 +22,19 @@ struct ShellBox {
 impl ShellBoxes {
     /// Takes the vertices of each shell.
     pub(super) fn new<V: Iterator<Item = DVec3>>(shells: impl Iterator<Item = V>) -> Self {
-        let boxes = shells.zip(0..).map(|(mut vertices, shell)| {
-            // Every shell has a face.
-            let first = vertices.next().unwrap_or_default();
-            let (mut low, mut high) = (first, first);
-            for vertex in vertices {
-                low = each(low, vertex, lesser);
-                high = each(high, vertex, greater);
-            }
-            let reach = f64::NEG_INFINITY;
-            ShellBox {
-                shell,
-                low,
-                high,
-                reach,
-            }
+        let boxes = shells.zip(0..).map(|(vertices, shell)| ShellBox {
+            shell,
+            bounds: Bounds::of(vertices),
+            reach: f64::NEG_INFINITY,
         });
         let mut boxes: Vec<ShellBox> = boxes.collect();
         let axis = longest_axis(&boxes);
-        boxes.sort_by(|a, b| a.low[axis].total_cmp(&b.low[axis]));
-        let mut reach = f64::NEG_INFINITY;
-        for shell in &mut boxes {
-            reach = greater(reach, shell.high[axis]);
-            shell.reach = reach;
-        }
+        boxes.sort_by(|a, b| a.bounds.lo[axis].total_cmp(&b.bounds.lo[axis]));
         let mut places = vec![0; boxes.len()];
-        for (place, shell) in (0..).zip(&boxes) {
+        let mut reach = f64::NEG_INFINITY;
+        for (place, shell) in (0..).zip(&mut boxes) {
+            reach = greater(reach, shell.bounds.hi[axis]);
+            shell.reach = reach;
             places[shell.shell as usize] = place;
         }
         ShellBoxes {
@@ -69,40 +56,28 @@ impl ShellBoxes {
         let along = point[self.axis];
         let begun = self
             .boxes
-            .partition_point(|shell| shell.low[self.axis] <= along);
-        let near = self.boxes[..begun]
-            .iter()
-            .rev()
-            .take_while(|shell| shell.reach >= along);
-        near.filter(|shell| shell.shell != own)
-            .any(|shell| shell.holds(point))
+            .partition_point(|shell| shell.bounds.lo[self.axis] <= along);
+        let near = self.boxes[..begun].iter().rev();
+        near.take_while(|shell| shell.reach >= along)
+            .any(|shell| shell.shell != own && shell.holds(point))
     }
 }
 
 impl ShellBox {
     fn holds(&self, point: DVec3) -> bool {
-        self.low.cmple(point).all() && point.cmple(self.high).all()
+        self.bounds.meets(&Bounds {
+            lo: point,
+            hi: point,
+        })
     }
 }
 
 fn longest_axis(boxes: &[ShellBox]) -> usize {
-    let Some(first) = boxes.first() else {
-        return 0;
-    };
-    let ends = boxes
-        .iter()
-        .fold((first.low, first.high), |(low, high), shell| {
-            (
-                each(low, shell.low, lesser),
-                each(high, shell.high, greater),
-            )
-        });
-    let size = ends.1 - ends.0;
+    let bounds = boxes.iter().map(|shell| shell.bounds);
+    let size = bounds
+        .reduce(Bounds::union)
+        .map_or(DVec3::ZERO, |all| all.hi - all.lo);
     (0..3)
         .max_by(|&a, &b| size[a].total_cmp(&size[b]))
         .unwrap_or(0)
-}
-
-fn each(a: DVec3, b: DVec3, choose: fn(f64, f64) -> f64) -> DVec3 {
-    DVec3::new(choose(a.x, b.x), choose(a.y, b.y), choose(a.z, b.z))
 }

@@ -10,6 +10,9 @@ use anyhow::{Context, Result, bail};
 
 /// Prints where the run continues.
 pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
+    if earlier.is_some() {
+        tell_of_page(args);
+    }
     match earlier {
         Some(_) if args.quiet => {}
         Some(Checkpoint { rows, .. }) => {
@@ -45,8 +48,18 @@ pub(super) fn skip_rows(
     }
 }
 
+/// Says which rows a page of a resumed run does not show.
+fn tell_of_page(args: &QueryArgs) {
+    if args.html.is_some() {
+        complain(
+            "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
+        );
+    }
+}
+
 /// Leaves the tables of a finished run unchanged, if the motions are those of that run.
 pub(super) fn leave_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
+    tell_of_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());
     let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;
     let same = (skipped, rows.checksum()) == (end.rows, end.checksum);

@@ -27,6 +27,32 @@ pub(super) struct SceneTable {
 /// Reads a table, and loads each body once.
 pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     let name = || path.display().to_string();
+    let (described, table) = read_motions(path)?;
+    if table.rows.is_empty() {
+        bail!("{}: has no bodies", name());
+    }
+    let mut scene = SceneTable {
+        bodies: HashMap::new(),
+        files: Vec::new(),
+        reports: Vec::new(),
+        rows: Vec::new(),
+    };
+    for (text, (position, query)) in described.into_iter().zip(table.rows) {
+        scene
+            .load(&text, how)
+            .with_context(|| format!("{}: line {}", name(), position.line))?;
+        let id = match query.id.parse::<usize>() {
+            Ok(_) => format!("{} {}", query.id, text),
+            Err(_) => query.id,
+        };
+        scene.rows.push((text, id, query.a));
+    }
+    Ok(scene)
+}
+
+/// Reads a table as descriptions of bodies beside motions.
+fn read_motions(path: &Path) -> Result<(Vec<String>, MotionTable)> {
+    let name = || path.display().to_string();
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .from_path(path)
@@ -75,26 +101,7 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     if let Some(error) = table.errors.first() {
         bail!("{}: {}", name(), plain(error.to_string()));
     }
-    if table.rows.is_empty() {
-        bail!("{}: has no bodies", name());
-    }
-    let mut scene = SceneTable {
-        bodies: HashMap::new(),
-        files: Vec::new(),
-        reports: Vec::new(),
-        rows: Vec::new(),
-    };
-    for (text, (position, query)) in described.into_iter().zip(table.rows) {
-        scene
-            .load(&text, how)
-            .with_context(|| format!("{}: line {}", name(), position.line))?;
-        let id = match query.id.parse::<usize>() {
-            Ok(_) => format!("{} {}", query.id, text),
-            Err(_) => query.id,
-        };
-        scene.rows.push((text, id, query.a));
-    }
-    Ok(scene)
+    Ok((described, table))
 }
 
 impl SceneTable {

@@ -146,7 +146,8 @@ impl Model {
             (Some(Tag::Vertices), "vertex") => self.add_vertex(element),
             (Some(Tag::Triangles), "triangle") => self.add_triangle(element),
             (Some(Tag::Components), "component") => self.add_component(element),
-            _ => Ok(Tag::Other),
+            // Some files leave the namespaces of extensions out.
+            (within, name) => Ok(self.extension(within, name)),
         }
     }
 

@@ -17,7 +17,7 @@ pub(super) struct Xml<R> {
     own: Option<Namespace>,
 }
 
-/// A namespace; none is the one of names without any.
+/// A namespace; none is that of names without any.
 type Namespace = Option<String>;
 
 /// The next thing of a text.
@@ -68,15 +68,14 @@ impl<R: BufRead> Xml<R> {
 
     pub(super) fn next(&mut self) -> Result<Step<'_>, MeshFault> {
         self.buffer.clear();
-        let event = match self.reader.read_event_into(&mut self.buffer) {
-            Ok(event) => event,
-            Err(error) => return Err(fault(&error, self.reader.buffer_position())),
-        };
-        match event {
+        let event = self.reader.read_event_into(&mut self.buffer);
+        match event.map_err(|error| fault(&error, self.reader.buffer_position()))? {
             Event::Start(start) => {
                 self.depth += 1;
-                let namespace = namespace(self.reader.resolver().resolve_element(start.name()).0);
-                let origin = match *self.own.get_or_insert_with(|| namespace.clone()) == namespace {
+                let (found, _) = self.reader.resolver().resolve_element(start.name());
+                let found = namespace(&found);
+                let own = self.own.get_or_insert_with(|| found.map(str::to_owned));
+                let origin = match own.as_deref() == found {
                     true => Origin::Own,
                     false => Origin::Extension,
                 };
@@ -150,9 +149,9 @@ impl<'a> Element<'a> {
     }
 }
 
-fn namespace(resolved: ResolveResult<'_>) -> Namespace {
+fn namespace<'r>(resolved: &'r ResolveResult<'_>) -> Option<&'r str> {
     match resolved {
-        ResolveResult::Bound(namespace) => Some(namespace.as_ref().to_owned()),
+        ResolveResult::Bound(namespace) => Some(namespace.as_ref()),
         ResolveResult::Unbound => None,
         ResolveResult::Unknown(prefix) => Some(prefix),
     }

@@ -89,6 +89,11 @@ fn good() -> String {
     "metadatagroup>",
     "object 1: holds a shape of another kind, \"nothing\""
 )]
+#[case::lattice_without_namespace(
+    "</mesh>",
+    "<beamlattice/></mesh>",
+    "object 1: holds a shape of another kind, \"beamlattice\""
+)]
 #[case::two_shapes("</mesh>", "</mesh><components/>", "object 1: has two shapes")]
 #[case::unclosed("</model>", "", "ends before its XML")]
 #[case::crossed("</resources>", "</objects>", "its XML is not valid before byte")]
