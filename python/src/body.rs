@@ -2,12 +2,14 @@
 
 use crate::arrays::{rows, triangles};
 use crate::errors::{InputError, input};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
-use pyo3::types::PyType;
+use pyo3::types::{PyBytes, PyTuple, PyType};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::mesh::{BodySource, Detail, Prepared, TriangleMesh, Unit, body_from_mesh};
+use rigid_ccd::mesh::{Detail, MeshSource, Model, STORED_EXTENSION, TriangleMesh, Unit, prepare};
 use rigid_ccd::{Body, Volume};
-use std::path::PathBuf;
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
 
 /// A rigid body: a mesh, a box, a ball or a capsule.
 ///
@@ -28,9 +30,18 @@ use std::path::PathBuf;
 #[pyclass(name = "Body", module = "rigid_ccd", frozen)]
 pub(crate) struct PyBody {
     pub(crate) body: Body,
+    made: Made,
     #[pyo3(get)]
     /// What was found about the mesh, in words.
     report: String,
+}
+
+/// What a body can be made of again: by pickle, in another process.
+enum Made {
+    Box([f64; 3]),
+    Sphere(f64),
+    Capsule(f64, f64),
+    Mesh(Model),
 }
 
 #[pymethods]
@@ -47,7 +58,7 @@ impl PyBody {
         let detail = detail(pieces)?;
         py.detach(|| {
             let mesh = TriangleMesh::new(points, &faces).map_err(input)?;
-            PyBody::of(body_from_mesh(&mesh, detail).map_err(input)?)
+            PyBody::of(prepare(&mesh, detail).map_err(input)?)
         })
     }
 
@@ -75,16 +86,16 @@ impl PyBody {
         let unit = unit.map_err(|error| input(format!("unit: {error}")))?;
         // A file that cannot be read is an OSError, with its number.
         std::fs::File::open(&path)?;
-        let source = match part {
-            Some(part) => BodySource::Part { file: path, part },
-            None => BodySource::of_file(path),
-        };
         class.py().detach(|| {
-            let prepared = match unit {
-                Some(unit) => source.load_in(unit, detail),
-                None => source.load(detail),
+            let model = match is_stored(&path) && part.is_none() {
+                true => Model::load(&path).map_err(input)?,
+                false => {
+                    let source = MeshSource { file: path, part };
+                    let (mesh, _) = source.read(unit).map_err(input)?;
+                    prepare(&mesh, detail).map_err(|error| input(format!("{source}: {error}")))?
+                }
             };
-            PyBody::of(prepared.map_err(input)?)
+            PyBody::of(model)
         })
     }
 
@@ -102,23 +113,29 @@ impl PyBody {
     /// Makes a box about its origin, by its half extents along x, y and z.
     #[classmethod]
     fn r#box(_class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
-        PyBody::simple(
-            Body::cuboid([x, y, z]),
-            format!("box of half extents {x}, {y}, {z}"),
-        )
+        let report = format!("box of half extents {x}, {y}, {z}");
+        PyBody::simple(Made::Box([x, y, z]), Body::cuboid([x, y, z]), report)
     }
 
     /// Makes a ball about its origin.
     #[classmethod]
     fn sphere(_class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
-        PyBody::simple(Body::ball(radius), format!("ball of radius {radius}"))
+        PyBody::simple(
+            Made::Sphere(radius),
+            Body::ball(radius),
+            format!("ball of radius {radius}"),
+        )
     }
 
     /// Makes a capsule along z; half its height is from its middle to the centre of either cap.
     #[classmethod]
     fn capsule(_class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
         let report = format!("capsule of radius {radius} and half height {half_height}");
-        PyBody::simple(Body::capsule(radius, half_height), report)
+        PyBody::simple(
+            Made::Capsule(radius, half_height),
+            Body::capsule(radius, half_height),
+            report,
+        )
     }
 
     /// Whether the body fills what it bounds.
@@ -133,23 +150,85 @@ impl PyBody {
         self.body.pieces().len()
     }
 
+    /// Writes the body as it was prepared: `Body.from_file` reads it back much faster than a mesh.
+    ///
+    /// Args:
+    ///     path: by convention it ends in .ccd.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        py.detach(|| {
+            self.model()?
+                .save(path)
+                .map_err(|error| PyOSError::new_err(error.to_string()))
+        })
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let py = slf.py();
+        let make = |name: &str| py.get_type::<PyBody>().getattr(name);
+        Ok(match &slf.get().made {
+            Made::Box(sides) => (make("box")?, PyTuple::new(py, sides)?),
+            Made::Sphere(radius) => (make("sphere")?, PyTuple::new(py, [*radius])?),
+            Made::Capsule(radius, half_height) => {
+                (make("capsule")?, PyTuple::new(py, [*radius, *half_height])?)
+            }
+            Made::Mesh(model) => {
+                let mut bytes = Vec::new();
+                py.detach(|| model.write(&mut bytes)).map_err(input)?;
+                (
+                    make("_from_bytes")?,
+                    PyTuple::new(py, [PyBytes::new(py, &bytes)])?,
+                )
+            }
+        })
+    }
+
+    /// Makes a body of what pickle has kept of it.
+    #[classmethod]
+    fn _from_bytes(class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
+        class
+            .py()
+            .detach(|| PyBody::of(Model::read(stored).map_err(input)?))
+    }
+
     fn __repr__(&self) -> String {
         format!("Body({})", self.report)
     }
 }
 
 impl PyBody {
-    fn of(prepared: Prepared) -> PyResult<Self> {
+    fn of(model: Model) -> PyResult<Self> {
         Ok(PyBody {
-            report: prepared.report.to_string(),
-            body: prepared.body,
+            body: model.body().map_err(input)?,
+            report: model.report.to_string(),
+            made: Made::Mesh(model),
         })
     }
 
-    fn simple(body: Result<Body, rigid_ccd::InputError>, report: String) -> PyResult<Self> {
+    fn simple(
+        made: Made,
+        body: Result<Body, rigid_ccd::InputError>,
+        report: String,
+    ) -> PyResult<Self> {
         let body = body.map_err(input)?;
-        Ok(PyBody { body, report })
+        Ok(PyBody { body, made, report })
     }
+
+    fn model(&self) -> PyResult<Cow<'_, Model>> {
+        match &self.made {
+            Made::Mesh(model) => Ok(Cow::Borrowed(model)),
+            Made::Box(_) | Made::Sphere(_) | Made::Capsule(..) => {
+                Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?))
+            }
+        }
+    }
+}
+
+/// Returns whether a file holds a prepared body, by its extension.
+fn is_stored(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    extension.eq_ignore_ascii_case(STORED_EXTENSION)
 }
 
 fn detail(name: &str) -> PyResult<Detail> {

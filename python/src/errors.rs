@@ -1,6 +1,6 @@
 //! The exceptions.
 
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use std::fmt::Display;
 
@@ -8,13 +8,19 @@ pyo3::create_exception!(
     rigid_ccd,
     InputError,
     PyValueError,
-    "A number, a mesh or a motion that is out of range; the message names the element."
+    "A number, a mesh, a motion or a table that is out of range; the message names the element."
 );
 pyo3::create_exception!(
     rigid_ccd,
     Unresolved,
     PyRuntimeError,
     "A limit was reached first. Attribute `safe_until`: no contact happens before this time."
+);
+pyo3::create_exception!(
+    rigid_ccd,
+    Interrupted,
+    PyKeyboardInterrupt,
+    "Ctrl-C ended a table. Attribute `results`: the rows answered by then, from the first on."
 );
 
 /// Turns an error of the library into an `InputError`.
@@ -33,7 +39,44 @@ pub(crate) fn query(py: Python<'_>, error: rigid_ccd::Error) -> PyErr {
 /// Makes an `Unresolved`.
 pub(crate) fn unresolved(py: Python<'_>, safe_until: f64, reason: impl Display) -> PyErr {
     let error = Unresolved::new_err(format!("{reason}; no contact happens before {safe_until}"));
-    // An exception takes any attribute.
-    let _ = error.value(py).setattr("safe_until", safe_until);
+    with_attribute(py, error, "safe_until", safe_until)
+}
+
+/// Makes an `Interrupted` of Ctrl-C; other exceptions of a signal, or of a callback, stay what they are. Either has
+/// what is done.
+pub(crate) fn interrupted<'py>(
+    py: Python<'py>,
+    cause: PyErr,
+    results: impl IntoPyObject<'py>,
+) -> PyErr {
+    let error = match cause.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
+        true => {
+            let error =
+                Interrupted::new_err("interrupted; `results` has the rows answered by then");
+            error.set_cause(py, Some(cause));
+            error
+        }
+        false => cause,
+    };
+    with_attribute(py, error, "results", results)
+}
+
+/// Says that an object is of the wrong type.
+pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
+    let kind = found.get_type();
+    let name = kind
+        .fully_qualified_name()
+        .map_or_else(|_| "?".to_owned(), |name| name.to_string());
+    PyTypeError::new_err(format!("{what}: {needed} is needed, not {name}"))
+}
+
+fn with_attribute<'py>(
+    py: Python<'py>,
+    error: PyErr,
+    name: &str,
+    value: impl IntoPyObject<'py>,
+) -> PyErr {
+    // An exception takes any attribute, unless its class forbids it.
+    let _ = error.value(py).setattr(name, value);
     error
 }

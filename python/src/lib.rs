@@ -3,9 +3,16 @@
 mod answers;
 mod arrays;
 mod body;
+mod chain;
+mod course;
 mod errors;
 mod motion;
+mod pages;
+mod path;
+mod polled;
 mod queries;
+mod settings;
+mod table;
 
 use pyo3::prelude::*;
 
@@ -14,13 +21,22 @@ use pyo3::prelude::*;
 fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<body::PyBody>()?;
     module.add_class::<motion::PyMotion>()?;
+    module.add_class::<path::PyPath>()?;
+    module.add_class::<chain::PyJoint>()?;
+    module.add_class::<chain::PyChain>()?;
+    module.add_class::<chain::PyLink>()?;
     module.add_class::<answers::PyContact>()?;
     module.add_class::<answers::PyDistance>()?;
-    module.add("InputError", module.py().get_type::<errors::InputError>())?;
-    module.add("Unresolved", module.py().get_type::<errors::Unresolved>())?;
+    module.add_class::<table::PyTable>()?;
+    let py = module.py();
+    module.add("InputError", py.get_type::<errors::InputError>())?;
+    module.add("Unresolved", py.get_type::<errors::Unresolved>())?;
+    module.add("Interrupted", py.get_type::<errors::Interrupted>())?;
     module.add_function(wrap_pyfunction!(queries::first_contact, module)?)?;
     module.add_function(wrap_pyfunction!(queries::is_free, module)?)?;
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;
     module.add_function(wrap_pyfunction!(queries::distance, module)?)?;
+    module.add_function(wrap_pyfunction!(table::answer_table, module)?)?;
+    module.add_function(wrap_pyfunction!(table::write_pages, module)?)?;
     Ok(())
 }

@@ -76,19 +76,7 @@ impl PyMotion {
 
     /// The pose at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, numpy::PyArray2<f64>> {
-        let pose = self.motion.pose(time);
-        let (turned, place) = (DMat3::from_quat(pose.rotation()), pose.translation());
-        let row = |k: usize| {
-            vec![
-                turned.x_axis[k],
-                turned.y_axis[k],
-                turned.z_axis[k],
-                place[k],
-            ]
-        };
-        let matrix = [row(0), row(1), row(2), vec![0.0, 0.0, 0.0, 1.0]];
-        numpy::PyArray2::from_vec2(py, &matrix)
-            .unwrap_or_else(|_| unreachable!("rows of four numbers"))
+        matrix_of(py, &self.motion.pose(time))
     }
 
     fn __repr__(&self) -> String {
@@ -102,6 +90,21 @@ impl PyMotion {
             tuple(self.motion.spin())
         )
     }
+}
+
+/// Makes a matrix of shape (4, 4) of a pose.
+pub(crate) fn matrix_of<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::PyArray2<f64>> {
+    let (turned, place) = (DMat3::from_quat(pose.rotation()), pose.translation());
+    let row = |k: usize| {
+        vec![
+            turned.x_axis[k],
+            turned.y_axis[k],
+            turned.z_axis[k],
+            place[k],
+        ]
+    };
+    let matrix = [row(0), row(1), row(2), vec![0.0, 0.0, 0.0, 1.0]];
+    numpy::PyArray2::from_vec2(py, &matrix).unwrap_or_else(|_| unreachable!("rows of four numbers"))
 }
 
 /// Reads a rotation.

@@ -2,46 +2,67 @@
 
 use crate::answers::{PyContact, PyDistance};
 use crate::body::PyBody;
+use crate::course::{Course, Moved, Pair};
 use crate::errors::{input, query, unresolved};
-use crate::motion::{PyMotion, pose_of};
+use crate::motion::pose_of;
+use crate::polled::polled;
+use crate::settings::{OF_CONTACTS, OF_DISTANCES, config};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rigid_ccd::schedule::ClosestApproach;
-use rigid_ccd::{Config, Motion, Moving, Solver};
-use std::time::Duration;
+use rigid_ccd::{Config, Error, Limit, Solver};
+use std::time::Instant;
 
-/// Settings of a query, as keyword arguments.
-fn config(
-    tolerance: f64,
-    margin: f64,
-    budget: Option<u64>,
-    deadline: Option<f64>,
-) -> PyResult<Config> {
-    let deadline = deadline
-        .map(Duration::try_from_secs_f64)
-        .transpose()
-        .map_err(input)?;
-    let usual = Config::default();
-    Ok(Config {
-        tolerance,
-        margin,
-        budget: budget.unwrap_or(usual.budget),
-        deadline,
-        ..usual
-    })
-}
+/// The work of about a tenth of a second. A query with more to do is asked again on a thread of its own, while this one
+/// looks for Ctrl-C.
+const SHORT: u64 = 100_000;
 
-/// Asks a solver about two bodies and their motions, without the GIL.
+/// Asks a solver, without the GIL. Ctrl-C ends it.
 fn ask<T: Send>(
     py: Python<'_>,
     config: Config,
-    bodies: [(&Bound<'_, PyBody>, Option<&Bound<'_, PyMotion>>); 2],
-    question: impl FnOnce(&mut Solver, Moving<'_>, Moving<'_>) -> T + Send,
-) -> T {
-    let [a, b] = bodies.map(|(body, motion)| {
-        let motion = motion.map_or(Motion::STILL, |motion| motion.get().motion);
-        (&body.get().body, motion)
-    });
-    py.detach(|| question(&mut Solver::new().with_config(config), a.into(), b.into()))
+    limit: impl Fn(&T) -> Option<Limit>,
+    question: impl Fn(&mut Solver) -> T + Send + Sync,
+) -> PyResult<T> {
+    let begin = Instant::now();
+    let short = Config {
+        budget: config.budget.min(SHORT),
+        ..config
+    };
+    let first = py.detach(|| question(&mut Solver::new().with_config(short)));
+    if limit(&first) != Some(Limit::Budget) || config.budget <= SHORT {
+        return Ok(first);
+    }
+    let left = config
+        .deadline
+        .map(|deadline| deadline.saturating_sub(begin.elapsed()));
+    let whole = Config {
+        deadline: left,
+        ..config
+    };
+    let (found, seen) = polled(
+        py,
+        |stop| question(&mut Solver::new().with_config(whole).with_stop(stop)),
+        |_| Ok(()),
+    );
+    seen.map(|()| found)
+}
+
+fn limit_of<T>(found: &Result<T, Error>) -> Option<Limit> {
+    match found {
+        Err(Error::Unresolved { reason, .. }) => Some(*reason),
+        _ => None,
+    }
+}
+
+fn pair<'c>(
+    (a, motion_a): (&'c Bound<'_, PyBody>, Option<&'c Bound<'_, PyAny>>),
+    (b, motion_b): (&'c Bound<'_, PyBody>, Option<&'c Bound<'_, PyAny>>),
+) -> PyResult<Pair<'c>> {
+    Ok(Pair {
+        a: (&a.get().body, Course::of(motion_a, "motion_a")?),
+        b: (&b.get().body, Course::of(motion_b, "motion_b")?),
+    })
 }
 
 /// Finds the first contact of two moving bodies, from time 0 to `duration`; None when they stay apart.
@@ -50,10 +71,10 @@ fn ask<T: Send>(
 ///
 /// Args:
 ///     a, b: the bodies.
-///     motion_a, motion_b: their motions; None rests at the world's origin.
+///     motion_a, motion_b: a Motion, a Path, or a link of a Chain; None rests at the world's origin.
 ///     duration: the end of the motions, in their unit of time.
-///     tolerance: a contact is reported at a distance of at most margin + tolerance.
-///     margin: a distance to keep.
+///     tolerance: a contact is reported at a distance of at most margin + tolerance; 0.001 by default.
+///     margin: a distance to keep; 0 by default.
 ///     budget: the work after which a query is given up; a million takes about a second.
 ///     deadline: seconds after which a query is given up.
 ///
@@ -67,27 +88,22 @@ fn ask<T: Send>(
 /// >>> 0.499 < hit.time <= 0.5
 /// True
 #[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, *, tolerance = 1e-3, margin = 0.0, budget = None, deadline = None))]
-#[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
 pub(crate) fn first_contact(
     py: Python<'_>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
-    motion_a: Option<&Bound<'_, PyMotion>>,
-    motion_b: Option<&Bound<'_, PyMotion>>,
+    motion_a: Option<&Bound<'_, PyAny>>,
+    motion_b: Option<&Bound<'_, PyAny>>,
     duration: f64,
-    tolerance: f64,
-    margin: f64,
-    budget: Option<u64>,
-    deadline: Option<f64>,
+    settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<PyContact>> {
-    let config = config(tolerance, margin, budget, deadline)?;
-    let found = ask(
-        py,
-        config,
-        [(a, motion_a), (b, motion_b)],
-        |solver, a, b| solver.first_contact(a, b, duration),
-    );
+    let config = config(settings, OF_CONTACTS)?;
+    let pair = pair((a, motion_a), (b, motion_b))?;
+    let found = ask(py, config, limit_of, |solver| match pair.moved() {
+        Moved::Steadily(a, b) => solver.first_contact(a, b, duration),
+        Moved::Along(a, b) => solver.first_contact_along(a, b, duration),
+    })?;
     match found {
         Ok(hit) => Ok(hit.as_ref().map(PyContact::of)),
         Err(error) => Err(query(py, error)),
@@ -98,27 +114,22 @@ pub(crate) fn first_contact(
 ///
 /// True is proven. Arguments and exceptions are those of `first_contact`.
 #[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, *, tolerance = 1e-3, margin = 0.0, budget = None, deadline = None))]
-#[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
 pub(crate) fn is_free(
     py: Python<'_>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
-    motion_a: Option<&Bound<'_, PyMotion>>,
-    motion_b: Option<&Bound<'_, PyMotion>>,
+    motion_a: Option<&Bound<'_, PyAny>>,
+    motion_b: Option<&Bound<'_, PyAny>>,
     duration: f64,
-    tolerance: f64,
-    margin: f64,
-    budget: Option<u64>,
-    deadline: Option<f64>,
+    settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
-    let config = config(tolerance, margin, budget, deadline)?;
-    let found = ask(
-        py,
-        config,
-        [(a, motion_a), (b, motion_b)],
-        |solver, a, b| solver.is_free(a, b, duration),
-    );
+    let config = config(settings, OF_CONTACTS)?;
+    let pair = pair((a, motion_a), (b, motion_b))?;
+    let found = ask(py, config, limit_of, |solver| match pair.moved() {
+        Moved::Steadily(a, b) => solver.is_free(a, b, duration),
+        Moved::Along(a, b) => solver.is_free_along(a, b, duration),
+    })?;
     found.map_err(|error| query(py, error))
 }
 
@@ -126,27 +137,25 @@ pub(crate) fn is_free(
 ///
 /// Arguments and exceptions are those of `first_contact`, without a margin.
 #[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, *, tolerance = 1e-3, budget = None, deadline = None))]
-#[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
 pub(crate) fn closest_approach(
     py: Python<'_>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
-    motion_a: Option<&Bound<'_, PyMotion>>,
-    motion_b: Option<&Bound<'_, PyMotion>>,
+    motion_a: Option<&Bound<'_, PyAny>>,
+    motion_b: Option<&Bound<'_, PyAny>>,
     duration: f64,
-    tolerance: f64,
-    budget: Option<u64>,
-    deadline: Option<f64>,
+    settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyDistance> {
-    let config = config(tolerance, 0.0, budget, deadline)?;
-    let found = ask(
-        py,
-        config,
-        [(a, motion_a), (b, motion_b)],
-        |solver, a, b| solver.closest_approach(a, b, duration),
-    );
-    bracket(py, &found.map_err(input)?.outcome)
+    let config = config(settings, OF_DISTANCES)?;
+    let pair = pair((a, motion_a), (b, motion_b))?;
+    measure(py, config, |solver| {
+        let found = match pair.moved() {
+            Moved::Steadily(a, b) => solver.closest_approach(a, b, duration),
+            Moved::Along(a, b) => solver.closest_approach_along(a, b, duration),
+        };
+        Ok(found?.outcome)
+    })
 }
 
 /// Brackets the distance of two bodies at rest, each at a pose as of `Motion.between`; None is the world's origin.
@@ -156,32 +165,38 @@ pub(crate) fn closest_approach(
 /// >>> round(distance(ball, ball, ([3, 0, 0], [1, 0, 0, 0])).upper, 3)
 /// 2.0
 #[pyfunction]
-#[pyo3(signature = (a, b, pose_a = None, pose_b = None, *, tolerance = 1e-3))]
+#[pyo3(signature = (a, b, pose_a = None, pose_b = None, **settings))]
 pub(crate) fn distance(
     py: Python<'_>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
     pose_a: Option<&Bound<'_, PyAny>>,
     pose_b: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
+    settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyDistance> {
     let pose = |pose: Option<&Bound<'_, PyAny>>, what| match pose {
         Some(pose) => pose_of(pose, what),
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
-    let config = config(tolerance, 0.0, None, None)?;
-    let (a, b) = (a.get(), b.get());
-    let found = py.detach(|| {
-        let mut solver = Solver::new().with_config(config);
-        solver.distance((&a.body, pose_a), (&b.body, pose_b))
-    });
-    bracket(py, &found.map_err(input)?.outcome)
+    let (a, b) = (&a.get().body, &b.get().body);
+    measure(py, config(settings, OF_DISTANCES)?, |solver| {
+        Ok(solver.distance((a, pose_a), (b, pose_b))?.outcome)
+    })
 }
 
-fn bracket(py: Python<'_>, found: &ClosestApproach) -> PyResult<PyDistance> {
-    match found {
+/// Asks for a bracket of a distance.
+fn measure(
+    py: Python<'_>,
+    config: Config,
+    question: impl Fn(&mut Solver) -> Result<ClosestApproach, rigid_ccd::InputError> + Send + Sync,
+) -> PyResult<PyDistance> {
+    let limit = |found: &Result<ClosestApproach, _>| match found {
+        Ok(ClosestApproach::Unresolved { reason, .. }) => Some(*reason),
+        _ => None,
+    };
+    match ask(py, config, limit, question)?.map_err(input)? {
         ClosestApproach::Unresolved { reason, .. } => Err(unresolved(py, 0.0, reason)),
-        _ => Ok(PyDistance::of(found)),
+        found => Ok(PyDistance::of(&found)),
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Public only because the command of `ccd-bench` shares it; no stable interface.
 
+mod audit;
 mod bad_rows;
 mod causes;
 mod completions;
@@ -22,6 +23,7 @@ pub use files::{CannotWrite, Table, input_name, open_motions, refuse_overwriting
 pub use progress::{Progress, Total};
 pub use size::Size;
 
+use audit::AuditArgs;
 use clap::{Parser, Subcommand};
 use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
@@ -44,6 +46,7 @@ struct Cli {
 const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
+  ccd audit --a gripper.stl --b shelf.stl --motions edges.csv --out missed.csv --pages missed
   ccd view --a knot.obj --b knot.obj --motions motions.csv --out view.html
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
@@ -54,6 +57,8 @@ See `ccd help COMMAND` for the options, tables and exit codes of a command.";
 enum Command {
     /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
     Query(Box<QueryArgs>),
+    /// Certify motions that another checker has called free, and list those that are not
+    Audit(AuditArgs),
     /// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
     View(Box<ViewArgs>),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
@@ -71,12 +76,15 @@ pub enum Exit {
     AllAnswered,
     /// Some rows are bad; the others have an answer.
     SomeRowsBad,
+    /// Every row has an answer, and some are not free, in an audit.
+    SomeNotFree,
 }
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     exit_code(match Cli::parse().command {
         Command::Query(args) => query::run(&args),
+        Command::Audit(args) => audit::run(&args),
         Command::View(args) => view::run(&args),
         Command::Decompose(args) => decompose::run(&args),
         Command::Completions(args) => completions::run(&args),
@@ -85,11 +93,12 @@ pub fn main() -> ExitCode {
 }
 
 /// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for
-/// bad input.
+/// bad input, 3 for an audit that finds something.
 pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,
         Ok(Exit::SomeRowsBad) => ExitCode::from(2),
+        Ok(Exit::SomeNotFree) => ExitCode::from(3),
         Err(error) => match error.downcast_ref::<CannotWrite>() {
             // The reader of a pipe has closed it: this is not a failure.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,

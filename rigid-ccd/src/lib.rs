@@ -58,6 +58,7 @@
 //! # Features
 //! - `meshes` (default): `load`, and `mesh` for everything that `ccd-decomp` does with meshes.
 //! - `gltf`, `3mf`: meshes from files of these formats, too; `command` has both.
+//! - `tables`, `pages`: what the command and the Python package share; no stable interface.
 //! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
 //! - `scenes` (default): `Scene`, many moving bodies.
 //! - `vmarch`: the distance backend `Vmarch`.
@@ -65,7 +66,7 @@
 //!
 //! The README of this crate lists the time that each feature takes to build.
 
-#[cfg(feature = "command")]
+#[cfg(feature = "tables")]
 pub mod batch;
 #[cfg(feature = "command")]
 pub mod command;
@@ -74,14 +75,14 @@ mod hit;
 #[cfg(feature = "meshes")]
 mod load;
 mod parallel;
-#[cfg(feature = "command")]
+#[cfg(feature = "pages")]
 pub mod picture;
 #[cfg(feature = "scenes")]
 mod scene;
 mod solver;
-#[cfg(feature = "command")]
+#[cfg(feature = "tables")]
 pub mod table;
-#[cfg(feature = "command")]
+#[cfg(feature = "tables")]
 mod text;
 pub mod trajectory;
 

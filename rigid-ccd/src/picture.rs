@@ -1,20 +1,25 @@
 //! Answers as views of a page: see `ccd-view`.
 //!
-//! Public only because the pages of `ccd-bench` share it; no stable interface.
+//! Public only because the pages of `ccd-bench` and the Python package share it; no stable interface.
 
 mod course;
 mod drawn;
 mod gap;
+mod pages;
+#[cfg(feature = "scenes")]
 mod scene;
 #[cfg(test)]
 mod tests;
 mod verdict;
 
+pub use ccd_view::{Group, Page, PageError};
 pub use course::course;
 pub use drawn::drawn;
 pub use gap::{GapOverTime, Reached, gap};
+pub use pages::{Pages, PagesError};
+#[cfg(feature = "scenes")]
 pub(crate) use scene::{Shown, scene_view};
-pub(crate) use verdict::{Asked, Claim};
+pub use verdict::{Asked, Claim};
 
 use crate::Solver;
 use crate::batch::Bodies;
@@ -29,7 +34,7 @@ use drawn::lit;
 pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 
 /// Makes views of the answers about two bodies.
-pub(crate) struct Painter<'a> {
+pub struct Painter<'a> {
     bodies: Bodies<'a>,
     asked: Asked,
     meshes: Meshes,
@@ -39,7 +44,7 @@ pub(crate) struct Painter<'a> {
 
 /// A row cannot be shown.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum ViewError {
+pub enum ViewError {
     /// The motions are out of range.
     #[error(transparent)]
     Input(#[from] InputError),
@@ -60,7 +65,7 @@ pub(crate) enum ViewError {
 
 impl<'a> Painter<'a> {
     /// Draws two bodies, for answers to a question.
-    pub(crate) fn new(bodies: Bodies<'a>, asked: Asked) -> Self {
+    pub fn new(bodies: Bodies<'a>, asked: Asked) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn(body)));
         Painter {
@@ -72,16 +77,21 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Returns the meshes, which all views share.
-    pub(crate) fn into_meshes(self) -> Meshes {
-        self.meshes
+    /// Makes a page of views.
+    pub fn page<'t>(&self, title: &'t str, views: Vec<View>) -> Page<'t> {
+        let name = String::new();
+        Page {
+            title,
+            groups: vec![Group { name, views }],
+            meshes: self.meshes.clone(),
+        }
     }
 
     /// Makes the view of a row.
     ///
     /// # Errors
     /// [`ViewError`].
-    pub(crate) fn view(&mut self, query: &Course, row: &ResultRow) -> Result<View, ViewError> {
+    pub fn view(&mut self, query: &Course, row: &ResultRow) -> Result<View, ViewError> {
         let start = query.start();
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));

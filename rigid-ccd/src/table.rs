@@ -1,17 +1,20 @@
-//! Tables of the command, as CSV: motions and paths are read; results and contacts are written.
+//! Tables: motions and paths are read, from CSV or from columns in memory; results and contacts are written.
 //!
-//! Public only because `ccd-bench` shares them; no stable interface.
+//! Public only because `ccd-bench` and the Python package share them; no stable interface.
 
+#[cfg(feature = "command")]
 pub(crate) mod contacts;
 pub mod courses;
+pub mod csv_records;
 mod error;
+mod foreign;
 mod lines;
 pub mod motions;
 pub mod paths;
 mod position;
 mod quotes;
-mod records;
-pub(crate) mod results;
+pub mod records;
+pub mod results;
 
 pub use lines::Lines;
 pub use quotes::Quotes;

@@ -8,32 +8,63 @@
 
 Nothing touches before the time of a contact, and without one nothing touches at all: that is proven, in floating point.
 
+Many motions are a table, answered on all cores:
+
+>>> import numpy as np
+>>> from rigid_ccd import first_contacts
+>>> speeds = np.linspace(1, 4, 4)
+>>> first_contacts(ball, wall, {"a_px": np.full(4, -3.0), "a_vx": speeds})["status"]
+array(['free', 'free', 'contact', 'contact'], dtype=object)
+
 Lengths are in any one unit, times in the motions' unit, angles in radians. Quaternions are (w, x, y, z), as in the
 tables of the command ``ccd``.
 """
 
+from ._audit import Audit, audit
+from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
+    Chain,
     Contact,
     Distance,
     InputError,
+    Interrupted,
+    Joint,
+    Link,
     Motion,
+    Path,
+    Table,
     Unresolved,
     closest_approach,
     distance,
     first_contact,
     is_free,
 )
+from ._tables import are_free, closest_approaches, contact_intervals, distances, first_contacts
 
 __all__ = [
+    "Audit",
     "Body",
+    "Chain",
     "Contact",
     "Distance",
     "InputError",
+    "Interrupted",
+    "Joint",
+    "Link",
     "Motion",
+    "Path",
+    "Table",
+    "TableQuery",
     "Unresolved",
+    "are_free",
+    "audit",
     "closest_approach",
+    "closest_approaches",
+    "contact_intervals",
     "distance",
+    "distances",
     "first_contact",
+    "first_contacts",
     "is_free",
 ]

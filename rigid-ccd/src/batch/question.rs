@@ -7,11 +7,11 @@ use crate::table::motions::Query;
 use crate::table::paths::{Grouping, Path};
 use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
 use ccd_core::{Answer, Config, DistanceOracle, InputError, Limit, Outcome};
-use clap::ValueEnum;
 use std::fmt;
 
 /// A question about the motions of two bodies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "command", derive(clap::ValueEnum))]
 pub enum Question {
     /// When do the bodies first touch?
     #[default]
@@ -27,6 +27,26 @@ pub enum Question {
 }
 
 impl Question {
+    /// All questions.
+    pub const ALL: [Question; 5] = [
+        Question::FirstContact,
+        Question::IsFree,
+        Question::ContactInterval,
+        Question::ClosestApproach,
+        Question::Distance,
+    ];
+
+    /// Returns the name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Question::FirstContact => "first-contact",
+            Question::IsFree => "is-free",
+            Question::ContactInterval => "contact-interval",
+            Question::ClosestApproach => "closest-approach",
+            Question::Distance => "distance",
+        }
+    }
+
     /// Returns whether the answer is a distance.
     pub fn is_for_a_distance(self) -> bool {
         match self {
@@ -57,7 +77,7 @@ impl Question {
 
 impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        super::solver_kind::write_value(self, f)
+        f.pad(self.name())
     }
 }
 
@@ -169,4 +189,19 @@ fn about_path<O: DistanceOracle>(
                 .map(Found::Distance)
         }
     })
+}
+
+#[cfg(all(test, feature = "command"))]
+mod tests {
+    use super::Question;
+    use clap::ValueEnum;
+
+    #[test]
+    fn questions_have_the_names_of_the_command_line() {
+        assert_eq!(Question::value_variants(), Question::ALL);
+        for question in Question::ALL {
+            let value = question.to_possible_value().expect("none is hidden");
+            assert_eq!(value.get_name(), question.name());
+        }
+    }
 }

@@ -196,7 +196,7 @@ impl fmt::Display for OracleKind {
 }
 
 /// Writes the name of a value on the command line.
-pub(super) fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     match value.to_possible_value() {
         Some(value) => f.pad(value.get_name()),
         None => Ok(()),

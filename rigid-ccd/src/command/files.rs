@@ -1,6 +1,7 @@
 //! Tables read and written: files, or the standard streams.
 
 use crate::table::courses::Courses;
+use crate::table::csv_records::CsvRecords;
 use crate::table::motions::MotionRows;
 use crate::table::paths::Grouping;
 use anyhow::{Context, Result, anyhow, bail};
@@ -283,14 +284,14 @@ pub fn refuse_overwriting(
 type Source = Box<dyn Read>;
 
 /// Opens the table of motions, and returns its length in bytes if known.
-pub fn open_motions(path: &Path) -> Result<(MotionRows<Source>, Option<u64>)> {
+pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Option<u64>)> {
     let (input, length) = open_table(path)?;
     let rows = MotionRows::new(input).with_context(|| input_name(path))?;
     Ok((rows, length))
 }
 
 /// The rows of a table of motions or paths from any source.
-pub(super) type Rows = Courses<Source>;
+pub(super) type Rows = Courses<CsvRecords<Source>>;
 
 /// Opens a table of motions or paths, and returns its length in bytes if known.
 pub(super) fn open_courses(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {

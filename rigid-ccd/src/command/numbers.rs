@@ -1,6 +1,7 @@
 //! Numbers on the command line.
 
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
+use std::time::Duration;
 
 /// Parses the value of `--tolerance`.
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
@@ -21,4 +22,11 @@ pub(super) fn not_negative(text: &str) -> Result<f64, String> {
 /// Parses a finite number.
 pub(super) fn number(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
+/// Reads a time in seconds.
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
+    number(text)
+        .and_then(|value| Duration::try_from_secs_f64(value).ok())
+        .ok_or_else(|| "give a number of seconds of at least 0, such as 0.01".to_owned())
 }

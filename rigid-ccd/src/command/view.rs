@@ -20,7 +20,7 @@ use crate::table::courses::Course;
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Config, Instructions};
-use ccd_view::{Group, Page, PageError, View};
+use ccd_view::{Group, Page, PageError};
 use std::collections::{HashMap, VecDeque};
 use std::fs::File;
 use std::num::NonZeroUsize;
@@ -165,12 +165,7 @@ pub(super) fn write_rows(
         complain("there is no row to show, and no page");
         return Ok(Exit::SomeRowsBad);
     }
-    let page = Page {
-        title,
-        groups: vec![group(views)],
-        meshes: painter.into_meshes(),
-    };
-    write_page(&page, out, quiet)?;
+    write_page(&painter.page(title, views), out, quiet)?;
     Ok(match all_found && chosen.is_whole() {
         true => Exit::AllAnswered,
         false => Exit::SomeRowsBad,
@@ -189,13 +184,6 @@ fn write_page(page: &Page<'_>, out: &Path, quiet: bool) -> Result<()> {
             told(out, quiet);
             Ok(())
         }
-    }
-}
-
-fn group(views: Vec<View>) -> Group {
-    Group {
-        name: String::new(),
-        views,
     }
 }
 
@@ -253,7 +241,10 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     let page = Page {
         title: &title,
         meshes,
-        groups: vec![group(vec![view])],
+        groups: vec![Group {
+            name: String::new(),
+            views: vec![view],
+        }],
     };
     write_page(&page, &args.out, args.quiet)
 }

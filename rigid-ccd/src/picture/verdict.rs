@@ -5,18 +5,18 @@ use ccd_core::order::greater;
 
 /// What rows are answers to, as far as it is known.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Asked {
+pub struct Asked {
     /// What their times say.
-    pub(crate) claim: Claim,
+    pub claim: Claim,
     /// The distance that was to be kept.
-    pub(crate) margin: f64,
+    pub margin: f64,
     /// The distance that was compared with.
-    pub(crate) clearance: Option<f64>,
+    pub clearance: Option<f64>,
 }
 
 /// What the time of an answer says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Claim {
+pub enum Claim {
     /// Nothing touches before it, which is proven.
     First,
     /// As [`First`](Claim::First), but for contacts at the start, which were let go.

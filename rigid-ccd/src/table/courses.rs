@@ -1,8 +1,9 @@
 //! The rows of a query: motions, or paths.
 
+use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
 use super::motions::columns::Form;
-use super::motions::{MotionRows, Query};
+use super::motions::{Columns, MotionRows, Query};
 use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;
@@ -73,26 +74,36 @@ impl Course {
 
 /// An iterator over the rows of a table of motions or paths.
 #[derive(Debug)]
-pub enum Courses<R> {
+pub enum Courses<S> {
     /// Each row is a query.
-    Motions(MotionRows<R>),
+    Motions(MotionRows<S>),
     /// All rows of an id are a query.
-    Paths(PathRows<R>),
+    Paths(PathRows<S>),
 }
 
 /// A valid row, or the error of a bad one.
 pub type CourseRow = Result<(RowPosition, Course), RowError>;
 
-impl<R: io::Read> Courses<R> {
-    /// Reads the header: a table with a column `t` is one of paths.
+impl<R: io::Read> Courses<CsvRecords<R>> {
+    /// Reads the header of a CSV table.
     ///
     /// # Errors
     /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R, grouping: Grouping) -> Result<Self, TableError> {
-        let records = Records::new(input)?;
-        Ok(match Form::of(records.current()) {
-            Form::Motions => Courses::Motions(MotionRows::after_header(records)?),
-            Form::Paths => Courses::Paths(PathRows::after_header(records, grouping)?),
+        Courses::of(CsvRecords::new(input)?, grouping)
+    }
+}
+
+impl<S: Records> Courses<S> {
+    /// Continues after the header: a table with a column `t` is one of paths.
+    ///
+    /// # Errors
+    /// The header has columns that cannot be used, or the first row cannot be read.
+    pub fn of(records: S, grouping: Grouping) -> Result<Self, TableError> {
+        let columns = Columns::of(&records.header()?)?;
+        Ok(match columns.form() {
+            Form::Motions => Courses::Motions(MotionRows::after_header(records, columns)),
+            Form::Paths => Courses::Paths(PathRows::after_header(records, columns, grouping)?),
         })
     }
 
@@ -124,7 +135,7 @@ impl<R: io::Read> Courses<R> {
     }
 }
 
-impl<R: io::Read> Iterator for Courses<R> {
+impl<S: Records> Iterator for Courses<S> {
     type Item = Result<CourseRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -68,6 +68,14 @@ pub enum TableError {
         /// The name of the column.
         column: String,
     },
+    /// A column is there, and another one that it needs is not.
+    #[error("header: no column `{missing}`, but column `{given}` needs it")]
+    MissingColumn {
+        /// The column that is there.
+        given: String,
+        /// The column that is not.
+        missing: String,
+    },
     /// The table is empty.
     #[error("is empty: the first line must name the columns")]
     Empty,

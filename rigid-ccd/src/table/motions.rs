@@ -1,7 +1,6 @@
 //! The table of motions: CSV read as motions of two bodies, and written.
 
 pub(in crate::table) mod columns;
-mod foreign;
 pub(in crate::table) mod row;
 #[cfg(test)]
 mod tests;
@@ -9,11 +8,13 @@ mod write;
 
 pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
+pub use columns::{Columns, Form};
+pub use row::query;
 pub use write::write;
 
+use crate::table::csv_records::CsvRecords;
 use crate::table::records::Records;
 use ccd_core::Motion;
-use columns::{Columns, Form};
 use std::io;
 
 /// The motions of two bodies over one duration.
@@ -61,27 +62,30 @@ impl MotionTable {
 /// identity, for a duration of 1. Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped, but
 /// counted. A quoted cell may hold line ends, and must be closed.
 #[derive(Debug)]
-pub struct MotionRows<R> {
-    records: Records<R>,
+pub struct MotionRows<S> {
+    records: S,
     columns: Columns,
 }
 
 /// A valid row, or the error of a bad one.
 pub type MotionRow = Result<(RowPosition, Query), RowError>;
 
-impl<R: io::Read> MotionRows<R> {
-    /// Reads the header.
+impl<R: io::Read> MotionRows<CsvRecords<R>> {
+    /// Reads the header of a CSV table.
     ///
     /// # Errors
     /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R) -> Result<Self, TableError> {
-        MotionRows::after_header(Records::new(input)?)
+        let records = CsvRecords::new(input)?;
+        let columns = Columns::of_form(&records.header()?, Form::Motions)?;
+        Ok(MotionRows::after_header(records, columns))
     }
+}
 
-    /// Continues after the header, which is the current record.
-    pub(in crate::table) fn after_header(records: Records<R>) -> Result<Self, TableError> {
-        let columns = Columns::from_header(records.current(), Form::Motions)?;
-        Ok(MotionRows { records, columns })
+impl<S: Records> MotionRows<S> {
+    /// Continues after the header.
+    pub(in crate::table) fn after_header(records: S, columns: Columns) -> Self {
+        MotionRows { records, columns }
     }
 
     /// Skips rows without parsing them, and returns the number skipped.
@@ -108,7 +112,7 @@ impl<R: io::Read> MotionRows<R> {
     }
 }
 
-impl<R: io::Read> Iterator for MotionRows<R> {
+impl<S: Records> Iterator for MotionRows<S> {
     type Item = Result<MotionRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {

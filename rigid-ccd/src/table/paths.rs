@@ -4,7 +4,7 @@
 mod tests;
 
 use super::error::{RowError, RowProblem, TableError};
-use super::motions::columns::{Columns, Form};
+use super::motions::Columns;
 use super::motions::row::{self, Poses};
 use super::position::RowPosition;
 use super::records::Records;
@@ -12,7 +12,6 @@ use crate::trajectory;
 use ccd_core::{InputError, Pose, Trajectory};
 use std::collections::HashSet;
 use std::hash::{BuildHasher, RandomState};
-use std::io;
 
 /// The paths of two bodies over one duration.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,8 +44,8 @@ pub enum Grouping {
 /// Columns go by name, in any order: `id`, `t`, and poses as in a table of motions. Rows of one path follow
 /// each other, in the order of their times.
 #[derive(Debug)]
-pub struct PathRows<R> {
-    records: Records<R>,
+pub struct PathRows<S> {
+    records: S,
     columns: Columns,
     grouping: Grouping,
     /// The number of paths read.
@@ -63,16 +62,16 @@ pub struct PathRows<R> {
 /// A valid path, or the error of a bad one.
 type PathRow = Result<(RowPosition, Path), RowError>;
 
-impl<R: io::Read> PathRows<R> {
-    /// Continues after the header, which is the current record.
+impl<S: Records> PathRows<S> {
+    /// Continues after the header.
     ///
     /// # Errors
-    /// The header has columns that cannot be used, or there is no row.
+    /// The first row cannot be read.
     pub(super) fn after_header(
-        mut records: Records<R>,
+        mut records: S,
+        columns: Columns,
         grouping: Grouping,
     ) -> Result<Self, TableError> {
-        let columns = Columns::from_header(records.current(), Form::Paths)?;
         let checksum = records.checksum();
         Ok(PathRows {
             next: records.advance()?,
@@ -112,7 +111,7 @@ impl<R: io::Read> PathRows<R> {
     /// Reads the rows of a path, and returns its id and the position of its first row; none at the end.
     fn read(
         &mut self,
-        mut row: impl FnMut(RowPosition, &Columns, &csv::ByteRecord),
+        mut row: impl FnMut(RowPosition, &Columns, &S::Record),
     ) -> Result<Option<Beginning>, TableError> {
         let Some(position) = self.next.take() else {
             return Ok(None);
@@ -267,7 +266,7 @@ impl Path {
     }
 }
 
-impl<R: io::Read> Iterator for PathRows<R> {
+impl<S: Records> Iterator for PathRows<S> {
     type Item = Result<PathRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {

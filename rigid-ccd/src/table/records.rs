@@ -1,104 +1,66 @@
-//! The records of a CSV table, with their positions and a checksum.
+//! Tables of any format, as rows of cells.
 
-use crate::table::error::TableError;
-use crate::table::lines::Lines;
-use crate::table::position::RowPosition;
-use crate::table::quotes::Quotes;
-use std::io::{self, Read};
+use super::error::{RowProblem, TableError};
+use super::motions::Columns;
+use super::position::RowPosition;
 
-/// A table that is read record by record.
-///
-/// Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped, but counted. A quoted cell may hold line
-/// ends, and must be closed.
-#[derive(Debug)]
-pub(crate) struct Records<R> {
-    reader: Reader<R>,
-    raw: csv::ByteRecord,
-    /// The number of records read, without the header.
-    rows: usize,
-    checksum: crc32fast::Hasher,
-}
+/// A table that is read row by row.
+pub trait Records {
+    /// A row.
+    type Record: Record + ?Sized;
 
-type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
-
-impl<R: Read> Records<R> {
-    /// Reads the header, which is the current record then.
+    /// Returns the names of the columns; called before the first row is read.
     ///
     /// # Errors
-    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
-    pub(crate) fn new(input: R) -> Result<Self, TableError> {
-        let mut reader = csv::ReaderBuilder::new()
-            .flexible(true)
-            .has_headers(false)
-            // Every line needs an end, the last one too: the line of a row is computed from its end.
-            .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
-        let mut raw = csv::ByteRecord::new();
-        reader.read_byte_record(&mut raw)?;
-        if let Some(line) = unclosed(&reader) {
-            return Err(TableError::UnclosedQuote { row: None, line });
-        }
-        let mut checksum = crc32fast::Hasher::new();
-        add(&mut checksum, &raw);
-        Ok(Records {
-            reader,
-            raw,
-            rows: 0,
-            checksum,
-        })
-    }
+    /// There are no names to be read.
+    fn header(&self) -> Result<Vec<String>, TableError>;
 
-    /// Returns the current record.
-    pub(crate) fn current(&self) -> &csv::ByteRecord {
-        &self.raw
-    }
+    /// Returns the current row.
+    fn current(&self) -> &Self::Record;
 
-    /// Returns the number of bytes read from the input, with those that wait in a buffer.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.reader.get_ref().get_ref().0.input().bytes
-    }
-
-    /// Returns a checksum of the header and of all records so far.
-    pub(crate) fn checksum(&self) -> u32 {
-        self.checksum.clone().finalize()
-    }
-
-    /// Reads the next record, and returns its position; none at the end.
+    /// Reads the next row, and returns its position; none at the end.
     ///
     /// # Errors
-    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
-    pub(crate) fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
-        let before = self.reader.position().line();
-        if !self.reader.read_byte_record(&mut self.raw)? {
-            return Ok(None);
-        }
-        if let Some(line) = unclosed(&self.reader) {
-            let row = Some(self.rows);
-            return Err(TableError::UnclosedQuote { row, line });
-        }
-        add(&mut self.checksum, &self.raw);
-        let row = self.rows;
-        self.rows += 1;
-        // Empty lines before the row have been read as well: its line is computed from its end.
-        let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
-        let within: u64 = self.raw.iter().map(ends).sum();
-        let after = self.reader.position().line();
-        Ok(Some(RowPosition {
-            row,
-            line: after.saturating_sub(within + 1).max(before),
-        }))
+    /// The table cannot be read further.
+    fn advance(&mut self) -> Result<Option<RowPosition>, TableError>;
+
+    /// Returns a checksum of the header and of all rows so far; 0 for tables that are in memory.
+    fn checksum(&self) -> u32 {
+        0
+    }
+
+    /// Returns the number of bytes read from the input, with those that wait in a buffer; 0 for tables that are in
+    /// memory.
+    fn bytes(&self) -> u64 {
+        0
     }
 }
 
-/// Adds the cells of a record to a checksum, and where they end.
-fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
-    checksum.update(record.as_slice());
-    for cell in record {
-        checksum.update(&(cell.len() as u64).to_le_bytes());
-    }
+/// A row as it stands in a table.
+pub trait Record {
+    /// Cells that can be read.
+    type Cells<'r>: Cells
+    where
+        Self: 'r;
+
+    /// Returns the cells.
+    ///
+    /// # Errors
+    /// The row does not have the cells of the header, as text.
+    fn cells(&self, columns: &Columns) -> Result<Self::Cells<'_>, RowProblem>;
+
+    /// Returns the text of a cell, even if others cannot be read; none where it is empty.
+    fn text(&self, cell: usize) -> Option<String>;
 }
 
-/// Returns the line of an unclosed quote in the record that was read last.
-fn unclosed<R: Read>(reader: &Reader<R>) -> Option<u64> {
-    let (quotes, _) = reader.get_ref().get_ref();
-    quotes.unclosed(reader.position().line())
+/// The cells of a row.
+pub trait Cells {
+    /// Returns whether a cell has a value.
+    fn is_given(&self, cell: usize) -> bool;
+
+    /// Returns the number of a cell; none where it is empty.
+    ///
+    /// # Errors
+    /// The content of a cell that is no number.
+    fn number(&self, cell: usize) -> Result<Option<f64>, String>;
 }

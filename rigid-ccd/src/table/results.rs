@@ -5,7 +5,7 @@ mod tests;
 
 mod status;
 
-pub(crate) use status::Status;
+pub use status::Status;
 
 use crate::batch::Found;
 use crate::table::courses::Course;
@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::io;
 
 /// The columns, in order.
-pub(crate) const COLUMNS: [&str; 20] = [
+pub const COLUMNS: [&str; 20] = [
     "id",
     "status",
     "time",
@@ -41,10 +41,10 @@ pub(crate) const COLUMNS: [&str; 20] = [
 ];
 
 /// The column of the interval of contact; it follows [`COLUMNS`].
-pub(crate) const LAST_TIME: &str = "last_time";
+pub const LAST_TIME: &str = "last_time";
 
 /// The columns of the counters, in order; they follow all others.
-pub(crate) const COUNTER_COLUMNS: [&str; 5] = [
+pub const COUNTER_COLUMNS: [&str; 5] = [
     "advancements",
     "oracle_steps",
     "cycles",
@@ -57,56 +57,56 @@ const WITHIN_BOUNDS: &str = "--clearance is within the bounds of the distance";
 
 /// The columns of a table beside [`COLUMNS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Extent {
+pub struct Extent {
     /// Whether there is a column [`LAST_TIME`].
-    pub(crate) last_time: bool,
+    pub last_time: bool,
     /// Whether there are [`COUNTER_COLUMNS`].
-    pub(crate) counters: bool,
+    pub counters: bool,
 }
 
 /// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct ResultRow {
+pub struct ResultRow {
     /// The id in the table of motions.
-    pub(crate) id: String,
+    pub id: String,
     /// The status.
-    pub(crate) status: Status,
+    pub status: Status,
     /// The time before which there is no contact, certified unless the bound is the published one; the
     /// duration when free.
-    pub(crate) time: Option<f64>,
+    pub time: Option<f64>,
     /// A lower bound of the distance at `time`; when free, at all times.
-    pub(crate) distance_lower: Option<f64>,
+    pub distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`.
-    pub(crate) distance_upper: Option<f64>,
+    pub distance_upper: Option<f64>,
     /// The unit vector from A to B, in the world frame.
-    pub(crate) normal: [Option<f64>; 3],
+    pub normal: [Option<f64>; 3],
     /// The nearest point of A, in the world frame at `time`.
-    pub(crate) witness_a: [Option<f64>; 3],
+    pub witness_a: [Option<f64>; 3],
     /// The nearest point of B, in the world frame at `time`.
-    pub(crate) witness_b: [Option<f64>; 3],
+    pub witness_b: [Option<f64>; 3],
     /// The feature of A in contact.
-    pub(crate) feature_a: Option<String>,
+    pub feature_a: Option<String>,
     /// The feature of B in contact.
-    pub(crate) feature_b: Option<String>,
+    pub feature_b: Option<String>,
     /// The number of pairs of nodes visited.
-    pub(crate) iterations: Option<u64>,
+    pub iterations: Option<u64>,
     /// The number of calls of the distance backend.
-    pub(crate) oracle_calls: Option<u64>,
+    pub oracle_calls: Option<u64>,
     /// The time of this query alone, in microseconds.
-    pub(crate) micros: Option<f64>,
+    pub micros: Option<f64>,
     /// The problem of an error, or the limit of an unresolved query.
-    pub(crate) reason: Option<String>,
+    pub reason: Option<String>,
     /// The time after which there is no contact.
     #[serde(skip)]
-    pub(crate) last_time: Option<f64>,
+    pub last_time: Option<f64>,
     /// The counters.
     #[serde(skip)]
-    pub(crate) counters: Option<Stats>,
+    pub counters: Option<Stats>,
 }
 
 impl ResultRow {
     /// Creates the row of an invalid query.
-    pub(crate) fn error(id: &str, why: &RowProblem) -> Self {
+    pub fn error(id: &str, why: &RowProblem) -> Self {
         ResultRow {
             reason: Some(why.to_string()),
             ..ResultRow::empty(id, Status::Error)
@@ -136,7 +136,7 @@ impl ResultRow {
     }
 
     /// Creates the row of an answer; distances are compared to `clearance`, if there is one.
-    pub(crate) fn new(
+    pub fn new(
         course: &Course,
         answer: &Answer<Found>,
         micros: f64,
@@ -270,7 +270,7 @@ impl ResultRow {
 }
 
 /// Returns the columns of a table.
-pub(crate) fn columns(extent: Extent) -> Vec<&'static str> {
+pub fn columns(extent: Extent) -> Vec<&'static str> {
     let mut columns = COLUMNS.to_vec();
     columns.extend(extent.last_time.then_some(LAST_TIME));
     columns.extend(COUNTER_COLUMNS.iter().filter(|_| extent.counters));
@@ -281,7 +281,7 @@ pub(crate) fn columns(extent: Extent) -> Vec<&'static str> {
 ///
 /// # Errors
 /// The writer's output cannot be written to.
-pub(crate) fn write(
+pub fn write(
     writer: &mut csv::Writer<impl io::Write>,
     extent: Extent,
     row: &ResultRow,
@@ -312,7 +312,7 @@ fn counters(stats: Option<&Stats>) -> [Option<u64>; COUNTER_COLUMNS.len()] {
 ///
 /// # Errors
 /// If it is no such table.
-pub(crate) fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
+pub fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
     let mut reader = csv::Reader::from_reader(input);
     let header = reader.headers()?;
     if !header.iter().take(COLUMNS.len()).eq(COLUMNS) {

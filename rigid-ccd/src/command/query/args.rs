@@ -2,7 +2,7 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
-use crate::command::numbers::{not_negative, number, tolerance};
+use crate::command::numbers::{not_negative, seconds, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::command::pieces::{NOT_GIVEN, value_name};
 use crate::table::results::Extent;
@@ -246,12 +246,6 @@ impl fmt::Display for RowRange {
             None => write!(f, "{start}.."),
         }
     }
-}
-
-fn seconds(text: &str) -> Result<Duration, String> {
-    number(text)
-        .and_then(|value| Duration::try_from_secs_f64(value).ok())
-        .ok_or_else(|| "give a number of seconds of at least 0, such as 0.01".to_owned())
 }
 
 impl From<StartArg> for StartPolicy {

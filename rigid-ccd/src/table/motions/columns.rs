@@ -1,7 +1,7 @@
 //! The columns of the table of motions.
 
-use super::foreign;
 use crate::table::error::TableError;
+use crate::table::foreign;
 use std::ops::Range;
 
 /// One of the two bodies.
@@ -25,7 +25,7 @@ pub(super) enum Quantity {
 
 /// What a line of a table is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::table) enum Form {
+pub enum Form {
     /// The motions of both bodies.
     Motions,
     /// The poses of both bodies at a time.
@@ -40,17 +40,6 @@ const OF_BODY: [&str; 23] = [
 const OF_POSE: usize = 7;
 
 impl Form {
-    /// Recognises a table by its header: those of paths have a column `t`.
-    pub(in crate::table) fn of(header: &csv::ByteRecord) -> Self {
-        match header
-            .iter()
-            .any(|cell| cell.trim_ascii() == TIME_NAME.as_bytes())
-        {
-            true => Form::Paths,
-            false => Form::Motions,
-        }
-    }
-
     /// Returns all columns in order.
     pub(super) fn names(self) -> Vec<String> {
         let bodies = ['a', 'b'].into_iter().flat_map(|letter| {
@@ -117,9 +106,9 @@ impl Form {
     }
 }
 
-/// The columns of a table.
+/// The columns of a table of motions or paths.
 #[derive(Debug)]
-pub(in crate::table) struct Columns {
+pub struct Columns {
     form: Form,
     names: Vec<String>,
     /// The cell of each known column.
@@ -128,32 +117,35 @@ pub(in crate::table) struct Columns {
 }
 
 impl Columns {
-    pub(in crate::table) fn from_header(
-        header: &csv::ByteRecord,
-        form: Form,
-    ) -> Result<Self, TableError> {
-        if let Some(format) = foreign::format(header) {
-            return Err(TableError::NotCsv { format });
-        }
-        if foreign::is_lfs_pointer(header) {
-            return Err(TableError::LfsPointer);
-        }
-        let Ok(header) = csv::StringRecord::from_byte_record(header.clone()) else {
-            return Err(TableError::NotText);
+    /// Takes the names of a table's columns: one with a column `t` is a table of paths.
+    ///
+    /// # Errors
+    /// A column is unknown, appears twice or is missing, or there is none.
+    pub fn of(header: &[String]) -> Result<Self, TableError> {
+        let form = match header.iter().any(|name| name == TIME_NAME) {
+            true => Form::Paths,
+            false => Form::Motions,
         };
-        let header: Vec<&str> = header.iter().map(str::trim).collect();
-        if header.iter().all(|column| column.is_empty()) {
+        Columns::of_form(header, form)
+    }
+
+    /// Takes the names of the columns of a table of that form.
+    ///
+    /// # Errors
+    /// A column is unknown, appears twice or is missing, or there is none.
+    pub(in crate::table) fn of_form(header: &[String], form: Form) -> Result<Self, TableError> {
+        if header.iter().all(String::is_empty) {
             return Err(TableError::Empty);
         }
         let names = form.names();
-        if let Some(number) = number_without_names(&header, &names) {
+        if let Some(number) = number_without_names(header, &names) {
             let known = form.listed();
             return Err(TableError::NoHeader { number, known });
         }
         let mut cells = vec![None; names.len()];
-        for (cell, &column) in header.iter().enumerate() {
+        for (cell, column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
-                return Err(unknown(&header, column, form));
+                return Err(unknown(header, column, form));
             };
             if cells[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
@@ -161,12 +153,42 @@ impl Columns {
                 });
             }
         }
-        Ok(Columns {
+        let columns = Columns {
             form,
             names,
             cells,
             len: header.len(),
-        })
+        };
+        columns.check_whole()?;
+        Ok(columns)
+    }
+
+    /// Refuses some columns of an orientation or of an end position without the others: each row would lack them.
+    fn check_whole(&self) -> Result<(), TableError> {
+        let of_motions = [Quantity::EndPosition, Quantity::EndOrientation];
+        let further = match self.form {
+            Form::Motions => &of_motions[..],
+            Form::Paths => &[],
+        };
+        for side in [Side::A, Side::B] {
+            for &quantity in [Quantity::Orientation].iter().chain(further) {
+                let is_there = |&slot: &usize| self.cells[slot].is_some();
+                let (given, missing): (Vec<usize>, Vec<usize>) =
+                    self.slots(side, quantity).partition(is_there);
+                if let (Some(&given), Some(&missing)) = (given.first(), missing.first()) {
+                    return Err(TableError::MissingColumn {
+                        given: self.name(given).to_owned(),
+                        missing: self.name(missing).to_owned(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns what a row of the table is.
+    pub fn form(&self) -> Form {
+        self.form
     }
 
     /// The slots of a quantity.
@@ -175,7 +197,7 @@ impl Columns {
     }
 
     /// Returns the number of columns of the table.
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::table) fn len(&self) -> usize {
         self.len
     }
 
@@ -189,40 +211,31 @@ impl Columns {
     }
 
     /// Returns the name of the column of a cell.
-    pub(super) fn name_at(&self, index: usize) -> &str {
+    pub(in crate::table) fn name_at(&self, index: usize) -> &str {
         let slot = self.cells.iter().position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
-    }
-
-    /// Returns the cell of a column; none where it is empty or missing.
-    pub(super) fn cell<'r>(&self, row: &[&'r str], slot: usize) -> Option<&'r str> {
-        let cell = row.get(self.cells[slot]?).copied();
-        cell.filter(|cell| !cell.is_empty())
     }
 }
 
 /// Returns a number in a header without any known column: such a line is a row of numbers.
-fn number_without_names(header: &[&str], names: &[String]) -> Option<String> {
-    if header
-        .iter()
-        .any(|cell| names.iter().any(|name| name == cell))
-    {
+fn number_without_names(header: &[String], names: &[String]) -> Option<String> {
+    if header.iter().any(|cell| names.contains(cell)) {
         return None;
     }
     // `inf` and `nan` read as numbers too, but may be meant as names.
-    let is_number = |cell: &&&str| {
+    let is_number = |cell: &&String| {
         let digits = cell.contains(|c: char| c.is_ascii_digit());
         digits && cell.parse::<f64>().is_ok()
     };
-    header.iter().find(is_number).map(|&cell| cell.to_owned())
+    header.iter().find(is_number).cloned()
 }
 
 /// Returns the error of a header with an unknown column.
-fn unknown(header: &[&str], column: &str, form: Form) -> TableError {
+fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     if let ([only], Some(separator)) = (header, foreign::separator(column)) {
         return TableError::Separator {
             found: separator,
-            header: (*only).to_owned(),
+            header: only.clone(),
         };
     }
     let lower = column.to_ascii_lowercase();

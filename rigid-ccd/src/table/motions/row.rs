@@ -3,20 +3,23 @@
 use super::Query;
 use super::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
 use crate::table::error::RowProblem;
+use crate::table::records::{Cells, Record};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::Range;
 
-/// Parses a row; `index` is the id of a row without one.
-pub(super) fn query(
+/// Parses a row of a table of motions; `index` is the id of a row without one.
+///
+/// # Errors
+/// What is wrong with the row.
+pub fn query<R: Record + ?Sized>(
     columns: &Columns,
-    record: &csv::ByteRecord,
+    record: &R,
     index: usize,
 ) -> Result<Query, RowProblem> {
-    let cells = texts(columns, record)?;
     let row = Row {
         columns,
-        cells: &cells,
+        cells: record.cells(columns)?,
     };
     // A negative zero is a zero.
     let duration = row.number(DURATION)?.unwrap_or(1.0) + 0.0;
@@ -27,9 +30,7 @@ pub(super) fn query(
         });
     }
     Ok(Query {
-        id: columns
-            .cell(row.cells, ID)
-            .map_or_else(|| index.to_string(), str::to_owned),
+        id: id(columns, record).unwrap_or_else(|| index.to_string()),
         a: row.motion(Side::A, duration)?,
         b: row.motion(Side::B, duration)?,
         duration,
@@ -44,16 +45,15 @@ pub(in crate::table) struct Poses {
 }
 
 /// Parses a row of a path.
-pub(in crate::table) fn poses(
+pub(in crate::table) fn poses<R: Record + ?Sized>(
     columns: &Columns,
-    record: &csv::ByteRecord,
+    record: &R,
 ) -> Result<Poses, RowProblem> {
-    let cells = texts(columns, record)?;
     let row = Row {
         columns,
-        cells: &cells,
+        cells: record.cells(columns)?,
     };
-    if columns.index(ID).is_some() && columns.cell(&cells, ID).is_none() {
+    if columns.index(ID).is_some() && id(columns, record).is_none() {
         return Err(RowProblem::NoId);
     }
     Ok(Poses {
@@ -64,38 +64,16 @@ pub(in crate::table) fn poses(
 }
 
 /// Returns the id of a row, which may be unreadable otherwise; none where it has none.
-pub(in crate::table) fn id(columns: &Columns, record: &csv::ByteRecord) -> Option<String> {
-    let cell = columns.index(ID).and_then(|index| record.get(index));
-    let id = String::from_utf8_lossy(cell?);
-    match id.trim() {
-        "" => None,
-        id => Some(id.to_owned()),
-    }
+pub(in crate::table) fn id<R: Record + ?Sized>(columns: &Columns, record: &R) -> Option<String> {
+    record.text(columns.index(ID)?)
 }
 
-/// Returns the cells, trimmed.
-fn texts<'r>(columns: &Columns, record: &'r csv::ByteRecord) -> Result<Vec<&'r str>, RowProblem> {
-    if record.len() != columns.len() {
-        return Err(RowProblem::WrongLength {
-            cells: record.len(),
-            columns: columns.len(),
-        });
-    }
-    let text = |(index, cell)| match str::from_utf8(cell) {
-        Ok(text) => Ok(text.trim()),
-        Err(_) => Err(RowProblem::NotText {
-            column: columns.name_at(index).to_owned(),
-        }),
-    };
-    record.iter().enumerate().map(text).collect()
-}
-
-struct Row<'a> {
+struct Row<'a, C> {
     columns: &'a Columns,
-    cells: &'a [&'a str],
+    cells: C,
 }
 
-impl Row<'_> {
+impl<C: Cells> Row<'_, C> {
     /// Returns the pose at the start.
     fn start(&self, side: Side) -> Result<Pose, RowProblem> {
         let position = self.vector(side, Quantity::Position)?;
@@ -139,7 +117,11 @@ impl Row<'_> {
         self.columns
             .slots(side, first)
             .chain(self.columns.slots(side, second))
-            .find(|&slot| self.columns.cell(self.cells, slot).is_some())
+            .find(|&slot| {
+                self.columns
+                    .index(slot)
+                    .is_some_and(|cell| self.cells.is_given(cell))
+            })
             .map(|slot| self.columns.name(slot).to_owned())
     }
 
@@ -201,15 +183,17 @@ impl Row<'_> {
     }
 
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {
-        let Some(cell) = self.columns.cell(self.cells, slot) else {
+        let not_a_number = |value| RowProblem::NotANumber {
+            column: self.columns.name(slot).to_owned(),
+            value,
+        };
+        let Some(cell) = self.columns.index(slot) else {
             return Ok(None);
         };
-        match cell.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(Some(value)),
-            _ => Err(RowProblem::NotANumber {
-                column: self.columns.name(slot).to_owned(),
-                value: cell.to_owned(),
-            }),
+        match self.cells.number(cell) {
+            Ok(Some(value)) if !value.is_finite() => Err(not_a_number(value.to_string())),
+            Ok(value) => Ok(value),
+            Err(content) => Err(not_a_number(content)),
         }
     }
 }

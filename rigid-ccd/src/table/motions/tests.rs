@@ -130,7 +130,7 @@ fn numbers_must_be_finite() {
 
 #[test]
 fn a_quaternion_needs_all_four() {
-    let problem = only_problem("a_qw,a_qx,a_qy\n1,0,0\n");
+    let problem = only_problem("a_qw,a_qx,a_qy,a_qz\n1,0,0,\n");
     let expected = RowProblem::MissingColumn {
         given: "a_qw".into(),
         missing: "a_qz".into(),
@@ -141,7 +141,7 @@ fn a_quaternion_needs_all_four() {
 #[test]
 fn an_end_position_needs_all_three() {
     assert!(matches!(
-        only_problem("b_end_py\n1\n"),
+        only_problem("b_end_px,b_end_py,b_end_pz\n,1,\n"),
         RowProblem::MissingColumn { missing, .. } if missing == "b_end_px"
     ));
 }

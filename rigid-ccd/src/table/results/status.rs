@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// The kind of an answer, or an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Status {
+pub enum Status {
     /// The bodies come into contact.
     Contact,
     /// The bodies stay apart.
@@ -33,7 +33,7 @@ pub(crate) enum Status {
 
 impl Status {
     /// All statuses, in the order in which they are reported.
-    pub(crate) const ALL: [Status; 10] = [
+    pub const ALL: [Status; 10] = [
         Status::Contact,
         Status::Free,
         Status::Touching,
@@ -47,7 +47,7 @@ impl Status {
     ];
 
     /// Returns the name in the table.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Status::Contact => "contact",
             Status::Free => "free",
@@ -63,7 +63,7 @@ impl Status {
     }
 
     /// Returns the status of an answer; distances are compared to `clearance`, if there is one.
-    pub(crate) fn of(found: &Found, clearance: Option<f64>) -> Self {
+    pub fn of(found: &Found, clearance: Option<f64>) -> Self {
         match found {
             Found::First(outcome) => Status::from(outcome),
             Found::Any(any) => match any {

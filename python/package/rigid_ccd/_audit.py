@@ -1,0 +1,92 @@
+"""Motions that another checker has called free, certified."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Unpack
+
+import numpy as np
+
+from . import _rigid_ccd
+from ._rigid_ccd import Body, Table
+from ._settings import ContactsOfTables
+from ._tables import Motions, first_contacts
+
+
+@dataclass(frozen=True, repr=False)
+class Audit:
+    """What another checker has missed."""
+
+    rows: int
+    """The number of rows."""
+    missed: Table
+    """The rows that are not free, with the time and the witnesses of the first contact: columns of `first_contacts`."""
+    missed_rows: tuple[int, ...]
+    """Their numbers in the table of motions, from 0."""
+    unproven: Table
+    """The rows that are neither: unresolved, because a limit was reached, or no motions."""
+    pages: tuple[Path, ...]
+    """A page for each missed row, in their order, as far as there are any."""
+
+    @property
+    def is_clean(self) -> bool:
+        """Whether every row is proven free."""
+        return not self.missed_rows and len(self.unproven) == 0
+
+    def __repr__(self) -> str:
+        free = self.rows - len(self.missed) - len(self.unproven)
+        return f"Audit({self.rows} rows, {free} free, {len(self.missed)} missed, {len(self.unproven)} unproven)"
+
+
+def audit(
+    a: Body,
+    b: Body,
+    motions: Motions,
+    *,
+    pages: str | os.PathLike[str] | None = None,
+    most_pages: int = 100,
+    tolerance: float = 1e-6,
+    **settings: Unpack[ContactsOfTables],
+) -> Audit:
+    """Certifies motions that another checker, of a planner, a simulator or a CAM program, has called free.
+
+    Args:
+        a, b: the bodies.
+        motions: the table that the checker has called free, as of `first_contacts`.
+        pages: a folder for a page on each missed row, which shows the motion and the contact in any browser, offline.
+        most_pages: no more pages than that.
+        tolerance: what comes within margin + tolerance counts as missed; `distance_upper` says how near it came.
+        settings: those of `first_contacts`; `margin` is the distance that the checker was to keep.
+
+    Raises:
+        InputError: a column is unknown or missing, or has no numbers.
+        OSError: a page cannot be written.
+
+    >>> from rigid_ccd import Body, audit
+    >>> ball, wall = Body.sphere(0.5), Body.box(0.001, 5, 5)
+    >>> # Free at both ends, and at each of ten steps between them.
+    >>> shots = {"id": ["slow", "fast"], "a_px": [-3, -3], "a_vx": [1, 60]}
+    >>> found = audit(ball, wall, shots)
+    >>> found
+    Audit(2 rows, 1 free, 1 missed, 0 unproven)
+    >>> found.missed["id"], found.missed["time"].round(3)
+    (array(['fast'], dtype=object), array([0.042]))
+    """
+    table = motions if isinstance(motions, Table) else Table(motions)
+    contacts: dict[str, Any] = {**settings, "tolerance": tolerance}
+    results = first_contacts(a, b, table, **contacts)
+    status = results["status"]
+    missed = np.flatnonzero(np.isin(status, ["contact", "touching", "overlapping"])).tolist()
+    unproven = np.flatnonzero(np.isin(status, ["unresolved", "error"])).tolist()
+    written: list[Path] = []
+    if pages is not None and missed:
+        of_query = {name: value for name, value in contacts.items() if name not in ("threads", "progress", "micros")}
+        shown = missed[:most_pages]
+        written = _rigid_ccd.write_pages(a, b, table, set(shown), pages, **of_query)
+    return Audit(
+        rows=len(results),
+        missed=results.take(missed),
+        missed_rows=tuple(missed),
+        unproven=results.take(unproven),
+        pages=tuple(written),
+    )

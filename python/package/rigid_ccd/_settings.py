@@ -1,0 +1,46 @@
+"""The keyword arguments of queries, with their types."""
+
+from collections.abc import Callable
+from typing import Any, Protocol, TypeAlias, TypedDict
+
+
+class _Bar(Protocol):
+    """A bar of tqdm."""
+
+    def update(self, n: float | None = 1) -> Any: ...
+
+
+Progress: TypeAlias = Callable[[int, int | None], object] | _Bar | bool | None
+"""A function of the rows answered and of all rows, a bar of tqdm, True for such a bar, or None."""
+
+
+class OfDistances(TypedDict, total=False):
+    """Settings of a query that measures distances."""
+
+    tolerance: float
+    budget: int | None
+    deadline: float | None
+
+
+class OfContacts(OfDistances, total=False):
+    """Settings of a query that looks for contacts."""
+
+    margin: float
+
+
+class OfTables(TypedDict, total=False):
+    """Settings of a query about each row of a table."""
+
+    threads: int | None
+    progress: Progress
+    micros: bool
+
+
+class ContactsOfTables(OfContacts, OfTables, total=False):
+    """Settings of a query that looks for contacts in each row of a table."""
+
+
+class DistancesOfTables(OfDistances, OfTables, total=False):
+    """Settings of a query that measures distances in each row of a table."""
+
+    clearance: float | None

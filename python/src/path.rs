@@ -1,0 +1,74 @@
+//! Paths through poses.
+
+use crate::arrays::vector;
+use crate::errors::input;
+use crate::motion::{matrix_of, pose_of};
+use pyo3::prelude::*;
+use rigid_ccd::trajectory::{Poses, Trajectory};
+
+/// A path through poses at given times: of a planner, or of a simulator's log.
+///
+/// From one pose to the next, the center moves in a straight line, and the body turns about it the shortest way. It rests
+/// before the first time and after the last.
+///
+/// Args:
+///     times: increasing.
+///     poses: one for each time, as `Motion.between` takes them: an array of shape (n, 4, 4), for instance.
+///     center: the point of the body that moves straight, in its frame; its origin by default.
+///
+/// >>> import numpy as np
+/// >>> from rigid_ccd import Path
+/// >>> stops = np.tile(np.eye(4), (3, 1, 1))
+/// >>> stops[1:, 0, 3] = 1
+/// >>> stops[2, 1, 3] = 2
+/// >>> path = Path([0, 1, 3], stops)
+/// >>> path.pose(2)[:3, 3]
+/// array([1., 1., 0.])
+#[pyclass(name = "Path", module = "rigid_ccd", frozen)]
+pub(crate) struct PyPath {
+    pub(crate) poses: Poses,
+}
+
+#[pymethods]
+impl PyPath {
+    #[new]
+    #[pyo3(signature = (times, poses, *, center = None))]
+    fn new(
+        times: Vec<f64>,
+        poses: &Bound<'_, PyAny>,
+        center: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let poses = poses.try_iter()?.enumerate();
+        let poses: Vec<_> = poses
+            .map(|(k, pose)| pose_of(&pose?, &format!("pose {k}")))
+            .collect::<PyResult<_>>()?;
+        if poses.len() != times.len() {
+            return Err(input(format!(
+                "poses: there are {}, but {} times",
+                poses.len(),
+                times.len()
+            )));
+        }
+        let poses = Poses::new(times.into_iter().zip(poses).collect()).map_err(input)?;
+        let center = center.map_or(Ok([0.0; 3]), |center| vector(center, "center"))?;
+        Ok(PyPath {
+            poses: poses.about(center).map_err(input)?,
+        })
+    }
+
+    /// The time of the last pose.
+    #[getter]
+    fn end(&self) -> f64 {
+        self.poses.end()
+    }
+
+    /// The pose at a time, as a matrix of shape (4, 4).
+    fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+        Ok(matrix_of(py, &self.poses.pose(time).map_err(input)?))
+    }
+
+    fn __repr__(&self) -> String {
+        let (poses, end) = (self.poses.times().count(), self.poses.end());
+        format!("Path({poses} poses, until {end})")
+    }
+}

@@ -1,0 +1,46 @@
+//! Long work without the GIL, which Ctrl-C ends.
+
+use pyo3::prelude::*;
+use std::panic::resume_unwind;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+/// The time between two looks at signals: a tenth of what a person notices.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Does work on a thread of its own, without the GIL, and returns its result.
+///
+/// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
+/// soon; it comes back beside the result.
+pub(crate) fn polled<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
+    mut look: impl FnMut(Python<'_>) -> PyResult<()> + Send,
+) -> (T, PyResult<()>) {
+    let stop = Arc::new(AtomicBool::new(false));
+    py.detach(|| {
+        thread::scope(|scope| {
+            let (sender, receiver) = mpsc::channel::<()>();
+            let worker = scope.spawn({
+                let stop = &stop;
+                move || {
+                    // Dropped at the end of the work, even by a panic.
+                    let _ends = sender;
+                    work(stop)
+                }
+            });
+            let mut seen = Ok(());
+            while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(LOOK) {
+                if seen.is_ok() {
+                    seen = Python::attach(|py| py.check_signals().and_then(|()| look(py)));
+                    stop.store(seen.is_err(), Ordering::Relaxed);
+                }
+            }
+            let result = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+            (result, seen)
+        })
+    })
+}

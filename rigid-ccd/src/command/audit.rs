@@ -1,0 +1,274 @@
+//! `ccd audit`: certifies motions that another checker has called free, and lists those that are not.
+
+use super::bad_rows::BadRows;
+use super::files::{
+    CannotWrite, Rows, Table, check_folder, input_name, open_courses, refuse_overwriting,
+};
+use super::numbers::{not_negative, seconds, tolerance};
+use super::pair::{BodiesArgs, Loading, Pair};
+use super::progress::{Progress, Total};
+use super::view::title;
+use super::{Exit, complain};
+use crate::ParallelSolver;
+use crate::batch::{BatchSize, Bodies, Question, Settings, Solve, SolverKind, on_threads, time};
+use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
+use crate::table::courses::CourseRow;
+use crate::table::motions::TableError;
+use crate::table::results::{self, Extent, ResultRow, Status};
+use anyhow::{Context, Result};
+use ccd_core::Config;
+use ccd_core::limits::DEFAULT_BUDGET;
+use clap::Args;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Certify motions that another checker has called free, and list those that are not
+#[derive(Clone, Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct AuditArgs {
+    #[command(flatten)]
+    bodies: BodiesArgs,
+    /// Table of the motions that were called free, CSV, or of paths if it has a column `t`; - reads standard input
+    #[arg(long, value_name = "CSV")]
+    motions: PathBuf,
+    /// Write the rows that are not free to this file, CSV; - writes to standard output
+    #[arg(long, value_name = "CSV", default_value = "-")]
+    out: PathBuf,
+    /// Write a page for each of these rows to this folder, and its name to column `page`
+    #[arg(long, value_name = "FOLDER")]
+    pages: Option<PathBuf>,
+    /// Write at most N pages
+    #[arg(long, value_name = "N", default_value_t = 100, requires = "pages")]
+    most_pages: usize,
+    /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
+    #[arg(long, value_name = "LENGTH", default_value_t = SHARP, value_parser = tolerance, allow_hyphen_values = true)]
+    tolerance: f64,
+    /// Distance that the checker was to keep between the bodies, in the scene's unit of length
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
+    margin: f64,
+    /// Leave a query unresolved after N units of work; a million takes about a second
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    budget: u64,
+    /// Leave a query unresolved after this time, in seconds [default: none]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    deadline: Option<Duration>,
+    /// Number of threads; it changes no answer [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Print only warnings and errors on standard error
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  ccd audit --a gripper.stl --b shelf.stl --motions edges.csv --out missed.csv --pages missed
+  ccd audit --a tool.stl --b part.stl --motions toolpath.csv --margin .0005
+
+The table of motions or paths and the columns of the output are those of `ccd query`, see its --help. Rows that are
+proven free are counted, and left out. The others are:
+  contact, touching, overlapping    missed by the checker: within margin + tolerance; `time` and witnesses tell where
+  unresolved                        not proven: a limit was reached; raise --budget
+  error                             no valid motion; column `reason` tells why
+
+Exit code: 0 if all rows are proven free, 3 if some are not, 2 for bad input, 1 if nothing can be written.";
+
+/// The tolerance by default: nobody is blamed for what passes closely.
+const SHARP: f64 = 1e-6;
+
+/// The column of the pages; it follows those of the results.
+const PAGE: &str = "page";
+
+/// Certifies all rows.
+pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
+    let mut read = vec![("--motions", args.motions.clone())];
+    read.extend(args.bodies.files()?);
+    for (option, path) in &read {
+        refuse_overwriting((option, path), ("--out", &args.out))?;
+    }
+    let (mut rows, length) = open_courses(&args.motions, Question::FirstContact.grouping())?;
+    let pair = Pair::load(Loading {
+        bodies: &args.bodies,
+        method: SolverKind::default(),
+        quiet: args.quiet,
+    })?;
+    let mut columns = results::columns(Extent::default());
+    columns.extend(args.pages.as_ref().map(|_| PAGE));
+    let settings = settings(args);
+    let solver = on_threads(args.threads, || {
+        settings.method.solver(settings.config.instructions)
+    });
+    let mut audit = Audit {
+        args,
+        bodies: pair.bodies(),
+        batch: BatchSize::new(solver.threads()),
+        settings,
+        solver,
+        out: Table::create(&args.out, &columns)?,
+        pages: pages(args, &pair)?,
+        counts: [0; Status::ALL.len()],
+        bad_rows: BadRows::new(input_name(&args.motions)),
+        progress: match args.quiet {
+            true => Progress::hidden(),
+            false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
+        },
+    };
+    audit.all(&mut rows)?;
+    audit.finish()
+}
+
+fn settings(args: &AuditArgs) -> Settings {
+    Settings {
+        config: Config {
+            tolerance: args.tolerance,
+            margin: args.margin,
+            budget: args.budget,
+            deadline: args.deadline,
+            ..Config::default()
+        },
+        ..Settings::default()
+    }
+}
+
+fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Pages<'a>>, CannotWrite> {
+    let Some(folder) = &args.pages else {
+        return Ok(None);
+    };
+    let asked = Asked {
+        claim: Claim::First,
+        margin: args.margin,
+        clearance: None,
+    };
+    // Of several missing folders, only the last is created.
+    let pages = check_folder(folder)
+        .and_then(|()| Pages::create(pair.bodies(), asked, title(&args.bodies), folder));
+    pages.map(Some).map_err(|source| CannotWrite {
+        place: folder.display().to_string(),
+        source,
+    })
+}
+
+struct Audit<'a> {
+    args: &'a AuditArgs,
+    bodies: Bodies<'a>,
+    settings: Settings,
+    solver: ParallelSolver<Box<dyn Solve>>,
+    batch: BatchSize,
+    out: Table,
+    pages: Option<Pages<'a>>,
+    /// The number of rows of each status, in the order of [`Status::ALL`].
+    counts: [usize; Status::ALL.len()],
+    bad_rows: BadRows,
+    progress: Progress,
+}
+
+impl Audit<'_> {
+    fn all(&mut self, rows: &mut Rows) -> Result<()> {
+        loop {
+            let batch: Vec<CourseRow> = rows
+                .take(self.batch.items())
+                .collect::<Result<_, TableError>>()
+                .with_context(|| input_name(&self.args.motions))?;
+            if batch.is_empty() {
+                return Ok(());
+            }
+            let (bodies, settings, progress) = (self.bodies, &self.settings, &self.progress);
+            let start = Instant::now();
+            let answers = self.solver.map(&batch, |solver, row| {
+                progress.step();
+                match row {
+                    Ok((_, course)) => match time(bodies, course, settings, solver.as_mut()) {
+                        Ok(timed) => ResultRow::new(course, &timed.answer, timed.micros, None),
+                        Err(problem) => ResultRow::error(course.id(), &problem),
+                    },
+                    Err(error) => ResultRow::error(&error.id, &error.problem),
+                }
+            });
+            self.batch.adapt(start.elapsed());
+            self.progress.read(rows.bytes());
+            for (row, answer) in batch.iter().zip(&answers) {
+                self.take(row, answer)?;
+            }
+            self.out.flush()?;
+        }
+    }
+
+    /// Counts a row, and writes it unless it is free.
+    fn take(&mut self, row: &CourseRow, answer: &ResultRow) -> Result<()> {
+        self.counts[answer.status as usize] += 1;
+        if answer.status == Status::Free {
+            return Ok(());
+        }
+        let position = match row {
+            Ok((position, _)) => *position,
+            Err(error) => error.position,
+        };
+        if let (Status::Error, Some(reason)) = (answer.status, &answer.reason) {
+            self.bad_rows.report(position, reason, &self.progress);
+        }
+        let page = match (&mut self.pages, row) {
+            (Some(pages), Ok((_, course)))
+                if answer.status != Status::Error && pages.len() < self.args.most_pages =>
+            {
+                page(pages.write(course, answer))?
+            }
+            _ => None,
+        };
+        let page = self.args.pages.as_ref().map(|_| page);
+        self.out.write(|writer| match page {
+            Some(page) => writer.serialize((answer, page)),
+            None => results::write(writer, Extent::default(), answer),
+        })?;
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Exit> {
+        drop(self.progress);
+        self.out.finish()?;
+        self.bad_rows.close();
+        let count = |status: Status| self.counts[status as usize];
+        let (rows, free) = (self.counts.iter().sum::<usize>(), count(Status::Free));
+        if !self.args.quiet {
+            let others = Status::ALL
+                .into_iter()
+                .filter(|&status| status != Status::Free);
+            let others: String = others
+                .filter(|&status| count(status) > 0)
+                .map(|status| format!(", {} {}", count(status), status.name()))
+                .collect();
+            complain(&format!(
+                "{free} of {rows} rows are free: that is proven{others}"
+            ));
+            if let Some(pages) = self
+                .pages
+                .filter(|pages| pages.len() == self.args.most_pages)
+            {
+                complain(&format!(
+                    "wrote {} pages, and no more: see --most-pages",
+                    pages.len()
+                ));
+            }
+        }
+        Ok(match (count(Status::Error), rows - free) {
+            (0, 0) => Exit::AllAnswered,
+            (0, _) => Exit::SomeNotFree,
+            _ => Exit::SomeRowsBad,
+        })
+    }
+}
+
+/// Returns the path of a page as text; none for a row that cannot be shown.
+fn page(written: Result<PathBuf, PagesError>) -> Result<Option<String>, CannotWrite> {
+    match written {
+        Ok(path) => Ok(Some(path.display().to_string())),
+        Err(PagesError::Page(PageError::Write { path, source })) => Err(CannotWrite {
+            place: path.display().to_string(),
+            source,
+        }),
+        Err(error) => {
+            complain(&error.to_string());
+            Ok(None)
+        }
+    }
+}

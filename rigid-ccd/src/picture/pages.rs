@@ -1,0 +1,122 @@
+//! A page for each of some rows, in a folder.
+
+use super::{Asked, PageError, Painter, ViewError};
+use crate::batch::Bodies;
+use crate::table::courses::Course;
+use crate::table::results::ResultRow;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// Pages in a folder, one for each row, with the id of the row as their name.
+pub struct Pages<'a> {
+    painter: Painter<'a>,
+    title: String,
+    folder: PathBuf,
+    names: HashSet<String>,
+}
+
+/// A page cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PagesError {
+    /// The row cannot be shown.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// The page cannot be written.
+    #[error(transparent)]
+    Page(#[from] PageError),
+}
+
+impl<'a> Pages<'a> {
+    /// Creates the folder, if there is none.
+    ///
+    /// # Errors
+    /// The folder cannot be created.
+    pub fn create(
+        bodies: Bodies<'a>,
+        asked: Asked,
+        title: String,
+        folder: &Path,
+    ) -> io::Result<Self> {
+        fs::create_dir_all(folder)?;
+        Ok(Pages {
+            painter: Painter::new(bodies, asked),
+            title,
+            folder: folder.to_owned(),
+            names: HashSet::new(),
+        })
+    }
+
+    /// Returns the number of pages.
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Returns whether there is no page.
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    /// Writes the page of a row, and returns its path.
+    ///
+    /// # Errors
+    /// [`PagesError`].
+    pub fn write(&mut self, course: &Course, row: &ResultRow) -> Result<PathBuf, PagesError> {
+        let view = self.painter.view(course, row)?;
+        let name = self.name(&row.id);
+        let path = self.folder.join(name);
+        self.painter.page(&self.title, vec![view]).write(&path)?;
+        Ok(path)
+    }
+
+    /// Returns a name that no other page has, on file systems that ignore case, too.
+    fn name(&mut self, id: &str) -> String {
+        let plain = |c: char| match c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') {
+            true => c,
+            false => '_',
+        };
+        // A leading dot hides a file; a name of 255 bytes is the longest that file systems take.
+        let stem: String = id
+            .trim_start_matches('.')
+            .chars()
+            .map(plain)
+            .take(100)
+            .collect();
+        let numbered = |count| match count {
+            0 if stem.is_empty() => "row".to_owned(),
+            0 => stem.clone(),
+            count => format!("{stem}-{count}"),
+        };
+        let mut names = (0..).map(numbered);
+        let name = names.find(|name| self.names.insert(name.to_ascii_lowercase()));
+        name.unwrap_or_default() + ".html"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Claim;
+    use ccd_core::Body;
+
+    #[test]
+    fn names_are_plain_and_differ() {
+        let ball = Body::ball(1.0).unwrap();
+        let asked = Asked {
+            claim: Claim::First,
+            margin: 0.0,
+            clearance: None,
+        };
+        let bodies = Bodies { a: &ball, b: &ball };
+        let folder = std::env::temp_dir();
+        let mut pages = Pages::create(bodies, asked, String::new(), &folder).unwrap();
+        let mut names = |id: &str| pages.name(id);
+        assert_eq!(names("edge 12"), "edge_12.html");
+        assert_eq!(names("edge_12"), "edge_12-1.html");
+        assert_eq!(names("EDGE/12"), "EDGE_12-2.html");
+        assert_eq!(names("../../etc"), "_.._etc.html");
+        assert_eq!(names(""), "row.html");
+        assert_eq!(names(""), "-1.html");
+        assert!(names(&"a".repeat(1000)).len() < 255);
+    }
+}

@@ -1,0 +1,158 @@
+//! The records of a CSV table, with their positions and a checksum.
+
+use crate::table::error::{RowProblem, TableError};
+use crate::table::foreign;
+use crate::table::lines::Lines;
+use crate::table::motions::Columns;
+use crate::table::position::RowPosition;
+use crate::table::quotes::Quotes;
+use crate::table::records::{Cells, Record, Records};
+use std::io::{self, Read};
+
+/// A table that is read record by record.
+///
+/// Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped, but counted. A quoted cell may hold line
+/// ends, and must be closed.
+#[derive(Debug)]
+pub struct CsvRecords<R> {
+    reader: Reader<R>,
+    raw: csv::ByteRecord,
+    /// The number of records read, without the header.
+    rows: usize,
+    checksum: crc32fast::Hasher,
+}
+
+type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
+
+impl<R: Read> CsvRecords<R> {
+    /// Reads the header, which is the current record then.
+    ///
+    /// # Errors
+    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
+    pub fn new(input: R) -> Result<Self, TableError> {
+        let mut reader = csv::ReaderBuilder::new()
+            .flexible(true)
+            .has_headers(false)
+            // Every line needs an end, the last one too: the line of a row is computed from its end.
+            .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
+        let mut raw = csv::ByteRecord::new();
+        reader.read_byte_record(&mut raw)?;
+        if let Some(line) = unclosed(&reader) {
+            return Err(TableError::UnclosedQuote { row: None, line });
+        }
+        let mut checksum = crc32fast::Hasher::new();
+        add(&mut checksum, &raw);
+        Ok(CsvRecords {
+            reader,
+            raw,
+            rows: 0,
+            checksum,
+        })
+    }
+}
+
+impl<R: Read> Records for CsvRecords<R> {
+    type Record = csv::ByteRecord;
+
+    fn header(&self) -> Result<Vec<String>, TableError> {
+        if let Some(format) = foreign::format(&self.raw) {
+            return Err(TableError::NotCsv { format });
+        }
+        if foreign::is_lfs_pointer(&self.raw) {
+            return Err(TableError::LfsPointer);
+        }
+        match csv::StringRecord::from_byte_record(self.raw.clone()) {
+            Ok(header) => Ok(header.iter().map(|name| name.trim().to_owned()).collect()),
+            Err(_) => Err(TableError::NotText),
+        }
+    }
+
+    fn current(&self) -> &csv::ByteRecord {
+        &self.raw
+    }
+
+    fn bytes(&self) -> u64 {
+        self.reader.get_ref().get_ref().0.input().bytes
+    }
+
+    fn checksum(&self) -> u32 {
+        self.checksum.clone().finalize()
+    }
+
+    fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
+        let before = self.reader.position().line();
+        if !self.reader.read_byte_record(&mut self.raw)? {
+            return Ok(None);
+        }
+        if let Some(line) = unclosed(&self.reader) {
+            let row = Some(self.rows);
+            return Err(TableError::UnclosedQuote { row, line });
+        }
+        add(&mut self.checksum, &self.raw);
+        let row = self.rows;
+        self.rows += 1;
+        // Empty lines before the row have been read as well: its line is computed from its end.
+        let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
+        let within: u64 = self.raw.iter().map(ends).sum();
+        let after = self.reader.position().line();
+        Ok(Some(RowPosition {
+            row,
+            line: after.saturating_sub(within + 1).max(before),
+        }))
+    }
+}
+
+impl Record for csv::ByteRecord {
+    type Cells<'r> = Vec<&'r str>;
+
+    fn cells(&self, columns: &Columns) -> Result<Vec<&str>, RowProblem> {
+        if self.len() != columns.len() {
+            return Err(RowProblem::WrongLength {
+                cells: self.len(),
+                columns: columns.len(),
+            });
+        }
+        let text = |(index, cell)| match str::from_utf8(cell) {
+            Ok(text) => Ok(text.trim()),
+            Err(_) => Err(RowProblem::NotText {
+                column: columns.name_at(index).to_owned(),
+            }),
+        };
+        self.iter().enumerate().map(text).collect()
+    }
+
+    fn text(&self, cell: usize) -> Option<String> {
+        let text = String::from_utf8_lossy(self.get(cell)?);
+        match text.trim() {
+            "" => None,
+            text => Some(text.to_owned()),
+        }
+    }
+}
+
+impl Cells for Vec<&str> {
+    fn is_given(&self, cell: usize) -> bool {
+        self.get(cell).is_some_and(|text| !text.is_empty())
+    }
+
+    fn number(&self, cell: usize) -> Result<Option<f64>, String> {
+        match self.get(cell) {
+            None | Some(&"") => Ok(None),
+            Some(text) => text.parse().map(Some).map_err(|_| (*text).to_owned()),
+        }
+    }
+}
+
+/// Adds the cells of a record to a checksum, and where they end.
+fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
+    checksum.update(record.as_slice());
+    for cell in record {
+        checksum.update(&(cell.len() as u64).to_le_bytes());
+    }
+}
+
+/// Returns the line of an unclosed quote in the record that was read last.
+fn unclosed<R: Read>(reader: &Reader<R>) -> Option<u64> {
+    let (quotes, _) = reader.get_ref().get_ref();
+    quotes.unclosed(reader.position().line())
+}
