@@ -14,7 +14,7 @@ pyo3::create_exception!(
     rigid_ccd,
     Unresolved,
     PyRuntimeError,
-    "A limit was reached first. Attribute `safe_until`: no contact happens before this time."
+    "A limit was reached first. Attribute `safe_until`: no contact happens before this time; or, of a distance, `lower` and `upper`: what is known of it."
 );
 pyo3::create_exception!(
     rigid_ccd,
@@ -40,6 +40,17 @@ pub(crate) fn query(py: Python<'_>, error: rigid_ccd::Error) -> PyErr {
 pub(crate) fn unresolved(py: Python<'_>, safe_until: f64, reason: impl Display) -> PyErr {
     let error = Unresolved::new_err(format!("{reason}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
+}
+
+/// Makes an `Unresolved` of a distance with these bounds.
+pub(crate) fn unresolved_distance(
+    py: Python<'_>,
+    [lower, upper]: [f64; 2],
+    reason: impl Display,
+) -> PyErr {
+    let error = Unresolved::new_err(format!("{reason}; the distance is from {lower} to {upper}"));
+    let error = with_attribute(py, error, "lower", lower);
+    with_attribute(py, error, "upper", upper)
 }
 
 /// Makes an `Interrupted` of Ctrl-C; other exceptions of a signal, or of a callback, stay what they are. Either has

@@ -3,7 +3,7 @@
 use crate::answers::{PyContact, PyDistance};
 use crate::body::PyBody;
 use crate::course::{Course, Moved, Pair};
-use crate::errors::{input, query, unresolved};
+use crate::errors::{input, query, unresolved_distance};
 use crate::motion::pose_of;
 use crate::polled::polled;
 use crate::settings::{OF_CONTACTS, OF_DISTANCES, config};
@@ -135,7 +135,7 @@ pub(crate) fn is_free(
 
 /// Brackets the least distance of two moving bodies, to within the tolerance.
 ///
-/// Arguments and exceptions are those of `first_contact`, without a margin.
+/// Arguments and exceptions are those of `first_contact`, without a margin. `Unresolved` has `lower` and `upper`.
 #[pyfunction]
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
 pub(crate) fn closest_approach(
@@ -195,8 +195,10 @@ fn measure(
         Ok(ClosestApproach::Unresolved { reason, .. }) => Some(*reason),
         _ => None,
     };
-    match ask(py, config, limit, question)?.map_err(input)? {
-        ClosestApproach::Unresolved { reason, .. } => Err(unresolved(py, 0.0, reason)),
-        found => Ok(PyDistance::of(&found)),
+    let found = ask(py, config, limit, question)?.map_err(input)?;
+    let bounds = [found.lower(), found.upper()];
+    match found {
+        ClosestApproach::Unresolved { reason, .. } => Err(unresolved_distance(py, bounds, reason)),
+        _ => Ok(PyDistance::of(&found)),
     }
 }

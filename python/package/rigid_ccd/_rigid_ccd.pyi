@@ -1,20 +1,33 @@
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from os import PathLike
-from typing import Any, Literal, Protocol, TypeAlias, final
+from pathlib import Path as _FilePath
+from typing import Any, Literal, Protocol, TypeAlias, Unpack, final
 
 from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
+from ._settings import OfContacts as _OfContacts
+from ._settings import OfDistances as _OfDistances
+
 __all__ = [
     "Body",
+    "Chain",
     "Contact",
     "Distance",
     "InputError",
+    "Interrupted",
+    "Joint",
+    "Link",
     "Motion",
+    "Path",
+    "Table",
     "Unresolved",
+    "answer_table",
     "closest_approach",
     "distance",
     "first_contact",
     "is_free",
+    "write_pages",
 ]
 
 class _ScipyRotation(Protocol):
@@ -31,11 +44,17 @@ _Pose: TypeAlias = ArrayLike | tuple[ArrayLike, _Rotation]
 _Point: TypeAlias = tuple[float, float, float]
 _Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull"]
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
+_Course: TypeAlias = Motion | Path | Link
 
 class InputError(ValueError): ...
 
 class Unresolved(RuntimeError):
     safe_until: float
+    lower: float
+    upper: float
+
+class Interrupted(KeyboardInterrupt):
+    results: Table
 
 @final
 class Body:
@@ -57,6 +76,9 @@ class Body:
     def sphere(cls, radius: float) -> Body: ...
     @classmethod
     def capsule(cls, radius: float, half_height: float) -> Body: ...
+    @classmethod
+    def _from_bytes(cls, stored: bytes) -> Body: ...
+    def save(self, path: str | PathLike[str]) -> None: ...
     @property
     def is_solid(self) -> bool: ...
     @property
@@ -78,6 +100,45 @@ class Motion:
     def between(
         cls, start: _Pose, end: _Pose, *, duration: float = 1.0, center: ArrayLike | None = None
     ) -> Motion: ...
+    def pose(self, time: float) -> NDArray[float64]: ...
+
+@final
+class Path:
+    def __new__(
+        cls, times: Sequence[float] | NDArray[Any], poses: ArrayLike | Iterable[_Pose], *, center: ArrayLike | None = None
+    ) -> Path: ...
+    @property
+    def end(self) -> float: ...
+    def pose(self, time: float) -> NDArray[float64]: ...
+
+@final
+class Joint:
+    @classmethod
+    def revolute(cls, origin: _Pose, axis: ArrayLike, *, limits: tuple[float, float] | None = None) -> Joint: ...
+    @classmethod
+    def prismatic(cls, origin: _Pose, axis: ArrayLike, *, limits: tuple[float, float] | None = None) -> Joint: ...
+    @classmethod
+    def fixed(cls, origin: _Pose) -> Joint: ...
+    @property
+    def limits(self) -> tuple[float, float]: ...
+
+@final
+class Chain:
+    def __new__(cls, joints: Sequence[Joint], base: _Pose | None = None) -> Chain: ...
+    def __len__(self) -> int: ...
+    def pose(self, link: int, positions: Sequence[float] | NDArray[Any]) -> NDArray[float64]: ...
+    def link(
+        self,
+        link: int,
+        start: Sequence[float] | NDArray[Any],
+        end: Sequence[float] | NDArray[Any],
+        *,
+        duration: float = 1.0,
+    ) -> Link: ...
+
+@final
+class Link:
+    def seen_from(self, link: int) -> Link: ...
     def pose(self, time: float) -> NDArray[float64]: ...
 
 @final
@@ -112,46 +173,69 @@ class Distance:
     @property
     def witness_b(self) -> _Point | None: ...
 
+@final
+class Table:
+    def __new__(cls, table: Any) -> Table: ...
+    @property
+    def column_names(self) -> list[str]: ...
+    def keys(self) -> list[str]: ...
+    def take(self, rows: Sequence[int]) -> Table: ...
+    def __len__(self) -> int: ...
+    def __contains__(self, name: str, /) -> bool: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __getitem__(self, name: str, /) -> NDArray[Any]: ...
+    def __arrow_c_schema__(self) -> object: ...
+    def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
 def first_contact(
     a: Body,
     b: Body,
-    motion_a: Motion | None = None,
-    motion_b: Motion | None = None,
+    motion_a: _Course | None = None,
+    motion_b: _Course | None = None,
     duration: float = 1.0,
-    *,
-    tolerance: float = 1e-3,
-    margin: float = 0.0,
-    budget: int | None = None,
-    deadline: float | None = None,
+    **settings: Unpack[_OfContacts],
 ) -> Contact | None: ...
 def is_free(
     a: Body,
     b: Body,
-    motion_a: Motion | None = None,
-    motion_b: Motion | None = None,
+    motion_a: _Course | None = None,
+    motion_b: _Course | None = None,
     duration: float = 1.0,
-    *,
-    tolerance: float = 1e-3,
-    margin: float = 0.0,
-    budget: int | None = None,
-    deadline: float | None = None,
+    **settings: Unpack[_OfContacts],
 ) -> bool: ...
 def closest_approach(
     a: Body,
     b: Body,
-    motion_a: Motion | None = None,
-    motion_b: Motion | None = None,
+    motion_a: _Course | None = None,
+    motion_b: _Course | None = None,
     duration: float = 1.0,
-    *,
-    tolerance: float = 1e-3,
-    budget: int | None = None,
-    deadline: float | None = None,
+    **settings: Unpack[_OfDistances],
 ) -> Distance: ...
 def distance(
     a: Body,
     b: Body,
     pose_a: _Pose | None = None,
     pose_b: _Pose | None = None,
-    *,
-    tolerance: float = 1e-3,
+    **settings: Unpack[_OfDistances],
 ) -> Distance: ...
+def answer_table(
+    question: str,
+    a: Body,
+    b: Body,
+    motions: Any,
+    *,
+    clearance: float | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int | None], object] | None = None,
+    micros: bool = True,
+    **settings: Unpack[_OfContacts],
+) -> Table: ...
+def write_pages(
+    a: Body,
+    b: Body,
+    motions: Any,
+    rows: set[int],
+    folder: str | PathLike[str],
+    **settings: Unpack[_OfContacts],
+) -> list[_FilePath]: ...

@@ -1,0 +1,76 @@
+"""What a table costs in Python, beside the command `ccd` and beside a loop in Rust, in one run.
+
+    python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd --loop target/release/examples/rows
+
+The rows are repeated until there are --rows. Each way runs --repeat times, in turn. The times of contact have to be the
+same bits in all of them.
+"""
+
+import argparse
+import csv
+import statistics
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+import rigid_ccd
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("a")
+    parser.add_argument("b")
+    parser.add_argument("motions")
+    parser.add_argument("--ccd", required=True, help="the command")
+    parser.add_argument("--loop", required=True, help="the example `rows` of rigid-ccd")
+    parser.add_argument("--rows", type=int, default=100_000)
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
+    given = parser.parse_args()
+
+    a, b = rigid_ccd.Body.from_file(given.a), rigid_ccd.Body.from_file(given.b)
+    with open(given.motions, newline="") as file:
+        header, *lines = csv.reader(file)
+    lines = [lines[k % len(lines)] for k in range(given.rows)]
+    columns = {
+        name: np.array([line[k] for line in lines]).astype("str" if name == "id" else "float64")
+        for k, name in enumerate(header)
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        motions, results, times = (Path(folder) / name for name in ("motions.csv", "results.csv", "times"))
+        with open(motions, "w", newline="") as file:
+            csv.writer(file).writerows([header, *lines])
+        print(f"{given.rows} rows\nthreads  python s  command s  loop s  python/loop  python/command")
+        for threads in given.threads:
+            taken: dict[str, list[float]] = {"python": [], "command": [], "loop": []}
+            for _ in range(given.repeat):
+                begin = time.perf_counter()
+                found = rigid_ccd.first_contacts(a, b, columns, threads=threads)
+                taken["python"].append(time.perf_counter() - begin)
+                bits = found["time"].view(np.uint64)
+
+                arguments = [given.loop, given.a, given.b, motions, threads, given.rows, times]
+                said = subprocess.run([*map(str, arguments)], check=True, capture_output=True, text=True).stdout
+                taken["loop"].append(float(said.split(":")[1].split()[0]))
+                assert np.array_equal(bits, np.fromfile(times, np.uint64)), "other bits than the loop's"
+
+                bodies = ["--a", given.a, "--b", given.b, "--motions", motions, "--out", results]
+                begin = time.perf_counter()
+                subprocess.run([*map(str, [given.ccd, "query", *bodies, "--threads", threads, "-q"])], check=True)
+                taken["command"].append(time.perf_counter() - begin)
+                with open(results, newline="") as file:
+                    told = np.array([float(row["time"]) for row in csv.DictReader(file)])
+                assert np.array_equal(bits, told.view(np.uint64)), "other bits than the command's"
+            python, command, loop = (statistics.median(taken[way]) for way in ("python", "command", "loop"))
+            print(
+                f"{threads:7}  {python:8.3f}  {command:9.3f}  {loop:6.3f}  {python / loop:11.3f}  {python / command:14.3f}"
+            )
+        counts = dict(zip(*np.unique(found["status"].astype(str), return_counts=True), strict=True))
+        print(f"equal bits; {', '.join(f'{count} {status}' for status, count in counts.items())}")
+
+
+if __name__ == "__main__":
+    main()

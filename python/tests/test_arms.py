@@ -1,0 +1,125 @@
+"""Chains and paths, against closed forms and sampled poses."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rigid_ccd import (
+    Body,
+    Chain,
+    InputError,
+    Joint,
+    Motion,
+    Path,
+    closest_approach,
+    distance,
+    first_contact,
+    is_free,
+)
+
+HERE: Any = ([0, 0, 0], [1, 0, 0, 0])
+BALL = Body.sphere(0.1)
+
+
+def arm() -> Chain:
+    """Two links of length 1 and 2 in the plane; the third link is the tip."""
+    hinge = Joint.revolute(HERE, [0, 0, 1], limits=(-4, 4))
+    elbow = Joint.revolute(([1, 0, 0], [1, 0, 0, 0]), [0, 0, 2])
+    return Chain([hinge, elbow, Joint.fixed(([2, 0, 0], [1, 0, 0, 0]))])
+
+
+def tip(shoulder: float, elbow: float) -> list[float]:
+    angle = shoulder + elbow
+    return [math.cos(shoulder) + 2 * math.cos(angle), math.sin(shoulder) + 2 * math.sin(angle), 0]
+
+
+def test_links_are_where_trigonometry_says() -> None:
+    chain = arm()
+    assert len(chain) == 3
+    assert chain.pose(3, [0.3, -1.1, 0])[:3, 3] == pytest.approx(tip(0.3, -1.1))
+    moves = chain.link(3, [0, 0, 0], [1, -2, 0], duration=2)
+    for time in (0, 0.7, 2):
+        assert moves.pose(time)[:3, 3] == pytest.approx(tip(time / 2, -time))
+    # As the forearm sees it, the tip rests.
+    assert moves.seen_from(2).pose(0.7) == pytest.approx(moves.seen_from(2).pose(0))
+
+
+def test_the_tip_of_an_arm_touches_a_post() -> None:
+    chain = arm()
+    post = Body.sphere(0.05)
+    for angle in np.linspace(0.2, 1.4, 7):
+        # Both joints turn: the tip meets a post that stands on its curve, and not the one beside it.
+        begin, end = [0.0, 0, 0], [1.5, 1.5, 0]
+        moves = chain.link(3, begin, end)
+        place = tip(angle, angle)
+        hit = first_contact(BALL, post, moves, Motion(place), tolerance=1e-6)
+        assert hit is not None and hit.time < angle / 1.5
+        assert np.linalg.norm(np.subtract(tip(1.5 * hit.time, 1.5 * hit.time), place)) == pytest.approx(0.15, abs=2e-6)
+        assert not is_free(BALL, post, moves, Motion(place))
+        beside = [*place[:2], 0.2]
+        assert is_free(BALL, post, moves, Motion(beside))
+        nearest = closest_approach(BALL, post, moves, Motion(beside), tolerance=1e-6)
+        sampled = min(
+            np.linalg.norm(np.subtract(tip(1.5 * t, 1.5 * t), beside)) - 0.15 for t in np.linspace(0, 1, 10_001)
+        )
+        assert nearest.lower <= sampled and sampled - 1e-5 <= nearest.upper
+
+
+def test_links_see_each_other() -> None:
+    chain = arm()
+    # The tip folds back onto the shoulder: 3 away when stretched, 1 when folded.
+    folds = chain.link(3, [0, 0, 0], [0, math.pi, 0]).seen_from(0)
+    assert first_contact(BALL, Body.sphere(0.8), folds) is None
+    hit = first_contact(BALL, Body.sphere(1), folds)
+    assert hit is not None and 0.5 < hit.time < 1
+
+
+def test_positions_are_checked() -> None:
+    chain = arm()
+    for link, positions in ((4, [0, 0, 0]), (1, [0, 0]), (1, [5, 0, 0]), (1, [math.nan, 0, 0])):
+        with pytest.raises(InputError):
+            chain.link(link, positions, positions)
+    with pytest.raises(InputError):
+        chain.link(3, [0, 0, 0], [0, 0, 0], duration=0)
+    with pytest.raises(InputError):
+        chain.link(1, [0, 0, 0], [1, 0, 0]).seen_from(2)
+    with pytest.raises(InputError, match="limits"):
+        Joint.revolute(HERE, [0, 0, 1], limits=(1, 0))
+    with pytest.raises(InputError):
+        Joint.prismatic(HERE, [0, 0, 0])
+    with pytest.raises(TypeError):
+        Chain([HERE])
+    with pytest.raises(OverflowError):
+        chain.link(-1, [0, 0, 0], [0, 0, 0])
+    assert Joint.prismatic(HERE, [1, 0, 0], limits=(0, 1)).limits == (0, 1)
+
+
+def test_a_path_is_followed_from_pose_to_pose() -> None:
+    stops = np.tile(np.eye(4), (3, 1, 1))
+    stops[:, 0, 3] = [-3, -2, 2]
+    path = Path([0, 1, 2], stops)
+    assert path.end == 2 and path.pose(1.5)[0, 3] == pytest.approx(0)
+    hit = first_contact(BALL, BALL, path, duration=2)
+    assert hit is not None and hit.time == pytest.approx(1 + 1.8 / 4, abs=1e-3)
+    assert first_contact(BALL, BALL, path) is None
+    assert first_contact(BALL, BALL, Path(np.arange(2), [HERE, HERE])).kind == "overlapping"  # type: ignore[union-attr]
+    for times, poses in (([0, 1], stops), ([0, 1, 1], stops), ([], []), ([0, 1, math.inf], stops)):
+        with pytest.raises(InputError):
+            Path(times, poses)
+
+
+def test_what_is_no_motion_is_refused() -> None:
+    with pytest.raises(TypeError, match="motion_a: a Motion, a Path or a link of a Chain is needed, not list"):
+        first_contact(BALL, BALL, [1, 2, 3])  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="motion_b"):
+        is_free(BALL, BALL, None, arm())  # type: ignore[arg-type]
+
+
+def test_bodies_may_be_the_same_object() -> None:
+    chain = arm()
+    moves = chain.link(3, [0, 0, 0], [1, 1, 0])
+    del chain
+    assert distance(BALL, BALL, moves.pose(0)).upper == pytest.approx(2.8)
+    assert first_contact(BALL, BALL, moves, moves).kind == "overlapping"  # type: ignore[union-attr]

@@ -1,0 +1,391 @@
+"""Tables of motions, of all kinds, against single queries."""
+
+import math
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from rigid_ccd import (
+    Body,
+    InputError,
+    Interrupted,
+    Motion,
+    Table,
+    are_free,
+    closest_approaches,
+    contact_intervals,
+    distances,
+    first_contact,
+    first_contacts,
+)
+
+BALL = Body.sphere(0.5)
+WALL = Body.box(0.1, 5, 5)
+COLUMNS = (
+    "id status time distance_lower distance_upper normal_x normal_y normal_z witness_a_x witness_a_y witness_a_z "
+    "witness_b_x witness_b_y witness_b_z feature_a feature_b iterations oracle_calls micros reason"
+).split()
+
+
+def shots(rows: int) -> dict[str, NDArray[Any]]:
+    """Balls from all sides, of which about half hit."""
+    random = np.random.default_rng(1)
+    return {
+        "id": np.array([f"shot {k}" for k in range(rows)]),
+        "a_px": np.full(rows, -3.0),
+        "a_vx": random.uniform(1, 4, rows),
+        "a_wy": random.uniform(-9, 9, rows),
+        "b_vy": random.uniform(-1, 1, rows),
+    }
+
+
+def as_pyarrow(columns: Any) -> Any:
+    return pytest.importorskip("pyarrow").table(columns)
+
+
+def as_chunks(columns: Any) -> Any:
+    pyarrow = pytest.importorskip("pyarrow")
+    return pyarrow.concat_tables([pyarrow.table(columns).slice(k, 7) for k in range(0, len(columns["id"]), 7)])
+
+
+def as_reader(columns: Any) -> Any:
+    return as_chunks(columns).to_reader()
+
+
+def as_batch(columns: Any) -> Any:
+    return pytest.importorskip("pyarrow").record_batch(columns)
+
+
+def as_polars(columns: Any) -> Any:
+    return pytest.importorskip("polars").DataFrame(columns)
+
+
+def as_pandas(columns: Any) -> Any:
+    return pytest.importorskip("pandas").DataFrame(columns)
+
+
+def as_duckdb(columns: Any) -> Any:
+    arrows = as_pyarrow(columns)  # noqa: F841
+    return pytest.importorskip("duckdb").sql("select * from arrows")
+
+
+KINDS = [dict, Table, as_pyarrow, as_chunks, as_reader, as_batch, as_polars, as_pandas, as_duckdb]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_rows_have_the_answers_of_single_queries(kind: Callable[[Any], Any]) -> None:
+    columns = shots(100)
+    found = first_contacts(BALL, WALL, kind(columns))
+    assert found.column_names == COLUMNS and len(found) == 100
+    assert found["id"].tolist() == columns["id"].tolist()
+    hits = 0
+    for k in range(100):
+        flies = Motion([-3, 0, 0], velocity=[columns["a_vx"][k], 0, 0], spin=[0, columns["a_wy"][k], 0])
+        hit = first_contact(BALL, WALL, flies, Motion(velocity=[0, columns["b_vy"][k], 0]))
+        hits += hit is not None
+        assert found["status"][k] == (hit.kind if hit else "free")
+        assert found["time"][k] == (hit.time if hit else 1)
+        if hit:
+            assert hit.distance == (found["distance_lower"][k], found["distance_upper"][k])
+            assert hit.witness_b == tuple(found[f"witness_b_{axis}"][k] for axis in "xyz")
+    assert 30 < hits < 70
+    assert repr(found) == f"Table(100 rows, 20 columns, {counts(found)})"
+
+
+def counts(found: Table) -> str:
+    names, firsts, number = np.unique(found["status"].astype(str), return_index=True, return_counts=True)
+    return ", ".join(f"{number[k]} {names[k]}" for k in np.argsort(firsts))
+
+
+def test_results_are_the_same_on_any_number_of_threads() -> None:
+    columns = shots(500)
+    one = first_contacts(BALL, WALL, columns, threads=1, micros=False)
+    for threads in (2, 3, 16, None):
+        same(first_contacts(BALL, WALL, columns, threads=threads, micros=False), one)
+    with ThreadPoolExecutor(4) as pool:
+        for found in pool.map(lambda _: first_contacts(BALL, WALL, columns, micros=False), range(8)):
+            same(found, one)
+
+
+def same(found: Table, other: Table) -> None:
+    for name in other:
+        assert np.array_equal(found[name], other[name], equal_nan=found[name].dtype == float), name
+
+
+@pytest.mark.parametrize("dtype", ["int8", "int64", "float32", ">f8", "float16"])
+def test_numbers_of_any_kind_are_taken(dtype: str) -> None:
+    columns = {"a_px": np.array([-3, -2], dtype), "a_vx": np.array([4, 1], dtype)}
+    expected = first_contacts(BALL, WALL, {"a_px": [-3.0, -2.0], "a_vx": [4.0, 1.0]}, micros=False)
+    same(first_contacts(BALL, WALL, columns, micros=False), expected)
+    if dtype not in (">f8", "float16"):
+        same(first_contacts(BALL, WALL, as_pyarrow(columns), micros=False), expected)
+    wide = np.zeros((4, 3), dtype)
+    wide[::2, 1] = [-3, -2]
+    columns["a_px"] = wide[::2, 1]
+    same(first_contacts(BALL, WALL, columns, micros=False), expected)
+
+
+def test_ids_come_back_as_they_are() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    start = {"a_px": [-3.0, -3.0]}
+    assert first_contacts(BALL, WALL, {"id": np.array([7, 9], "uint16"), **start})["id"].tolist() == [7, 9]
+    assert first_contacts(BALL, WALL, start)["id"].tolist() == [0, 1]
+    for ids in (
+        pyarrow.array(["x", None]),
+        pyarrow.array([3, 4], pyarrow.int16()),
+        pyarrow.array(["x", "y"]).dictionary_encode(),
+        pyarrow.array(["x", "y"], pyarrow.string_view()),
+    ):
+        found = pyarrow.table(first_contacts(BALL, WALL, pyarrow.table({"id": ids, **start})))
+        assert found.schema.field("id").type == ids.type
+        assert found["id"].to_pylist() == ids.to_pylist()
+
+
+def test_bad_rows_are_rows() -> None:
+    columns = {
+        "a_px": [-3, math.nan, -3, -3, -3],
+        "a_vx": [4.0, 4, math.inf, 4, 4],
+        "duration": [1.0, 1, 1, -1, 1],
+        "a_qw": [1.0, 1, 1, 1, 0],
+        "a_qx": [0.0] * 5,
+        "a_qy": [0.0] * 5,
+        "a_qz": [0.0] * 5,
+    }
+    found = first_contacts(BALL, WALL, columns)
+    assert found["status"].tolist() == ["contact"] + 4 * ["error"]
+    assert np.isnan(found["time"][1:]).all()
+    reasons = found["reason"]
+    for row, words in ((1, "column a_px: `NaN`"), (2, "column a_vx: `inf`"), (3, "duration"), (4, "zero quaternion")):
+        assert words in reasons[row]
+    assert reasons[0] is None
+
+
+def test_empty_cells_have_defaults() -> None:
+    table = as_pyarrow({"a_px": [-3.0, -3.0], "a_vx": [4.0, None], "duration": [None, 2.0]})
+    found = first_contacts(BALL, WALL, table)
+    assert found["status"].tolist() == ["contact", "free"]
+    assert found["time"][1] == 2
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"a_x": [1.0]}, "unknown column `a_x`; did you mean `a_px`"),
+        ({"time": [1.0]}, "unknown column `time`; known columns are id, duration"),
+        ({"a_qw": [1.0], "a_qx": [0.0]}, "no column `a_qy`, but column `a_qw` needs it"),
+        ({"a_end_px": [1.0]}, "no column `a_end_py`"),
+        ({"t": [0.0], "a_vx": [1.0]}, "unknown column `a_vx`; a table with a column t"),
+        ({}, "there is no column"),
+        ({"a_px": [1.0], "a_py": [1.0, 2.0]}, "column a_py: has 2 rows, but the first column has 1"),
+        ({"a_px": ["x"]}, "column a_px: numbers are needed, not"),
+        ({"a_px": [True]}, "column a_px: numbers are needed, not bool"),
+        ({"a_px": [1 + 2j]}, "column a_px: numbers are needed"),
+        ({"a_px": [[1.0]]}, "column a_px: an array of one dimension is needed, not of 2"),
+        ({"a_px": 1.0}, "column a_px: an array of one dimension is needed, not of 0"),
+        ({"a_px": [None]}, "column a_px: numbers are needed, not object"),
+    ],
+)
+def test_bad_columns_are_one_clear_error(columns: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError) as error:
+        first_contacts(BALL, WALL, columns)
+    assert message in str(error.value)
+
+
+def test_arrow_columns_of_other_types_are_refused() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    for column in (["x"], [True], [[1.0]], [b"x"]):
+        with pytest.raises(InputError, match="column a_px: numbers are needed"):
+            first_contacts(BALL, WALL, pyarrow.table({"a_px": column}))
+    nothing = pyarrow.table({"a_px": pyarrow.nulls(2), "a_vx": [9.0, 1.0]})
+    assert first_contacts(BALL, WALL, nothing)["status"].tolist() == ["overlapping"] * 2
+
+
+def test_what_is_no_table_is_refused() -> None:
+    for wrong in (None, 1, "motions.csv", [1, 2], np.zeros(3)):
+        with pytest.raises(TypeError, match="motions: an Arrow table"):
+            first_contacts(BALL, WALL, wrong)
+    with pytest.raises(TypeError):
+        first_contacts(BALL, "wall", {"a_px": [1.0]})  # type: ignore[arg-type]
+
+
+def test_bad_settings_are_refused_at_once() -> None:
+    settings: list[dict[str, Any]] = [
+        {"tolerance": 0},
+        {"tolerance": math.nan},
+        {"margin": -1},
+        {"deadline": -1},
+        {"deadline": math.nan},
+    ]
+    for wrong in settings:
+        with pytest.raises(InputError):
+            first_contacts(BALL, WALL, shots(3), **wrong)
+    for wrong in ({"threads": 0}, {"threads": -1}, {"budget": -1}):
+        with pytest.raises((ValueError, OverflowError)):
+            first_contacts(BALL, WALL, shots(3), **wrong)
+    with pytest.raises(TypeError, match="speed"):
+        first_contacts(BALL, WALL, shots(3), speed=1)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="clearance"):
+        first_contact(BALL, WALL, clearance=1)  # type: ignore[call-arg]
+
+
+def test_tables_without_rows_have_columns() -> None:
+    found = first_contacts(BALL, WALL, {"a_px": np.zeros(0)})
+    assert len(found) == 0 and found.column_names == COLUMNS
+    assert found["time"].dtype == float and found["iterations"].dtype == int
+    assert len(first_contacts(BALL, WALL, as_pyarrow({"id": np.zeros(0, str)}))) == 0
+
+
+def test_a_budget_leaves_rows_unresolved() -> None:
+    rods = Body.capsule(0.01, 2)
+    columns = {"a_px": [-3.0], "a_vx": [4.0], "a_wx": [300.0], "a_wy": [200.0], "a_wz": [100.0]}
+    found = first_contacts(rods, rods, columns, tolerance=1e-9, budget=1)
+    assert found["status"].tolist() == ["unresolved"]
+    assert 0 <= found["time"][0] <= 1 and "budget" in found["reason"][0]
+
+
+def test_other_questions() -> None:
+    columns = {"a_px": [-3.0, -3.0], "a_vx": [1.0, 9.0]}
+    assert are_free(BALL, WALL, columns)["status"].tolist() == ["free", "contact"]
+    interval = contact_intervals(BALL, WALL, columns)
+    assert interval.column_names == [*COLUMNS, "last_time"]
+    assert interval["time"][1] == pytest.approx(2.4 / 9, abs=1e-3)
+    assert interval["last_time"][1] == pytest.approx(3.6 / 9, abs=1e-3)
+    nearest = closest_approaches(BALL, WALL, columns, clearance=1.0)
+    assert nearest["status"].tolist() == ["kept", "violated"]
+    assert nearest["distance_lower"][0] == pytest.approx(1.4, abs=1e-3)
+    apart = distances(BALL, WALL, columns)
+    assert apart["status"].tolist() == ["measured"] * 2
+    assert apart["distance_upper"] == pytest.approx([2.4, 2.4])
+    with pytest.raises(InputError, match="clearance"):
+        first_contacts(BALL, WALL, columns, clearance=1.0)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="margin"):
+        distances(BALL, WALL, columns, margin=1.0)  # type: ignore[call-arg]
+
+
+@pytest.mark.parametrize("kind", [dict, as_pyarrow, as_chunks])
+def test_rows_with_a_time_are_poses_of_paths(kind: Callable[[Any], Any]) -> None:
+    columns = {
+        "id": np.array(["far", "far", "near", "near", "near"]),
+        "t": np.array([0.0, 1, 0, 1, 2]),
+        "a_px": np.array([-3.0, -2, -3, -2, 2]),
+    }
+    found = first_contacts(BALL, WALL, kind(columns))
+    assert found["id"].tolist() == ["far", "near"]
+    assert found["status"].tolist() == ["free", "contact"]
+    # From -2 to 2 in a unit of time: the ball's front is at the wall after 1.4.
+    assert found["time"][1] == pytest.approx(1 + 1.4 / 4, abs=1e-3)
+    assert len(distances(BALL, WALL, kind(columns))) == 5
+    columns["t"][1] = 0
+    found = first_contacts(BALL, WALL, kind(columns))
+    assert found["status"].tolist() == ["error", "contact"] and "not later" in found["reason"][0]
+
+
+def test_results_go_everywhere_without_a_copy() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    found = first_contacts(BALL, WALL, shots(50))
+    column = found["time"]
+    assert not column.flags.writeable and not column.flags.owndata
+    table = pyarrow.table(found)
+    assert table["time"].chunk(0).buffers()[1].address == column.ctypes.data
+    assert table.column_names == COLUMNS and table["status"].null_count == 0
+    assert as_polars(found).columns == COLUMNS
+    assert pytest.importorskip("pandas").DataFrame.from_arrow(found).shape == (50, 20)
+    assert pytest.importorskip("duckdb").sql("select count(*) from found").fetchall() == [(50,)]
+    assert list(dict(found)) == COLUMNS == list(found) == found.keys()
+    assert "time" in found and "times" not in found
+    with pytest.raises(KeyError):
+        found["times"]
+    some = found.take([4, 2, 2])
+    assert some["id"].tolist() == ["shot 4", "shot 2", "shot 2"]
+    with pytest.raises(InputError):
+        found.take([50])
+    # A column outlives its table.
+    del found, table
+    assert np.isfinite(column).all()
+
+
+def test_float64_columns_are_not_copied() -> None:
+    column = np.linspace(-3, -2, 1_000_000)
+    table = Table({"a_px": column})
+    assert np.shares_memory(table["a_px"], column)
+
+
+def test_progress_is_told() -> None:
+    told: list[tuple[int, int | None]] = []
+    columns = shots(2000)
+    first_contacts(BALL, WALL, columns, progress=lambda done, rows: told.append((done, rows)))
+    assert told[-1] == (2000, 2000) and sorted(told) == told
+    first_contacts(BALL, WALL, as_reader(columns), progress=lambda done, rows: told.append((done, rows)))
+    assert told[-1] == (2000, None)
+    tqdm = pytest.importorskip("tqdm").tqdm
+    with tqdm(total=2000, disable=None) as bar:
+        bar.n = 0
+        first_contacts(BALL, WALL, columns, progress=bar)
+    first_contacts(BALL, WALL, columns, progress=True)
+
+
+def test_an_exception_of_the_progress_ends_the_table() -> None:
+    def fails(done: int, rows: int | None) -> None:
+        raise ZeroDivisionError("told")
+
+    with pytest.raises(ZeroDivisionError, match="told") as error:
+        first_contacts(BALL, WALL, shots(10), progress=fails)
+    assert isinstance(error.value.results, Table)  # type: ignore[attr-defined]
+
+
+def knot(size: int) -> Body:
+    """A torus knot, with enough triangles to keep a query busy."""
+    around, along = np.meshgrid(np.arange(16) * math.tau / 16, np.arange(size) * math.tau / size)
+    radius = 1 + 0.4 * np.cos(3 * along) + 0.15 * np.cos(around)
+    place = np.stack(
+        [
+            radius * np.cos(2 * along),
+            radius * np.sin(2 * along),
+            0.4 * np.sin(3 * along) + 0.15 * np.sin(around),
+        ],
+        axis=-1,
+    )
+    corner = np.arange(16 * size).reshape(size, 16)
+    a, b = corner, np.roll(corner, -1, 0)
+    c, d = np.roll(b, -1, 1), np.roll(a, -1, 1)
+    faces = np.concatenate([np.stack(f, -1).reshape(-1, 3) for f in ((a, b, c), (a, c, d))])
+    return Body(place.reshape(-1, 3), faces)
+
+
+@pytest.mark.parametrize("rows", [1, 100_000])
+def test_ctrl_c_ends_a_table_with_what_is_done(rows: int) -> None:
+    body = knot(600)
+    random = np.random.default_rng(1)
+    # It turns a hundred thousand times, and barely misses each time: minutes of work.
+    columns = {"a_px": random.uniform(3.2, 3.4, rows), "a_wx": np.full(rows, 6e5), "a_wy": np.full(rows, 6e5)}
+    interrupt(0.5)
+    begin = time.perf_counter()
+    with pytest.raises(Interrupted) as error:
+        first_contacts(body, body, columns, tolerance=1e-9, budget=2**60)
+    assert time.perf_counter() - begin < 0.5 + 1
+    assert isinstance(error.value, KeyboardInterrupt)
+    done = error.value.results
+    assert len(done) < rows and "unresolved" not in done["status"]
+    assert done["id"].tolist() == list(range(len(done)))
+
+
+def test_ctrl_c_ends_a_single_query() -> None:
+    body = knot(600)
+    interrupt(0.5)
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        first_contact(body, body, Motion([3.3, 0, 0], spin=[6e5, 6e5, 0]), tolerance=1e-9, budget=2**60)
+    assert time.perf_counter() - begin < 0.5 + 1
+
+
+def interrupt(seconds: float) -> None:
+    """Sends Ctrl-C to this process, later."""
+    threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT)).start()
