@@ -23,6 +23,15 @@ pub enum InputError {
         /// The accepted values, in words.
         allowed: &'static str,
     },
+    /// A joint is outside of its limits.
+    JointPosition {
+        /// The joint's index in its chain, if it is in one.
+        joint: Option<usize>,
+        /// The position.
+        position: f64,
+        /// The least and the greatest position.
+        limits: [f64; 2],
+    },
     /// A body needs at least one piece.
     NoPieces,
     /// A piece needs at least one point.
@@ -97,6 +106,22 @@ impl fmt::Display for InputError {
                 value,
                 allowed,
             } => write!(f, "{what} is {}, but must be {allowed}", Short(*value)),
+            Self::JointPosition {
+                joint,
+                position,
+                limits: [least, greatest],
+            } => {
+                match joint {
+                    Some(joint) => write!(f, "joint {joint}")?,
+                    None => write!(f, "the joint")?,
+                }
+                let (position, least, greatest) =
+                    (Short(*position), Short(*least), Short(*greatest));
+                write!(
+                    f,
+                    " is at {position}, but its limits are {least} and {greatest}"
+                )
+            }
             Self::NoPieces => write!(f, "a body needs at least one piece"),
             Self::EmptyPiece { piece } => write!(f, "piece {piece} has no points"),
             Self::BadPoint { piece, point } => write!(

@@ -33,8 +33,10 @@ pub(crate) struct PyDistance {
     lower: f64,
     /// At `time` they are at most this far apart.
     upper: f64,
-    /// When they are nearest.
+    /// When they are nearest; 0 where they overlap at the start.
     time: f64,
+    /// Whether they overlap at the start.
+    is_overlapping: bool,
     /// The nearest point of body A, in the world at that time; None where they overlap at the start.
     witness_a: Option<(f64, f64, f64)>,
     /// The nearest point of body B.
@@ -55,8 +57,15 @@ impl PyContact {
 impl PyDistance {
     fn __repr__(&self) -> String {
         format!(
-            "Distance(lower={:?}, upper={:?}, time={:?})",
-            self.lower, self.upper, self.time
+            "Distance(lower={:?}, upper={:?}, time={:?}{})",
+            self.lower,
+            self.upper,
+            self.time,
+            if self.is_overlapping {
+                ", is_overlapping=True"
+            } else {
+                ""
+            }
         )
     }
 }
@@ -95,6 +104,7 @@ impl PyDistance {
             lower: found.lower(),
             upper: found.upper(),
             time: nearest.map_or(0.0, |(time, _)| time),
+            is_overlapping: matches!(found, ClosestApproach::Overlapping { .. }),
             witness_a: points.map(|points| tuple(points.witness_a)),
             witness_b: points.map(|points| tuple(points.witness_b)),
         }

@@ -33,16 +33,16 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     }
     let array = as_array(&given, "int64", "faces")?;
     let array: PyReadonlyArray2<'_, i64> = of_shape(&array, 3, "faces")?;
-    let index = |(face, index): (usize, i64)| {
+    let corner = |(face, index): (usize, i64)| {
         u32::try_from(index).map_err(|_| input(format!("faces: face {face} has the index {index}")))
     };
     let rows = array.as_array();
     let rows = rows.rows().into_iter().enumerate();
     rows.map(|(face, row)| {
         Ok([
-            index((face, row[0]))?,
-            index((face, row[1]))?,
-            index((face, row[2]))?,
+            corner((face, row[0]))?,
+            corner((face, row[1]))?,
+            corner((face, row[2]))?,
         ])
     })
     .collect()
@@ -55,15 +55,25 @@ pub(crate) fn vector(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; 3]
 
 /// Reads `N` numbers.
 pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; N]> {
-    let array = as_array(values, "float64", what)?;
-    let found: Vec<f64> = array
-        .call_method0("ravel")?
-        .call_method0("tolist")?
-        .extract()?;
+    let found = any_numbers(values, what)?;
     let length = found.len();
     found
         .try_into()
         .map_err(|_| input(format!("{what}: {N} numbers are needed, not {length}")))
+}
+
+/// Reads any number of numbers.
+pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
+    let array = as_array(values, "float64", what)?;
+    array
+        .call_method0("ravel")?
+        .call_method0("tolist")?
+        .extract()
+}
+
+/// Reads an index.
+pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
+    usize::try_from(value).map_err(|_| input(format!("{what} is {value}, but must be at least 0")))
 }
 
 /// Returns the shape of what NumPy makes of some values.

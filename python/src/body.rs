@@ -1,7 +1,7 @@
 //! Bodies.
 
 use crate::arrays::{rows, triangles};
-use crate::errors::{InputError, input};
+use crate::errors::{InputError, input, wrong_type};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
@@ -41,7 +41,7 @@ enum Made {
     Box([f64; 3]),
     Sphere(f64),
     Capsule(f64, f64),
-    Mesh(Model),
+    Mesh(Box<Model>),
 }
 
 #[pymethods]
@@ -107,7 +107,18 @@ impl PyBody {
         mesh: &Bound<'_, PyAny>,
         pieces: &str,
     ) -> PyResult<Self> {
-        PyBody::new(&mesh.getattr("vertices")?, &mesh.getattr("faces")?, pieces)
+        let part = |name: &str| match mesh.getattr_opt(name)? {
+            Some(values) => Ok(values),
+            None if mesh.hasattr("to_mesh")? => {
+                Err(wrong_type("mesh", "a mesh, such as scene.to_mesh(),", mesh))
+            }
+            None => Err(wrong_type(
+                "mesh",
+                "an object with vertices and faces",
+                mesh,
+            )),
+        };
+        PyBody::new(&part("vertices")?, &part("faces")?, pieces)
     }
 
     /// Makes a box about its origin, by its half extents along x, y and z.
@@ -202,7 +213,7 @@ impl PyBody {
         Ok(PyBody {
             body: model.body().map_err(input)?,
             report: model.report.to_string(),
-            made: Made::Mesh(model),
+            made: Made::Mesh(Box::new(model)),
         })
     }
 

@@ -1,18 +1,27 @@
 //! Serial chains: the links of an arm.
 
-use crate::arrays::vector;
+use crate::arrays::{any_numbers, index, numbers, vector};
 use crate::errors::input;
-use crate::motion::{matrix_of, pose_of};
+use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
-use pyo3::types::PyType;
-use rigid_ccd::Pose;
+use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::trajectory::{Chain, Joint, Link, Trajectory};
 
 /// A joint of a `Chain`, as in URDF: `Joint.revolute`, `Joint.prismatic` or `Joint.fixed`.
 #[pyclass(name = "Joint", module = "rigid_ccd", frozen)]
 pub(crate) struct PyJoint {
     joint: Joint,
-    kind: &'static str,
+    kind: Kind,
+    origin: GivenPose,
+    limits: Option<[f64; 2]>,
+}
+
+/// The freedom of a joint, with its axis.
+#[derive(Clone, Copy)]
+enum Kind {
+    Revolute([f64; 3]),
+    Prismatic([f64; 3]),
+    Fixed,
 }
 
 #[pymethods]
@@ -24,42 +33,51 @@ impl PyJoint {
     ///     axis: in the joint's frame, of any length.
     ///     limits: the least and the greatest position; None allows any.
     #[classmethod]
-    #[pyo3(signature = (origin, axis, *, limits = None))]
+    #[pyo3(signature = (origin, axis, limits = None))]
     fn revolute(
         _class: &Bound<'_, PyType>,
         origin: &Bound<'_, PyAny>,
         axis: &Bound<'_, PyAny>,
-        limits: Option<(f64, f64)>,
+        limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (origin, axis) = (pose_of(origin, "origin")?, vector(axis, "axis")?);
-        PyJoint::within(
-            "revolute",
-            Joint::revolute(origin, axis).map_err(input)?,
-            limits,
-        )
+        PyJoint::of(Kind::Revolute(vector(axis, "axis")?), origin, limits)
     }
 
     /// A joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
     #[classmethod]
-    #[pyo3(signature = (origin, axis, *, limits = None))]
+    #[pyo3(signature = (origin, axis, limits = None))]
     fn prismatic(
         _class: &Bound<'_, PyType>,
         origin: &Bound<'_, PyAny>,
         axis: &Bound<'_, PyAny>,
-        limits: Option<(f64, f64)>,
+        limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (origin, axis) = (pose_of(origin, "origin")?, vector(axis, "axis")?);
-        PyJoint::within(
-            "prismatic",
-            Joint::prismatic(origin, axis).map_err(input)?,
-            limits,
-        )
+        PyJoint::of(Kind::Prismatic(vector(axis, "axis")?), origin, limits)
     }
 
     /// A joint without a freedom. It has a position all the same, which does not matter.
     #[classmethod]
     fn fixed(_class: &Bound<'_, PyType>, origin: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyJoint::within("fixed", Joint::fixed(pose_of(origin, "origin")?), None)
+        PyJoint::of(Kind::Fixed, origin, None)
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let PyJoint {
+            kind,
+            origin,
+            limits,
+            ..
+        } = slf.get();
+        let make = slf.get_type().getattr(kind.name())?;
+        let parts = match *kind {
+            Kind::Revolute(axis) | Kind::Prismatic(axis) => {
+                (*origin, axis, *limits).into_pyobject(slf.py())?
+            }
+            Kind::Fixed => (*origin,).into_pyobject(slf.py())?,
+        };
+        Ok((make, parts))
     }
 
     /// The least and the greatest position.
@@ -71,21 +89,54 @@ impl PyJoint {
 
     fn __repr__(&self) -> String {
         let (low, high) = self.limits();
-        format!("Joint.{}(limits=({low}, {high}))", self.kind)
+        let name = self.kind.name();
+        match self.kind {
+            Kind::Revolute([x, y, z]) | Kind::Prismatic([x, y, z]) => {
+                format!("Joint.{name}(axis=({x}, {y}, {z}), limits=({low}, {high}))")
+            }
+            Kind::Fixed => format!("Joint.{name}()"),
+        }
+    }
+}
+
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Kind::Revolute(_) => "revolute",
+            Kind::Prismatic(_) => "prismatic",
+            Kind::Fixed => "fixed",
+        }
     }
 }
 
 impl PyJoint {
-    fn within(kind: &'static str, joint: Joint, limits: Option<(f64, f64)>) -> PyResult<Self> {
+    fn of(
+        kind: Kind,
+        origin: &Bound<'_, PyAny>,
+        limits: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let origin = given_pose(origin, "origin")?;
+        let pose = origin.pose()?;
+        let joint = match kind {
+            Kind::Revolute(axis) => Joint::revolute(pose, axis),
+            Kind::Prismatic(axis) => Joint::prismatic(pose, axis),
+            Kind::Fixed => Ok(Joint::fixed(pose)),
+        };
+        let limits = limits.map(|limits| numbers(limits, "limits")).transpose()?;
         let joint = match limits {
             // Written so that NaN is refused.
-            Some((low, high)) if !(low <= high) => {
+            Some([low, high]) if !(low <= high) => {
                 return Err(input(format!("limits: {low} is not at most {high}")));
             }
-            Some((low, high)) => joint.within(low..=high),
-            None => joint,
+            Some([low, high]) => joint.map_err(input)?.within(low..=high),
+            None => joint.map_err(input)?,
         };
-        Ok(PyJoint { joint, kind })
+        Ok(PyJoint {
+            joint,
+            kind,
+            origin,
+            limits,
+        })
     }
 }
 
@@ -107,6 +158,9 @@ impl PyJoint {
 #[pyclass(name = "Chain", module = "rigid_ccd", frozen)]
 pub(crate) struct PyChain {
     chain: Chain,
+    /// What the chain is made of again.
+    joints: Vec<Py<PyJoint>>,
+    base: GivenPose,
 }
 
 #[pymethods]
@@ -114,11 +168,33 @@ impl PyChain {
     #[new]
     #[pyo3(signature = (joints, base = None))]
     fn new(joints: Vec<Py<PyJoint>>, base: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let base = base.map_or(Ok(Pose::IDENTITY), |base| pose_of(base, "base"))?;
-        let joints = joints.iter().map(|joint| joint.get().joint.clone());
+        let base = base.map_or(Ok(GivenPose::IDENTITY), |base| given_pose(base, "base"))?;
+        let of_chain = joints.iter().map(|joint| joint.get().joint.clone());
         Ok(PyChain {
-            chain: Chain::new(base, joints.collect()),
+            chain: Chain::new(base.pose()?, of_chain.collect()),
+            joints,
+            base,
         })
+    }
+
+    /// The joints, in order from the base.
+    #[getter]
+    fn joints(&self, py: Python<'_>) -> Vec<Py<PyJoint>> {
+        self.joints
+            .iter()
+            .map(|joint| joint.clone_ref(py))
+            .collect()
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, ChainParts) {
+        let chain = slf.get();
+        (slf.get_type(), (chain.joints(slf.py()), chain.base))
+    }
+
+    fn __repr__(&self) -> String {
+        let joints = self.joints.iter().map(|joint| joint.get().kind.name());
+        let joints: Vec<&str> = joints.collect();
+        format!("Chain({} joints: {})", joints.len(), joints.join(", "))
     }
 
     fn __len__(&self) -> usize {
@@ -129,13 +205,12 @@ impl PyChain {
     fn pose<'py>(
         &self,
         py: Python<'py>,
-        link: usize,
-        positions: Vec<f64>,
+        link: i64,
+        positions: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
-        Ok(matrix_of(
-            py,
-            &self.chain.pose(link, &positions).map_err(input)?,
-        ))
+        let positions = any_numbers(positions, "positions")?;
+        let pose = self.chain.pose(index(link, "link")?, &positions);
+        Ok(matrix_of(py, &pose.map_err(input)?))
     }
 
     /// A link while all joints move at constant rates: an edge of a planner.
@@ -149,26 +224,28 @@ impl PyChain {
     ///
     /// Raises:
     ///     InputError: a position is outside of its joint's limits, or there are more or fewer than joints.
-    #[pyo3(signature = (link, start, end, *, duration = 1.0))]
+    #[pyo3(signature = (link, start, end, duration = 1.0))]
     fn link(
         slf: Bound<'_, Self>,
-        link: usize,
-        start: Vec<f64>,
-        end: Vec<f64>,
+        link: i64,
+        start: &Bound<'_, PyAny>,
+        end: &Bound<'_, PyAny>,
         duration: f64,
     ) -> PyResult<PyLink> {
-        let link = PyLink {
+        PyLink {
             chain: slf.unbind(),
-            link,
+            link: index(link, "link")?,
             seen_from: None,
-            start,
-            end,
+            start: any_numbers(start, "start")?,
+            end: any_numbers(end, "end")?,
             duration,
-        };
-        link.link()?;
-        Ok(link)
+        }
+        .checked()
     }
 }
+
+/// The joints of a chain, and its base.
+type ChainParts = (Vec<Py<PyJoint>>, GivenPose);
 
 /// A moving link of a `Chain`; `Chain.link` makes it.
 #[pyclass(name = "Link", module = "rigid_ccd", frozen)]
@@ -184,17 +261,18 @@ pub(crate) struct PyLink {
 #[pymethods]
 impl PyLink {
     /// The same link in the frame of another, nearer to the base: ask about it against that link's body at rest.
-    fn seen_from(&self, py: Python<'_>, link: usize) -> PyResult<Self> {
-        let seen = PyLink {
+    ///
+    /// Witnesses and normals are in that frame, too: `chain.pose(other, ...)` takes them to the world.
+    fn seen_from(&self, py: Python<'_>, link: i64) -> PyResult<Self> {
+        PyLink {
             chain: self.chain.clone_ref(py),
             link: self.link,
-            seen_from: Some(link),
+            seen_from: Some(index(link, "link")?),
             start: self.start.clone(),
             end: self.end.clone(),
             duration: self.duration,
-        };
-        seen.link()?;
-        Ok(seen)
+        }
+        .checked()
     }
 
     /// The pose at a time, as a matrix of shape (4, 4).
@@ -203,18 +281,61 @@ impl PyLink {
         Ok(matrix_of(py, &pose.map_err(input)?))
     }
 
+    /// The time at which the joints are at `end`.
+    #[getter]
+    pub(crate) fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let link = slf.get();
+        let ends = (&link.start, &link.end, link.duration);
+        let parts = (&link.chain, link.link, link.seen_from, ends);
+        let make = slf.get_type().getattr("_of")?;
+        Ok((make, parts.into_pyobject(slf.py())?))
+    }
+
+    /// Makes a link of what pickle has kept of it.
+    #[classmethod]
+    fn _of(
+        _class: &Bound<'_, PyType>,
+        chain: Py<PyChain>,
+        link: usize,
+        seen_from: Option<usize>,
+        ends: (Vec<f64>, Vec<f64>, f64),
+    ) -> PyResult<Self> {
+        let (start, end, duration) = ends;
+        PyLink {
+            chain,
+            link,
+            seen_from,
+            start,
+            end,
+            duration,
+        }
+        .checked()
+    }
+
     fn __repr__(&self) -> String {
         let seen = self
             .seen_from
             .map_or_else(String::new, |link| format!(", seen_from={link}"));
         format!(
-            "Link({}, start={:?}, end={:?}{seen})",
-            self.link, self.start, self.end
+            "Link({}, start={:?}, end={:?}, duration={}{seen})",
+            self.link, self.start, self.end, self.duration
         )
     }
 }
 
 impl PyLink {
+    /// Refuses positions that the chain cannot have.
+    fn checked(self) -> PyResult<Self> {
+        self.link()?;
+        Ok(self)
+    }
+
     /// Returns the trajectory.
     pub(crate) fn link(&self) -> PyResult<Link<'_>> {
         let chain = &self.chain.get().chain;

@@ -1,7 +1,7 @@
 //! What moves a body: a motion, a link of an arm, a path.
 
 use crate::chain::PyLink;
-use crate::errors::wrong_type;
+use crate::errors::{input, wrong_type};
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
@@ -11,7 +11,7 @@ use rigid_ccd::{Body, Motion, Moving, Travelling};
 /// How a body moves.
 pub(crate) enum Course<'c> {
     Motion(Motion),
-    Link(Link<'c>),
+    Link(Link<'c>, f64),
     Path(&'c Poses),
 }
 
@@ -25,7 +25,7 @@ impl<'c> Course<'c> {
             return Ok(Course::Motion(motion.get().motion));
         }
         if let Ok(link) = given.cast::<PyLink>() {
-            return Ok(Course::Link(link.get().link()?));
+            return Ok(Course::Link(link.get().link()?, link.get().duration()));
         }
         if let Ok(path) = given.cast::<PyPath>() {
             return Ok(Course::Path(&path.get().poses));
@@ -37,10 +37,19 @@ impl<'c> Course<'c> {
         ))
     }
 
+    /// When the course ends; none for a motion, which goes on.
+    fn end(&self) -> Option<f64> {
+        match self {
+            Course::Motion(_) => None,
+            Course::Link(_, duration) => Some(*duration),
+            Course::Path(poses) => Some(poses.end()),
+        }
+    }
+
     fn trajectory(&self) -> &dyn Trajectory {
         match self {
             Course::Motion(motion) => motion,
-            Course::Link(link) => link,
+            Course::Link(link, _) => link,
             Course::Path(poses) => *poses,
         }
     }
@@ -53,6 +62,7 @@ pub(crate) struct Pair<'c> {
 }
 
 /// Two bodies as the solver takes them.
+#[allow(clippy::large_enum_variant, reason = "one at a time, on the stack")]
 pub(crate) enum Moved<'c> {
     /// At constant velocities: the faster way.
     Steadily(Moving<'c>, Moving<'c>),
@@ -60,6 +70,37 @@ pub(crate) enum Moved<'c> {
 }
 
 impl Pair<'_> {
+    /// Returns the duration of a query: by default that of links and paths, which is the same for both, or 1.
+    pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
+        let courses = [&self.a.1, &self.b.1];
+        let ends = courses.iter().filter_map(|course| course.end());
+        let duration = match given {
+            Some(given) => given,
+            None => {
+                let mut ends = ends;
+                let first = ends.next().unwrap_or(1.0);
+                match ends.all(|end| end == first) {
+                    true => first,
+                    false => {
+                        return Err(input(
+                            "duration: the two bodies' motions end at different times; give one",
+                        ));
+                    }
+                }
+            }
+        };
+        for course in courses {
+            if let Course::Link(_, end) = course
+                && duration > *end
+            {
+                return Err(input(format!(
+                    "duration: {duration} is later than {end}, the end of the link's motion: its joints would go on"
+                )));
+            }
+        }
+        Ok(duration)
+    }
+
     pub(crate) fn moved(&self) -> Moved<'_> {
         let (a, b) = (&self.a, &self.b);
         if let (Course::Motion(motion_a), Course::Motion(motion_b)) = (&a.1, &b.1) {

@@ -3,12 +3,13 @@
 use crate::arrays::{numbers, shape, vector};
 use crate::errors::input;
 use pyo3::prelude::*;
-use pyo3::types::PyType;
+use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose};
 
-/// How far the columns of a rotation matrix may be from unit and perpendicular.
-const ORTHONORMAL: f64 = 1e-9;
+/// How far a rotation matrix may be from orthonormal: matrices of float32 that come from a few products are this far
+/// off. The rotation is that of the quaternion that fits it.
+const ORTHONORMAL: f64 = 1e-5;
 
 /// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
 ///
@@ -25,6 +26,23 @@ const ORTHONORMAL: f64 = 1e-9;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
+    made: Made,
+}
+
+/// What a motion is made of again, to the same bits: by pickle, in another process.
+enum Made {
+    Moving {
+        start: GivenPose,
+        velocity: [f64; 3],
+        spin: [f64; 3],
+        center: [f64; 3],
+    },
+    Between {
+        start: GivenPose,
+        end: GivenPose,
+        duration: f64,
+        center: [f64; 3],
+    },
 }
 
 #[pymethods]
@@ -42,15 +60,23 @@ impl PyMotion {
             Some(values) => vector(values, what),
             None => Ok([0.0; 3]),
         };
-        let turned = rotation
-            .map(rotation_of)
-            .transpose()?
-            .unwrap_or(DQuat::IDENTITY);
-        let start = Pose::new(given(position, "position")?, turned).map_err(input)?;
-        let (velocity, spin) = (given(velocity, "velocity")?, given(spin, "spin")?);
-        let motion = Motion::about(start, velocity, spin, given(center, "center")?);
-        Ok(PyMotion {
-            motion: motion.map_err(input)?,
+        let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
+        PyMotion::of(Made::Moving {
+            start: GivenPose(given(position, "position")?, turned),
+            velocity: given(velocity, "velocity")?,
+            spin: given(spin, "spin")?,
+            center: given(center, "center")?,
+        })
+    }
+
+    /// Makes the motion of a body that rests at a pose, which `Motion.between` describes.
+    #[classmethod]
+    fn still(_class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
+        PyMotion::of(Made::Moving {
+            start: given_pose(pose, "pose")?,
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            center: [0.0; 3],
         })
     }
 
@@ -58,7 +84,7 @@ impl PyMotion {
     ///
     /// A pose is a matrix of shape (4, 4), or a pair of a position and a rotation as `Motion` takes them.
     #[classmethod]
-    #[pyo3(signature = (start, end, *, duration = 1.0, center = None))]
+    #[pyo3(signature = (start, end, duration = 1.0, center = None))]
     fn between(
         _class: &Bound<'_, PyType>,
         start: &Bound<'_, PyAny>,
@@ -66,17 +92,43 @@ impl PyMotion {
         duration: f64,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let center = center.map_or(Ok([0.0; 3]), |center| vector(center, "center"))?;
-        let (start, end) = (pose_of(start, "start")?, pose_of(end, "end")?);
-        let motion = Motion::between(start, end, center, duration);
-        Ok(PyMotion {
-            motion: motion.map_err(input)?,
+        PyMotion::of(Made::Between {
+            start: given_pose(start, "start")?,
+            end: given_pose(end, "end")?,
+            duration,
+            center: center.map_or(Ok([0.0; 3]), |center| vector(center, "center"))?,
         })
     }
 
     /// The pose at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, numpy::PyArray2<f64>> {
         matrix_of(py, &self.motion.pose(time))
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, class) = (slf.py(), slf.get_type().into_any());
+        Ok(match slf.get().made {
+            Made::Moving {
+                start: GivenPose(place, turned),
+                velocity,
+                spin,
+                center,
+            } => {
+                let parts = (place, wxyz(turned), velocity, spin, center);
+                (class, parts.into_pyobject(py)?)
+            }
+            Made::Between {
+                start,
+                end,
+                duration,
+                center,
+            } => {
+                let parts = (start, end, duration, center);
+                (class.getattr("between")?, parts.into_pyobject(py)?)
+            }
+        })
     }
 
     fn __repr__(&self) -> String {
@@ -90,6 +142,56 @@ impl PyMotion {
             tuple(self.motion.spin())
         )
     }
+}
+
+impl PyMotion {
+    fn of(made: Made) -> PyResult<Self> {
+        let motion = match &made {
+            Made::Moving {
+                start,
+                velocity,
+                spin,
+                center,
+            } => Motion::about(start.pose()?, *velocity, *spin, *center),
+            Made::Between {
+                start,
+                end,
+                duration,
+                center,
+            } => Motion::between(start.pose()?, end.pose()?, *center, *duration),
+        };
+        let motion = motion.map_err(input)?;
+        Ok(PyMotion { motion, made })
+    }
+}
+
+/// A position and an orientation that is not normalised yet: a normalised one might change when it is normalised again.
+#[derive(Clone, Copy)]
+pub(crate) struct GivenPose([f64; 3], DQuat);
+
+impl GivenPose {
+    pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], DQuat::IDENTITY);
+
+    /// Returns the pose.
+    pub(crate) fn pose(&self) -> PyResult<Pose> {
+        Pose::new(self.0, self.1).map_err(input)
+    }
+}
+
+/// A position and a quaternion, as Python takes them.
+impl<'py> IntoPyObject<'py> for GivenPose {
+    type Target = PyTuple;
+    type Output = Bound<'py, PyTuple>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        (self.0, wxyz(self.1)).into_pyobject(py)
+    }
+}
+
+fn wxyz(rotation: DQuat) -> [f64; 4] {
+    let DQuat { x, y, z, w } = rotation;
+    [w, x, y, z]
 }
 
 /// Makes a matrix of shape (4, 4) of a pose.
@@ -125,32 +227,47 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
 }
 
 fn matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<DQuat> {
-    let rows: [f64; 9] = numbers(value, what)?;
+    rotation(numbers(value, what)?, what)
+}
+
+fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     let matrix = DMat3::from_cols_array(&rows).transpose();
     let off = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
-    let is_rotation =
-        off.iter().all(|entry| entry.abs() <= ORTHONORMAL) && matrix.determinant() > 0.0;
+    let error = off.iter().map(|entry| entry.abs());
+    // Written so that NaN is refused.
+    let is_rotation = error.clone().all(|error| error <= ORTHONORMAL) && matrix.determinant() > 0.0;
     match is_rotation {
         true => Ok(DQuat::from_mat3(&matrix)),
-        false => Err(input(format!("{what}: the matrix is no rotation"))),
+        false => Err(input(format!(
+            "{what}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
+             is {:.1}",
+            error.max_by(f64::total_cmp).unwrap_or_default(),
+            matrix.determinant()
+        ))),
     }
 }
 
 /// Reads a pose.
 pub(crate) fn pose_of(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
-    let (place, turned) = match value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
-        Ok((place, turned)) => (vector(&place, what)?, rotation_of(&turned)?),
-        Err(_) => {
-            let m: [f64; 16] = numbers(value, what)?;
-            if m[12..] != [0.0, 0.0, 0.0, 1.0] {
-                return Err(input(format!(
-                    "{what}: the last row of the matrix is not 0, 0, 0, 1"
-                )));
-            }
-            let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
-            let turned = pyo3::types::PyList::new(value.py(), rows)?;
-            ([m[3], m[7], m[11]], matrix(turned.as_any(), what)?)
-        }
-    };
-    Pose::new(place, turned).map_err(input)
+    given_pose(value, what)?.pose()
+}
+
+/// Reads a pose as it is given.
+pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
+    if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
+        return Ok(GivenPose(vector(&place, what)?, rotation_of(&turned)?));
+    }
+    if shape(value)?[..] != [4, 4] {
+        return Err(input(format!(
+            "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
+        )));
+    }
+    let m: [f64; 16] = numbers(value, what)?;
+    if m[12..] != [0.0, 0.0, 0.0, 1.0] {
+        return Err(input(format!(
+            "{what}: the last row of the matrix is not 0, 0, 0, 1"
+        )));
+    }
+    let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
+    Ok(GivenPose([m[3], m[7], m[11]], rotation(rows, what)?))
 }

@@ -1,9 +1,10 @@
 //! Paths through poses.
 
-use crate::arrays::vector;
+use crate::arrays::{any_numbers, vector};
 use crate::errors::input;
-use crate::motion::{matrix_of, pose_of};
+use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 use rigid_ccd::trajectory::{Poses, Trajectory};
 
 /// A path through poses at given times: of a planner, or of a simulator's log.
@@ -27,33 +28,46 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 #[pyclass(name = "Path", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
     pub(crate) poses: Poses,
+    /// What a path is made of again.
+    made: Parts,
 }
+
+/// Times, poses and a center.
+type Parts = (Vec<f64>, Vec<GivenPose>, [f64; 3]);
 
 #[pymethods]
 impl PyPath {
     #[new]
-    #[pyo3(signature = (times, poses, *, center = None))]
+    #[pyo3(signature = (times, poses, center = None))]
     fn new(
-        times: Vec<f64>,
+        times: &Bound<'_, PyAny>,
         poses: &Bound<'_, PyAny>,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let times = any_numbers(times, "times")?;
         let poses = poses.try_iter()?.enumerate();
-        let poses: Vec<_> = poses
-            .map(|(k, pose)| pose_of(&pose?, &format!("pose {k}")))
+        let given: Vec<GivenPose> = poses
+            .map(|(k, pose)| given_pose(&pose?, &format!("pose {k}")))
             .collect::<PyResult<_>>()?;
-        if poses.len() != times.len() {
+        if given.len() != times.len() {
             return Err(input(format!(
                 "poses: there are {}, but {} times",
-                poses.len(),
+                given.len(),
                 times.len()
             )));
         }
-        let poses = Poses::new(times.into_iter().zip(poses).collect()).map_err(input)?;
         let center = center.map_or(Ok([0.0; 3]), |center| vector(center, "center"))?;
+        let timed = times.iter().zip(&given);
+        let timed = timed.map(|(&time, pose)| Ok((time, pose.pose()?)));
+        let poses = Poses::new(timed.collect::<PyResult<_>>()?).map_err(input)?;
         Ok(PyPath {
             poses: poses.about(center).map_err(input)?,
+            made: (times, given, center),
         })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, Parts) {
+        (slf.get_type(), slf.get().made.clone())
     }
 
     /// The time of the last pose.

@@ -72,7 +72,7 @@ fn pair<'c>(
 /// Args:
 ///     a, b: the bodies.
 ///     motion_a, motion_b: a Motion, a Path, or a link of a Chain; None rests at the world's origin.
-///     duration: the end of the motions, in their unit of time.
+///     duration: the end, in the motions' unit of time; by default that of a path or a link, else 1.
 ///     tolerance: a contact is reported at a distance of at most margin + tolerance; 0.001 by default.
 ///     margin: a distance to keep; 0 by default.
 ///     budget: the work after which a query is given up; a million takes about a second.
@@ -88,18 +88,19 @@ fn pair<'c>(
 /// >>> 0.499 < hit.time <= 0.5
 /// True
 #[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn first_contact(
     py: Python<'_>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    duration: f64,
+    duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<PyContact>> {
     let config = config(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
+    let duration = pair.duration(duration)?;
     let found = ask(py, config, limit_of, |solver| match pair.moved() {
         Moved::Steadily(a, b) => solver.first_contact(a, b, duration),
         Moved::Along(a, b) => solver.first_contact_along(a, b, duration),
@@ -114,18 +115,19 @@ pub(crate) fn first_contact(
 ///
 /// True is proven. Arguments and exceptions are those of `first_contact`.
 #[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn is_free(
     py: Python<'_>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    duration: f64,
+    duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
     let config = config(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
+    let duration = pair.duration(duration)?;
     let found = ask(py, config, limit_of, |solver| match pair.moved() {
         Moved::Steadily(a, b) => solver.is_free(a, b, duration),
         Moved::Along(a, b) => solver.is_free_along(a, b, duration),
@@ -137,18 +139,19 @@ pub(crate) fn is_free(
 ///
 /// Arguments and exceptions are those of `first_contact`, without a margin. `Unresolved` has `lower` and `upper`.
 #[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn closest_approach(
     py: Python<'_>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    duration: f64,
+    duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyDistance> {
     let config = config(settings, OF_DISTANCES)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
+    let duration = pair.duration(duration)?;
     measure(py, config, |solver| {
         let found = match pair.moved() {
             Moved::Steadily(a, b) => solver.closest_approach(a, b, duration),

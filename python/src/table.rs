@@ -71,8 +71,12 @@ impl PyTable {
     }
 
     /// The rows with these numbers, in that order, as a table.
-    fn take(&self, rows: Vec<u64>) -> PyResult<Self> {
-        let rows = arrow_array::UInt64Array::from(rows);
+    fn take(&self, rows: Vec<i64>) -> PyResult<Self> {
+        let all = self.batch.num_rows();
+        if let Some(wrong) = rows.iter().find(|&&row| !(0..all as i64).contains(&row)) {
+            return Err(refuse(format!("row {wrong}: the table has {all} rows")));
+        }
+        let rows = arrow_array::Int64Array::from(rows);
         let batch = arrow_select::take::take_record_batch(&self.batch, &rows).map_err(refuse)?;
         Ok(PyTable { batch })
     }
@@ -168,19 +172,17 @@ fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAn
             rows => numpy.call_method1("frombuffer", (buffer, dtype, rows)),
         }
     };
-    if let Some(numbers) = column.as_primitive_opt::<Float64Type>() {
-        let is_plain = numbers.null_count() == 0 || empty_cells_are_nan(numbers);
-        if is_plain {
-            return view(numbers.values().inner(), "float64");
-        }
+    if let Some(numbers) = column.as_primitive_opt::<Float64Type>()
+        && empty_cells_are_nan(numbers)
+    {
+        return view(numbers.values().inner(), "float64");
     }
-    if let Some(counts) = column.as_primitive_opt::<Int64Type>() {
-        if counts.null_count() == 0 {
-            return view(counts.values().inner(), "int64");
-        }
+    if let Some(counts) = column.as_primitive_opt::<Int64Type>()
+        && counts.null_count() == 0
+    {
+        return view(counts.values().inner(), "int64");
     }
-    let numeric = column.data_type().is_numeric();
-    if numeric {
+    if column.data_type().is_numeric() {
         let cast = arrow_cast::cast(column, &DataType::Float64).map_err(refuse)?;
         let cells = cast.as_primitive::<Float64Type>().iter();
         let values: Vec<f64> = cells.map(|cell| cell.unwrap_or(f64::NAN)).collect();
@@ -193,7 +195,8 @@ fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAn
 
 fn empty_cells_are_nan(numbers: &arrow_array::Float64Array) -> bool {
     let mut rows = 0..numbers.len();
-    rows.all(|row| numbers.is_valid(row) || numbers.value(row).is_nan())
+    numbers.null_count() == 0
+        || rows.all(|row| numbers.is_valid(row) || numbers.value(row).is_nan())
 }
 
 /// Answers a question about each row of a table of motions; `rigid_ccd.first_contacts` and the like call it.

@@ -1,6 +1,8 @@
 """Chains and paths, against closed forms and sampled poses."""
 
+import copy
 import math
+import pickle
 from typing import Any
 
 import numpy as np
@@ -91,8 +93,10 @@ def test_positions_are_checked() -> None:
         Joint.prismatic(HERE, [0, 0, 0])
     with pytest.raises(TypeError):
         Chain([HERE])
-    with pytest.raises(OverflowError):
+    with pytest.raises(InputError, match="link is -1"):
         chain.link(-1, [0, 0, 0], [0, 0, 0])
+    with pytest.raises(InputError, match="joint 0 is at 5, but its limits are -4 and 4"):
+        chain.pose(1, [5, 0, 0])
     assert Joint.prismatic(HERE, [1, 0, 0], limits=(0, 1)).limits == (0, 1)
 
 
@@ -103,7 +107,9 @@ def test_a_path_is_followed_from_pose_to_pose() -> None:
     assert path.end == 2 and path.pose(1.5)[0, 3] == pytest.approx(0)
     hit = first_contact(BALL, BALL, path, duration=2)
     assert hit is not None and hit.time == pytest.approx(1 + 1.8 / 4, abs=1e-3)
-    assert first_contact(BALL, BALL, path) is None
+    again = first_contact(BALL, BALL, path)
+    assert again is not None and again.time == hit.time
+    assert first_contact(BALL, BALL, path, duration=1) is None
     assert first_contact(BALL, BALL, Path(np.arange(2), [HERE, HERE])).kind == "overlapping"  # type: ignore[union-attr]
     for times, poses in (([0, 1], stops), ([0, 1, 1], stops), ([], []), ([0, 1, math.inf], stops)):
         with pytest.raises(InputError):
@@ -123,3 +129,48 @@ def test_bodies_may_be_the_same_object() -> None:
     del chain
     assert distance(BALL, BALL, moves.pose(0)).upper == pytest.approx(2.8)
     assert first_contact(BALL, BALL, moves, moves).kind == "overlapping"  # type: ignore[union-attr]
+
+
+def test_a_query_is_as_long_as_what_moves() -> None:
+    chain = arm()
+    folds = chain.link(3, [0, 0, 0], [0, math.pi, 0], duration=5).seen_from(0)
+    hit = first_contact(BALL, Body.sphere(1), folds)
+    assert hit is not None and 2.5 < hit.time < 5
+    with pytest.raises(InputError, match="duration: 6 is later than 5"):
+        first_contact(BALL, BALL, folds, duration=6)
+    with pytest.raises(InputError, match="different times"):
+        first_contact(BALL, BALL, folds, chain.link(1, [0, 0, 0], [1, 0, 0]))
+    assert first_contact(BALL, BALL, folds, chain.link(1, [0, 0, 0], [1, 0, 0]), 0.5) is None
+
+
+def test_everything_that_moves_is_pickled() -> None:
+    random = np.random.default_rng(1)
+    for _ in range(20):
+        turned: list[float] = random.normal(size=4).tolist()
+        origin: Any = (random.normal(size=3), turned)
+        joints = [
+            Joint.revolute(origin, random.normal(size=3), [-4, 4]),
+            Joint.prismatic(origin, random.normal(size=3)),
+            Joint.fixed(origin),
+        ]
+        chain = Chain(joints, origin)
+        link = chain.link(3, [0, 0, 0], [1, 2, 0], 3)
+        motion = Motion(origin[0], turned, *random.normal(size=(3, 3)))
+        between = Motion.between(origin, (random.normal(size=3), random.normal(size=4)), 2, [1, 2, 3])
+        path = Path([1, 2], [origin, motion.pose(3)], [1, 2, 3])
+        for moves in (link, link.seen_from(1), motion, between, path, Motion.still(origin)):
+            again = pickle.loads(pickle.dumps(moves))
+            assert repr(again) == repr(moves)
+            assert np.array_equal(again.pose(0.7), moves.pose(0.7))
+        assert [repr(joint) for joint in pickle.loads(pickle.dumps(chain)).joints] == [repr(joint) for joint in joints]
+        assert copy.deepcopy(chain).pose(3, [1, 1, 1]).tolist() == chain.pose(3, [1, 1, 1]).tolist()
+
+
+def test_poses_of_float32_are_taken() -> None:
+    random = np.random.default_rng(2)
+    for _ in range(100):
+        pose = (Motion([1, 2, 3], random.normal(size=4).tolist()).pose(0)).astype(np.float32)
+        assert Motion.still(pose).pose(0) == pytest.approx(pose, abs=1e-6)
+    pose[0, 0] += 1e-3
+    with pytest.raises(InputError, match="is off by"):
+        Motion.still(pose)

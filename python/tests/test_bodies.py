@@ -82,5 +82,7 @@ def test_files_are_read(tmp_path: Path) -> None:
 def test_meshes_of_trimesh_are_taken() -> None:
     trimesh = pytest.importorskip("trimesh")
     assert Body.from_trimesh(trimesh.creation.icosphere(2)).is_solid
-    with pytest.raises(AttributeError):
+    with pytest.raises(TypeError, match="an object with vertices and faces is needed, not str"):
         Body.from_trimesh("mesh")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="to_mesh"):
+        Body.from_trimesh(trimesh.Scene(trimesh.creation.icosphere(2)))

@@ -45,7 +45,6 @@ def audit(
     *,
     pages: str | os.PathLike[str] | None = None,
     most_pages: int = 100,
-    tolerance: float = 1e-6,
     **settings: Unpack[ContactsOfTables],
 ) -> Audit:
     """Certifies motions that another checker, of a planner, a simulator or a CAM program, has called free.
@@ -55,8 +54,10 @@ def audit(
         motions: the table that the checker has called free, as of `first_contacts`.
         pages: a folder for a page on each missed row, which shows the motion and the contact in any browser, offline.
         most_pages: no more pages than that.
-        tolerance: what comes within margin + tolerance counts as missed; `distance_upper` says how near it came.
-        settings: those of `first_contacts`; `margin` is the distance that the checker was to keep.
+        tolerance: what comes within margin + tolerance counts as missed; `distance_upper` says how near it came. It is
+            1e-6 by default: nobody is blamed for what passes closely.
+        margin: the distance that the checker was to keep.
+        settings: the others of `first_contacts`.
 
     Raises:
         InputError: a column is unknown or missing, or has no numbers.
@@ -73,7 +74,7 @@ def audit(
     (array(['fast'], dtype=object), array([0.042]))
     """
     table = motions if isinstance(motions, Table) else Table(motions)
-    contacts: dict[str, Any] = {**settings, "tolerance": tolerance}
+    contacts: dict[str, Any] = {"tolerance": 1e-6, **settings}
     results = first_contacts(a, b, table, **contacts)
     status = results["status"]
     missed = np.flatnonzero(np.isin(status, ["contact", "touching", "overlapping"])).tolist()

@@ -98,14 +98,16 @@ class Motion:
     ) -> Motion: ...
     @classmethod
     def between(
-        cls, start: _Pose, end: _Pose, *, duration: float = 1.0, center: ArrayLike | None = None
+        cls, start: _Pose, end: _Pose, duration: float = 1.0, center: ArrayLike | None = None
     ) -> Motion: ...
+    @classmethod
+    def still(cls, pose: _Pose) -> Motion: ...
     def pose(self, time: float) -> NDArray[float64]: ...
 
 @final
 class Path:
     def __new__(
-        cls, times: Sequence[float] | NDArray[Any], poses: ArrayLike | Iterable[_Pose], *, center: ArrayLike | None = None
+        cls, times: ArrayLike, poses: ArrayLike | Iterable[_Pose], center: ArrayLike | None = None
     ) -> Path: ...
     @property
     def end(self) -> float: ...
@@ -114,9 +116,9 @@ class Path:
 @final
 class Joint:
     @classmethod
-    def revolute(cls, origin: _Pose, axis: ArrayLike, *, limits: tuple[float, float] | None = None) -> Joint: ...
+    def revolute(cls, origin: _Pose, axis: ArrayLike, limits: ArrayLike | None = None) -> Joint: ...
     @classmethod
-    def prismatic(cls, origin: _Pose, axis: ArrayLike, *, limits: tuple[float, float] | None = None) -> Joint: ...
+    def prismatic(cls, origin: _Pose, axis: ArrayLike, limits: ArrayLike | None = None) -> Joint: ...
     @classmethod
     def fixed(cls, origin: _Pose) -> Joint: ...
     @property
@@ -126,18 +128,19 @@ class Joint:
 class Chain:
     def __new__(cls, joints: Sequence[Joint], base: _Pose | None = None) -> Chain: ...
     def __len__(self) -> int: ...
-    def pose(self, link: int, positions: Sequence[float] | NDArray[Any]) -> NDArray[float64]: ...
-    def link(
-        self,
-        link: int,
-        start: Sequence[float] | NDArray[Any],
-        end: Sequence[float] | NDArray[Any],
-        *,
-        duration: float = 1.0,
-    ) -> Link: ...
+    @property
+    def joints(self) -> list[Joint]: ...
+    def pose(self, link: int, positions: ArrayLike) -> NDArray[float64]: ...
+    def link(self, link: int, start: ArrayLike, end: ArrayLike, duration: float = 1.0) -> Link: ...
 
 @final
 class Link:
+    @classmethod
+    def _of(
+        cls, chain: Chain, link: int, seen_from: int | None, ends: tuple[list[float], list[float], float]
+    ) -> Link: ...
+    @property
+    def duration(self) -> float: ...
     def seen_from(self, link: int) -> Link: ...
     def pose(self, time: float) -> NDArray[float64]: ...
 
@@ -162,6 +165,8 @@ class Contact:
 
 @final
 class Distance:
+    @property
+    def is_overlapping(self) -> bool: ...
     @property
     def lower(self) -> float: ...
     @property
@@ -193,7 +198,7 @@ def first_contact(
     b: Body,
     motion_a: _Course | None = None,
     motion_b: _Course | None = None,
-    duration: float = 1.0,
+    duration: float | None = None,
     **settings: Unpack[_OfContacts],
 ) -> Contact | None: ...
 def is_free(
@@ -201,7 +206,7 @@ def is_free(
     b: Body,
     motion_a: _Course | None = None,
     motion_b: _Course | None = None,
-    duration: float = 1.0,
+    duration: float | None = None,
     **settings: Unpack[_OfContacts],
 ) -> bool: ...
 def closest_approach(
@@ -209,7 +214,7 @@ def closest_approach(
     b: Body,
     motion_a: _Course | None = None,
     motion_b: _Course | None = None,
-    duration: float = 1.0,
+    duration: float | None = None,
     **settings: Unpack[_OfDistances],
 ) -> Distance: ...
 def distance(

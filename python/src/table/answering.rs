@@ -42,7 +42,7 @@ pub(crate) enum Micros {
 enum Piece {
     Motions(Arc<Batch>, Range<usize>),
     /// A path, and its id.
-    Path(CourseRow, ArrayRef),
+    Path(Box<CourseRow>, ArrayRef),
 }
 
 /// The most rows that one thread answers in one go: results of many rows are made into columns faster.
@@ -199,7 +199,7 @@ impl Pieces {
                         Ok((position, _)) => position.row,
                         Err(error) => error.position.row,
                     };
-                    pieces.push(Piece::Path(row, batch.ids(at, 1)));
+                    pieces.push(Piece::Path(Box::new(row), batch.ids(at, 1)));
                 }
             }
         }
@@ -227,7 +227,7 @@ impl Piece {
     fn course(&self, columns: Option<&Columns>) -> Option<CourseRow> {
         match self {
             Piece::Motions(batch, rows) => Some(course(batch, rows.start, columns?)),
-            Piece::Path(row, _) => Some(row.clone()),
+            Piece::Path(row, _) => Some((**row).clone()),
         }
     }
 

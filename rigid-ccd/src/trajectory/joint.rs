@@ -2,6 +2,7 @@
 
 use super::screw::{turn, unit_axis};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::RangeInclusive;
 
@@ -33,6 +34,10 @@ pub(super) enum Kind {
     Prismatic(DVec3),
 }
 
+/// What a position may be beyond its limits, over the greater of both. A position between two of them,
+/// `a + t (b − a)`, has three roundings, each of at most half an ulp of twice that.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 impl Joint {
     /// Creates a joint without a freedom.
     pub fn fixed(origin: Pose) -> Self {
@@ -46,7 +51,7 @@ impl Joint {
     /// Creates a joint that turns about an axis; its position is an angle in radians, without limits.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`] for an axis that is not finite, or has no length.
+    /// [`InputError::NotFinite`] for an axis that is not finite, [`InputError::OutOfRange`] for one without a length.
     pub fn revolute(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Joint {
             kind: Kind::Revolute(unit_axis(axis)?),
@@ -57,7 +62,7 @@ impl Joint {
     /// Creates a joint that slides along an axis; its position is a length, without limits.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`] for an axis that is not finite, or has no length.
+    /// [`InputError::NotFinite`] for an axis that is not finite, [`InputError::OutOfRange`] for one without a length.
     pub fn prismatic(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Joint {
             kind: Kind::Prismatic(unit_axis(axis)?),
@@ -65,7 +70,8 @@ impl Joint {
         })
     }
 
-    /// Refuses positions outside of limits.
+    /// Refuses positions outside of limits. Those beyond by no more than the rounding of a position between both are
+    /// accepted.
     #[must_use]
     pub fn within(self, limits: RangeInclusive<f64>) -> Self {
         Joint { limits, ..self }
@@ -84,9 +90,9 @@ impl Joint {
     /// Returns the pose of the link after the joint, in the frame of the link before it.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] outside of the limits, [`InputError::NotFinite`].
+    /// [`InputError::JointPosition`] outside of the limits, [`InputError::NotFinite`].
     pub fn pose(&self, position: f64) -> Result<Pose, InputError> {
-        self.check(position)?;
+        self.check(position, None)?;
         self.placed(position)
     }
 
@@ -104,10 +110,10 @@ impl Joint {
     /// from one position to another.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] outside of the limits, [`InputError::NotFinite`], also for a duration of 0
+    /// [`InputError::JointPosition`] outside of the limits, [`InputError::NotFinite`], also for a duration of 0
     /// between different positions.
     pub fn motion(&self, from: f64, to: f64, duration: f64) -> Result<Motion, InputError> {
-        self.check(to)?;
+        self.check(to, None)?;
         let start = self.pose(from)?;
         let rate = match from == to {
             true => 0.0,
@@ -121,14 +127,21 @@ impl Joint {
         }
     }
 
-    /// Refuses a position outside of the limits.
-    pub(super) fn check(&self, position: f64) -> Result<(), InputError> {
-        match self.is_fixed() || self.limits.contains(&position) {
+    /// Refuses a position outside of the limits. In a chain the joint has a number.
+    pub(super) fn check(&self, position: f64, joint: Option<usize>) -> Result<(), InputError> {
+        let (least, greatest) = (*self.limits.start(), *self.limits.end());
+        let rounding = match greater(least.abs(), greatest.abs()) {
+            scale if scale.is_finite() => ROUNDING * scale,
+            _ => 0.0,
+        };
+        // Written so that NaN is refused.
+        let allowed = position >= least - rounding && position <= greatest + rounding;
+        match self.is_fixed() || allowed {
             true => Ok(()),
-            false => Err(InputError::OutOfRange {
-                what: "joint position",
-                value: position,
-                allowed: "within the limits of the joint",
+            false => Err(InputError::JointPosition {
+                joint,
+                position,
+                limits: [least, greatest],
             }),
         }
     }

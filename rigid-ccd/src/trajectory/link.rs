@@ -50,8 +50,8 @@ impl Chain {
     /// There is a position for each joint, fixed ones included.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a link that does not exist, for another number of positions, for one
-    /// outside of its joint's limits, and for a duration that is not positive.
+    /// [`InputError::OutOfRange`] for a link that does not exist, for another number of positions, and for a duration
+    /// that is not positive; [`InputError::JointPosition`] for a position outside of its joint's limits.
     pub fn link<'c>(
         &'c self,
         link: usize,
@@ -85,10 +85,10 @@ impl<'c> Link<'c> {
         for positions in [from, to] {
             if positions.len() != joints.len() {
                 let given = positions.len() as f64;
-                return out_of_range("joint positions", given, "one for each joint");
+                return out_of_range("the number of joint positions", given, "that of the joints");
             }
-            for (joint, &position) in joints.iter().zip(positions) {
-                joint.check(position)?;
+            for (k, (joint, &position)) in joints.iter().zip(positions).enumerate() {
+                joint.check(position, Some(k))?;
             }
         }
         if !(duration > 0.0 && duration.is_finite()) {

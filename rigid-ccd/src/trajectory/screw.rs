@@ -10,7 +10,7 @@ use ccd_core::{InputError, Motion, Pose};
 /// The axis passes through `point` along `direction`, of any length but 0. The motion is exact.
 ///
 /// # Errors
-/// [`InputError::NotFinite`], also for a direction of no length.
+/// [`InputError::NotFinite`], [`InputError::OutOfRange`] for a direction of no length.
 ///
 /// ```
 /// use rigid_ccd::trajectory::screw;
@@ -38,7 +38,15 @@ pub fn screw(
 
 /// Returns an axis of unit length.
 pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
-    unit(DVec3::from_array(axis.into())).ok_or(InputError::NotFinite { what: "axis" })
+    let axis = DVec3::from_array(axis.into());
+    unit(axis).ok_or(match axis.is_finite() {
+        true => InputError::OutOfRange {
+            what: "the length of an axis",
+            value: 0.0,
+            allowed: "positive",
+        },
+        false => InputError::NotFinite { what: "axis" },
+    })
 }
 
 /// Returns a turn by an angle about an axis of unit length.

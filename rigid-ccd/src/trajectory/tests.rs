@@ -377,3 +377,46 @@ fn tangents_have_the_velocities_of_poses() {
         }
     }
 }
+
+#[test]
+fn positions_are_checked_up_to_rounding() {
+    let joint = Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap();
+    let (least, greatest) = (-3.0718, -0.0698);
+    let chain = Chain::new(Pose::IDENTITY, vec![joint.within(least..=greatest)]);
+    let mut rng = Rng::seed_from_u64(5);
+    let mut beyond = 0;
+    for _ in 0..10_000 {
+        // As planners write it.
+        let (a, t) = (rng.random_range(least..greatest), 1.0);
+        let position = a + t * (greatest - a);
+        beyond += u32::from(position > greatest);
+        assert!(chain.pose(1, &[position]).is_ok(), "{position:?}");
+    }
+    assert!(beyond > 100, "{beyond}");
+    for wrong in [-0.06979, -3.07181, f64::NAN, f64::INFINITY] {
+        let found = chain.pose(1, &[wrong]).unwrap_err();
+        assert!(matches!(
+            found,
+            InputError::JointPosition { joint: Some(0), .. }
+        ));
+    }
+    let message = chain.pose(1, &[3.0]).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "joint 0 is at 3, but its limits are -3.0718 and -0.0698"
+    );
+}
+
+#[test]
+fn an_axis_needs_a_length() {
+    let message = |axis| {
+        Joint::revolute(Pose::IDENTITY, axis)
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        message([0.0; 3]),
+        "the length of an axis is 0, but must be positive"
+    );
+    assert_eq!(message([0.0, f64::NAN, 0.0]), "axis is NaN or infinite");
+}

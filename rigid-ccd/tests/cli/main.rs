@@ -1,5 +1,6 @@
 //! The command `ccd`, run as users run it.
 
+mod audit;
 mod command;
 mod contacts;
 mod decompose;

@@ -1,6 +1,8 @@
 //! Headers, and files that are not tables.
 
 use super::*;
+use crate::table::courses::Courses;
+use crate::table::paths::Grouping;
 
 #[test]
 fn repeated_columns_and_empty_tables_are_refused() {
@@ -71,4 +73,23 @@ fn a_first_line_of_numbers_is_not_a_header() {
 fn a_git_lfs_pointer_is_not_a_table() {
     let message = refused(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
     assert!(message.contains("git lfs pull"), "{message}");
+}
+
+#[test]
+fn columns_that_need_each_other_come_together() {
+    for (header, missing, given) in [
+        ("a_qw,a_qx,a_qy", "a_qz", "a_qw"),
+        ("b_end_pz", "b_end_px", "b_end_pz"),
+        ("a_end_qx", "a_end_qw", "a_end_qx"),
+        ("t,b_qz", "b_qw", "b_qz"),
+    ] {
+        let message = match Courses::new(header.as_bytes(), Grouping::ById) {
+            Err(error) => error.to_string(),
+            Ok(_) => panic!("{header} is accepted"),
+        };
+        let expected = format!("header: no column `{missing}`, but column `{given}` needs it");
+        assert_eq!(message, expected);
+    }
+    // Positions and velocities have defaults.
+    assert!(MotionTable::read(&b"a_px,b_vy,a_wz,b_cx\n"[..]).is_ok());
 }

@@ -1,0 +1,108 @@
+//! `ccd audit`: motions that another checker has called free.
+
+use super::command::{Run, Scene, parse, stderr};
+
+/// A ball that is shot through a plate. Of ten equal steps of the fast shots none is in the plate.
+const BALL_AND_PLATE: [&str; 4] = ["--a", "sphere:0.5", "--b", "box:0.001,5,5"];
+const SHOTS: &str =
+    "id,a_px,a_py,a_vx\nbeside,-3,6,60\nfast,-3,0,60\nfast/2,-3,0,70\ntouching,0.501,0,0\n";
+
+fn audit() -> Run {
+    Run::bare(&["audit", "--motions", "-"]).args(&BALL_AND_PLATE)
+}
+
+#[test]
+fn what_is_not_free_is_listed() {
+    let output = audit().stdin(SHOTS).output();
+    assert_eq!(output.status.code(), Some(3));
+    let rows = parse(&output.stdout);
+    let ids: Vec<&str> = rows.iter().map(|row| row.text("id")).collect();
+    assert_eq!(ids, ["fast", "fast/2", "touching"]);
+    let exact = 2.499 / 60.0;
+    let early = exact - rows[0].number("time");
+    assert!((0.0..1e-6).contains(&early), "{early} early");
+    assert!((rows[0].number("witness_b_x") + 0.001).abs() < 1e-9);
+    assert!(rows[0].0.iter().all(|(name, _)| name != "page"));
+    let message = stderr(&output);
+    assert!(
+        message.contains("1 of 4 rows are free: that is proven, 2 contact, 1 touching"),
+        "{message}"
+    );
+}
+
+#[test]
+fn what_is_free_is_left_out() {
+    let output = audit().stdin("a_px,a_py\n-3,0\n0,6\n").output();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(parse(&output.stdout).len(), 0);
+    assert!(stderr(&output).contains("2 of 2 rows are free"));
+    // To a tolerance by which nobody is blamed: at a distance of a hundred thousandth it is free.
+    assert!(audit().stdin("a_px\n0.50101\n").output().status.success());
+    let kept = audit().args(&["--margin", "1e-4"]);
+    assert_eq!(
+        kept.stdin("a_px\n0.50101\n").output().status.code(),
+        Some(3)
+    );
+}
+
+#[test]
+fn each_has_a_page() {
+    let scene = Scene::new("audit");
+    let pages = scene.directory.join("pages");
+    let _ = std::fs::remove_dir_all(&pages);
+    let run = audit().folder(&scene.directory).args(&["--pages", "pages"]);
+    let rows = parse(&run.stdin(SHOTS).output().stdout);
+    let named: Vec<&str> = rows.iter().map(|row| row.text("page")).collect();
+    let names = ["fast.html", "fast_2.html", "touching.html"];
+    assert_eq!(named, names.map(|name| format!("pages/{name}")));
+    for name in named {
+        let page = std::fs::read_to_string(scene.directory.join(name)).unwrap();
+        assert!(page.contains("id=\"views\">"), "{name}");
+    }
+    let few = audit().folder(&scene.directory);
+    let few = few.args(&["--pages", "pages", "--most-pages", "1"]);
+    let output = few.stdin(SHOTS).output();
+    let rows = parse(&output.stdout);
+    assert_eq!(
+        [0, 1, 2].map(|k| rows[k].text("page")),
+        ["pages/fast.html", "", ""]
+    );
+    assert!(stderr(&output).contains("--most-pages"));
+}
+
+#[test]
+fn rows_that_are_not_answered_are_told() {
+    let rods = ["--a", "capsule:.01,2", "--b", "capsule:.01,2"];
+    let run = Run::bare(&["audit", "--motions", "-", "--budget", "1"]).args(&rods);
+    let output = run
+        .stdin("a_px,a_vx,a_wx,a_wy,a_wz\n-3,4,300,200,100\n")
+        .output();
+    assert_eq!(output.status.code(), Some(3));
+    let rows = parse(&output.stdout);
+    assert_eq!(rows[0].text("status"), "unresolved");
+
+    let output = audit().stdin("a_px,a_vx\n-3,x\n-3,60\n").output();
+    assert_eq!(output.status.code(), Some(2));
+    let rows = parse(&output.stdout);
+    assert_eq!([0, 1].map(|k| rows[k].text("status")), ["error", "contact"]);
+    assert!(stderr(&output).contains("row 0 (line 2): column a_vx: `x`"));
+}
+
+#[test]
+fn what_cannot_be_written_or_read_is_refused() {
+    let scene = Scene::new("audit-refused");
+    let file = scene.file("file", "");
+    let run = audit().args(&["--pages", file.to_str().unwrap()]);
+    assert_eq!(run.stdin(SHOTS).output().status.code(), Some(1));
+    let missing = scene.directory.join("none/pages");
+    let run = audit().args(&["--pages", missing.to_str().unwrap()]);
+    assert_eq!(run.stdin(SHOTS).output().status.code(), Some(1));
+    let motions = scene.file("motions.csv", SHOTS);
+    let motions = motions.to_str().unwrap();
+    let run = Run::bare(&["audit", "--motions", motions, "--out", motions]).args(&BALL_AND_PLATE);
+    let output = run.output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("would overwrite"));
+    let output = audit().stdin("a_x\n1\n").output();
+    assert_eq!(output.status.code(), Some(2));
+}
