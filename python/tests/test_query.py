@@ -73,11 +73,61 @@ def test_an_iterator_of_tables_gives_an_iterator_of_tables() -> None:
 
 
 def test_the_schema_is_known_without_an_answer() -> None:
-    pyarrow = pytest.importorskip("pyarrow")
+    pyarrow, polars, pandas = (pytest.importorskip(name) for name in ("pyarrow", "polars", "pandas"))
     for ask in ("first-contact", "is-free", "contact-interval", "closest-approach", "distance"):
-        query: Any = TableQuery(BALL, WALL, ask=ask)  # type: ignore[arg-type]
+        query: Any = TableQuery("nowhere.ccd", "nowhere.ccd", ask=ask)
+        other: Any = TableQuery(BALL, WALL, ask=ask)
         table = pyarrow.table(COLUMNS)
-        assert pyarrow.schema(query.schema(table)) == query(table).schema
+        assert query.schema(table.schema) == query.schema(table).schema == other(table).schema
+        frame = polars.DataFrame(COLUMNS)
+        assert query.schema(frame).schema == other(frame).schema
+        frames = pandas.DataFrame(COLUMNS)
+        assert query.schema(frames).dtypes.equals(other(frames).dtypes)
+        assert pyarrow.schema(query.schema(Table(COLUMNS))) == query.schema(table.schema)
+
+
+def test_parts_of_a_pandas_frame_fit_together() -> None:
+    pandas = pytest.importorskip("pandas")
+    query = TableQuery(BALL, WALL)
+    frame = pandas.DataFrame({"id": [2**60 + k for k in range(6)], "a_px": [-3, -3, np.inf, -3, np.inf, -3]})
+    frame["a_vx"] = [1.0, 4, 1, 4, 1, 1]
+    found = query(frame)
+    assert found["id"].tolist() == frame["id"].tolist()
+    assert found["status"].tolist() == ["free", "contact", "error", "contact", "error", "free"]
+    # No contact, contacts alone, errors alone: rows that are not next to each other.
+    for rows in ([0, 5], [1, 3], [2, 4], []):
+        part = query(frame.loc[rows])
+        pandas.testing.assert_frame_equal(part, found.loc[rows])
+        named = query(frame.loc[rows].set_index("id"))
+        pandas.testing.assert_frame_equal(named, found.loc[rows].set_index("id"))
+
+
+def test_paths_of_a_pandas_frame_have_their_ids() -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"id": ["x", "x", "y"], "t": [0.0, 1, 0], "a_px": [-3.0, 3, 9]}, index=[4, 5, 7])
+    query = TableQuery(BALL, WALL, paths="whole")
+    assert query(frame)["id"].tolist() == ["x", "y"] == query(frame.set_index("id")).index.tolist()
+
+
+def test_what_engines_would_tear_apart_is_refused() -> None:
+    query = TableQuery(BALL, WALL)
+    starts = {"a_px": [-3.0, 3.0]}
+    for refused, message in ((starts, "no column `id`"), ({"id": ["x", "x"], "t": [0, 1], **starts}, "paths='whole'")):
+        for ask in (query, query.schema):
+            with pytest.raises(InputError, match=message):
+                ask(refused)
+        with pytest.raises(InputError, match=message):
+            next(query(iter([refused])))
+    assert TableQuery(BALL, WALL, paths="whole")(refused)["status"].tolist() == ["contact"]
+    with pytest.raises(InputError, match="paths"):
+        TableQuery(BALL, WALL, paths="cut")  # type: ignore[arg-type]
+
+
+def test_a_process_unpickles_a_body_once() -> None:
+    query = TableQuery(knot(60), WALL)
+    once, again = (pickle.loads(pickle.dumps(query)) for _ in range(2))
+    assert once._a is again._a is not query._a
+    same(again(COLUMNS), expected(knot(60)))
 
 
 def test_files_are_loaded_once_in_a_process(tmp_path: Path) -> None:
@@ -98,7 +148,7 @@ def test_questions_that_cannot_be_asked_are_refused_at_once() -> None:
     with pytest.raises(InputError, match="ask"):
         TableQuery(BALL, WALL, ask="when")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="tolerance"):
-        TableQuery(BALL, WALL, tolerance=0)
+        TableQuery("nowhere.ccd", WALL, tolerance=0)
     with pytest.raises(TypeError, match="speed"):
         TableQuery(BALL, WALL, speed=1)
 

@@ -1,12 +1,13 @@
 """A question that engines of many machines can carry to their workers."""
 
 import os
+import pickle
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
-from ._rigid_ccd import Body, Table
+from ._rigid_ccd import Body, InputError, Table
 from ._tables import Ask, answer
 
 BodyOrFile: TypeAlias = Body | str | os.PathLike[str]
@@ -19,11 +20,16 @@ class TableQuery:
     `mapInArrow`, a pool of processes. It can be pickled. Each process loads or unpickles a body once.
 
     Called with a table it returns the results as a table of the same kind: pyarrow, pandas, polars, a dict of NumPy
-    arrays, else a `Table`. Called with an iterator of tables it returns an iterator of tables.
+    arrays, else a `Table`. Called with an iterator of tables it returns an iterator of tables. The types of columns do
+    not depend on their values, except in a dict. A pandas frame keeps its index.
+
+    Engines cut a table anywhere, and return the parts in any order. So a column id is needed.
 
     Args:
         a, b: bodies, or the paths of mesh files or prepared bodies (`Body.save`), which each process reads.
         ask: "first-contact", "is-free", "contact-interval", "closest-approach" or "distance".
+        paths: a table with a column t is refused: a path that is cut in two has a stretch that nobody looks at. "whole"
+            says that all rows of an id are in one table, as after a group-by.
         settings: those of `first_contacts` or `closest_approaches`. Engines start a task for each core: so `threads` is
             1 by default. `micros` is False: equal answers are equal tables.
 
@@ -34,32 +40,66 @@ class TableQuery:
     array(['contact', 'free'], dtype=object)
     """
 
-    def __init__(self, a: BodyOrFile, b: BodyOrFile, *, ask: Ask = "first-contact", **settings: Any) -> None:
-        self._a, self._b, self._ask = a, b, ask
+    def __init__(
+        self,
+        a: BodyOrFile,
+        b: BodyOrFile,
+        *,
+        ask: Ask = "first-contact",
+        paths: Literal["refused", "whole"] = "refused",
+        **settings: Any,
+    ) -> None:
+        self._a, self._b, self._ask, self._paths = a, b, ask, paths
         self._settings = {"threads": 1, "micros": False, **settings}
         # What is wrong with the question is wrong here, not on a worker. Files may be there alone.
-        if isinstance(a, Body) and isinstance(b, Body):
-            answer(self._ask, a, b, {"a_px": []}, **self._settings)
+        if paths not in ("refused", "whole"):
+            raise InputError(f"paths: `refused` or `whole` is needed, not `{paths}`")
+        answer(self._ask, _NOTHING, _NOTHING, {"a_px": []}, **self._settings)
 
     def __call__(self, motions: Any) -> Any:
         """Answers a table, or an iterator of tables."""
         if isinstance(motions, Iterator) and not hasattr(motions, "__arrow_c_stream__"):
             return self._each(motions)
-        results = answer(self._ask, _body(self._a), _body(self._b), motions, **self._settings)
-        return _like(motions, results)
+        table = self._table(motions)
+        return _like(motions, answer(self._ask, _body(self._a), _body(self._b), table, **self._settings))
 
-    def schema(self, motions: Any) -> Table:
-        """Returns a table without rows that has the columns of the results for such motions; pyarrow.schema takes it."""
-        empty = Table(motions).take([])
-        return answer(self._ask, _NOTHING, _NOTHING, empty, **self._settings)
+    def schema(self, motions: Any) -> Any:
+        """Returns what results of such motions look like, without the bodies.
+
+        It is a table of the same kind without rows; of a pyarrow.Schema a pyarrow.Schema.
+        """
+        if hasattr(motions, "empty_table"):
+            return self.schema(motions.empty_table()).schema
+        empty = self._table(motions).take([])
+        return _like(motions, answer(self._ask, _NOTHING, _NOTHING, empty, **self._settings))
 
     def _each(self, tables: Iterable[Any]) -> Iterator[Any]:
         for motions in tables:
             yield self(motions)
 
+    def _table(self, motions: Any) -> Table:
+        """Takes a table, if its rows can be told apart and its paths are whole."""
+        if _library(motions) == "pandas":
+            # An index with a name is a column.
+            motions = motions.reset_index(drop=motions.index.names == [None])
+        table = Table(motions)
+        if "id" not in table:
+            raise InputError("motions: no column `id`: engines return rows in any order")
+        if "t" in table and self._paths != "whole":
+            raise InputError(
+                "motions: column `t`: engines cut paths; group the rows by id, and say TableQuery(..., paths='whole')"
+            )
+        return table
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_a": _packed(self._a), "_b": _packed(self._b)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state, _a=_unpacked(state["_a"]), _b=_unpacked(state["_b"]))
+
     def __repr__(self) -> str:
         settings = "".join(f", {name}={value!r}" for name, value in self._settings.items())
-        return f"TableQuery({self._a!r}, {self._b!r}, ask={self._ask!r}{settings})"
+        return f"TableQuery({self._a!r}, {self._b!r}, ask={self._ask!r}, paths={self._paths!r}{settings})"
 
 
 _NOTHING = Body.sphere(0)
@@ -75,18 +115,50 @@ def _load(path: str, _changed: int) -> Body:
     return Body.from_file(path)
 
 
+def _packed(given: BodyOrFile) -> bytes | str | os.PathLike[str]:
+    return pickle.dumps(given) if isinstance(given, Body) else given
+
+
+def _unpacked(given: bytes | str | os.PathLike[str]) -> BodyOrFile:
+    return _unpickle(given) if isinstance(given, bytes) else given
+
+
+@lru_cache(maxsize=32)
+def _unpickle(body: bytes) -> Body:
+    """Makes a body once, however many tasks bring it."""
+    made: Body = pickle.loads(body)
+    return made
+
+
+def _library(motions: Any) -> str:
+    return type(motions).__module__.partition(".")[0]
+
+
 def _like(motions: Any, results: Table) -> Any:
     """Makes results a table of the kind that the motions are."""
-    kind = type(motions)
-    library = kind.__module__.partition(".")[0]
+    library = _library(motions)
     if library == "pyarrow":
         pyarrow: Any = sys.modules["pyarrow"]
         table = pyarrow.record_batch(results)
         return table if isinstance(motions, pyarrow.RecordBatch) else pyarrow.Table.from_batches([table])
     if library == "pandas":
-        return kind(dict(results))
+        return _frame(motions, results)
     if library == "polars":
         return sys.modules["polars"].DataFrame(results)
     if isinstance(motions, Mapping):
         return dict(results)
     return results
+
+
+def _frame(motions: Any, results: Table) -> Any:
+    """Makes a pandas frame. Its types depend on no value: parts of a table have to fit together."""
+    text = "str" if int(sys.modules["pandas"].__version__.partition(".")[0]) >= 3 else "string"
+    types = {name: text for name in ("status", "feature_a", "feature_b", "reason")}
+    types |= {name: "Int64" for name in ("iterations", "oracle_calls")}
+    frame = type(motions)(dict(results)).astype(types)
+    ids = motions["id"] if "id" in motions else motions.index.get_level_values("id").to_series()
+    # The results of paths are fewer than their rows.
+    frame["id"] = ids.array if len(ids) == len(frame) else frame["id"].astype(ids.dtype)
+    if "id" in motions.index.names:
+        return frame.set_index("id")
+    return frame.set_axis(motions.index) if len(motions) == len(frame) else frame

@@ -1,0 +1,222 @@
+"""Do the answers of an engine have the bits of one process, even if a machine dies? What does the engine cost?
+
+    python check.py ray 1000000 --kill
+    python check.py dask 100000 --kill
+    python check.py spark 10000
+
+A table of random motions is answered in one process, and by the example of the engine on as many cores. Times are of both
+in turn, with reading and writing, without the start of the cluster. With --kill, `kill -9` ends what answers on a node of
+Ray, or a worker of Dask, when a third of the rows is answered.
+"""
+
+import argparse
+import importlib
+import math
+import os
+import shutil
+import tempfile
+import threading
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from rigid_ccd import Body, TableQuery, first_contacts
+
+# Local clusters listen on loopback alone, and tell nobody.
+os.environ |= {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0", "RAY_USAGE_STATS_ENABLED": "0", "SPARK_LOCAL_IP": "127.0.0.1"}
+LOG = "CHECK_LOG"
+
+
+class Logged(TableQuery):
+    """A query that notes where it answers how many rows."""
+
+    where: Callable[[], str]
+
+    def __call__(self, motions: Any) -> Any:
+        found = super().__call__(motions)
+        with open(Path(os.environ[LOG]) / self.where(), "a") as file:
+            file.write(f"{len(found)}\n")
+        return found
+
+
+class OfRay(Logged):
+    @staticmethod
+    def where() -> str:
+        import ray
+
+        return str(ray.get_runtime_context().get_node_id())
+
+
+class OfDask(Logged):
+    @staticmethod
+    def where() -> str:
+        return str(os.getpid())
+
+
+def answered(log: Path) -> Counter[str]:
+    """The number of rows that each place has answered."""
+    return Counter({place.name: sum(map(int, place.read_text().split())) for place in log.iterdir()})
+
+
+@contextmanager
+def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Callable[[str], None]) -> Iterator[None]:
+    """Kills the busiest place meanwhile, when a third of the rows is answered."""
+    over = threading.Event()
+
+    def watch() -> None:
+        while not over.wait(0.05):
+            done = answered(log)
+            if sum(done.values()) >= given.rows / 3:
+                victim = max(victims, key=done.__getitem__)
+                kill(victim)
+                print(f"killed after {sum(done.values())} rows; it had answered {done[victim]}")
+                return
+
+    watching = threading.Thread(target=watch)
+    if given.kill:
+        watching.start()
+    yield
+    over.set()
+    if given.kill:
+        watching.join()
+
+
+@contextmanager
+def ray(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
+    """Three nodes: the head with a processor for reading and writing, and two of which one dies."""
+    from ray.cluster_utils import Cluster
+
+    example = importlib.import_module("ray_data")
+    node = {"node_ip_address": "127.0.0.1", "object_store_memory": 500 * 2**20, "include_dashboard": False}
+    cluster = Cluster(initialize_head=True, head_node_args={**node, "num_cpus": 1 + given.spare})
+    nodes = {made.node_id: made for made in (cluster.add_node(**node, num_cpus=1) for _ in range(2))}
+    cluster.connect()
+
+    def kill(victim: str) -> None:
+        cluster.remove_node(nodes[victim], allow_graceful=False)
+
+    def answer(*paths: Path) -> None:
+        with killer(given, log, list(nodes), kill):
+            example.answer(*paths, actors=given.cores, query=OfRay)
+
+    yield answer
+    example.ray.shutdown()
+    cluster.shutdown()
+
+
+@contextmanager
+def dask(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
+    from distributed import Client, LocalCluster
+
+    example = importlib.import_module("dask_frame")
+    example.TableQuery = OfDask
+    with (
+        LocalCluster(n_workers=given.cores, threads_per_worker=1, dashboard_address=None) as cluster,
+        Client(cluster),
+    ):
+
+        def answer(*paths: Path) -> None:
+            workers = [str(nanny.pid) for nanny in cluster.workers.values()]
+            with killer(given, log, workers, lambda victim: os.kill(int(victim), 9)):
+                example.answer(*paths)
+
+        yield answer
+
+
+@contextmanager
+def spark(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
+    example = importlib.import_module("spark_arrow")
+    session = example.session(given.cores)
+    yield lambda *paths: example.answer(session, *paths)
+    session.stop()
+
+
+def knot() -> Body:
+    """A torus knot of 3200 triangles."""
+    around, along = np.meshgrid(np.arange(16) * math.tau / 16, np.arange(100) * math.tau / 100)
+    radius = 1 + 0.4 * np.cos(3 * along) + 0.15 * np.cos(around)
+    height = 0.4 * np.sin(3 * along) + 0.15 * np.sin(around)
+    points = np.stack([radius * np.cos(2 * along), radius * np.sin(2 * along), height], axis=-1)
+    a = np.arange(1600).reshape(100, 16)
+    b, d = np.roll(a, -1, 0), np.roll(a, -1, 1)
+    c = np.roll(b, -1, 1)
+    faces = [np.stack(corners, -1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))]
+    return Body(points.reshape(-1, 3), np.concatenate(faces))
+
+
+def motions(rows: int) -> pyarrow.Table:
+    """Boxes that fly at the knot and turn. About half hit. A few are no motions."""
+    random = np.random.default_rng(1)
+    columns = {name: random.uniform(-3, 3, rows) for name in ("a_wx", "a_wy", "b_wx", "b_wz")}
+    columns |= {name: random.uniform(-2, 2, rows) for name in ("a_py", "a_pz")}
+    columns |= {"id": random.permutation(rows), "a_px": random.uniform(-4, -3, rows), "a_vx": random.uniform(2, 8, rows)}
+    columns["a_px"][::1000] = np.nan
+    return pyarrow.table(columns)
+
+
+def same_bits(found: pyarrow.Table, expected: pyarrow.Table) -> bool:
+    """Compares tables, in the order of their ids. NaN and null are alike."""
+    ids = found["id"].to_numpy()
+    assert len(np.unique(ids)) == len(ids) == len(expected), "rows are lost, or there twice"
+    found, expected = (table.combine_chunks().sort_by("id") for table in (found, expected))
+    assert found.column_names == expected.column_names
+    for name in found.column_names:
+        one, other = (table[name].to_numpy(zero_copy_only=False) for table in (found, expected))
+        if pyarrow.types.is_floating(expected.schema.field(name).type):
+            one, other = (np.where(np.isnan(values), np.nan, values).view(np.uint64) for values in (one, other))
+        else:
+            one, other = (table[name].cast(expected.schema.field(name).type) for table in (found, expected))
+            one, other = np.array(one.equals(other)), np.array(True)
+        if not np.array_equal(one, other):
+            return False
+    return True
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("engine", choices=["ray", "dask", "spark"])
+    parser.add_argument("rows", type=int)
+    parser.add_argument("--kill", action="store_true", help="kill a node of Ray, or a worker of Dask, meanwhile")
+    parser.add_argument("--cores", type=int, default=2)
+    parser.add_argument("--spare", type=int, default=1, help="processors of Ray's head beside those of its actors")
+    parser.add_argument("--repeat", type=int, default=1)
+    given = parser.parse_args()
+    folder = Path(tempfile.mkdtemp())
+    a, b, table, log, results = (folder / name for name in ("box.ccd", "knot.ccd", "motions.parquet", "log", "results"))
+    Body.box(0.5, 0.3, 0.2).save(a)
+    knot().save(b)
+    pyarrow.parquet.write_table(motions(given.rows), table, row_group_size=10_000)
+    log.mkdir()
+    os.environ[LOG] = str(log)
+    begin = time.perf_counter()
+    with globals()[given.engine](given, log) as answer:
+        print(f"the cluster started in {time.perf_counter() - begin:.1f} s")
+        for _ in range(given.repeat):
+            begin = time.perf_counter()
+            bodies = Body.from_file(a), Body.from_file(b)
+            one = first_contacts(*bodies, pyarrow.parquet.read_table(table), threads=given.cores, micros=False)
+            expected = pyarrow.table(one)
+            pyarrow.parquet.write_table(expected, folder / "one.parquet")
+            alone = time.perf_counter() - begin
+            shutil.rmtree(results, ignore_errors=True)
+            begin = time.perf_counter()
+            answer(a, b, table, results)
+            taken = time.perf_counter() - begin
+            found = pyarrow.parquet.read_table(results)
+            print(f"{one}\none process {alone:.1f} s, {given.engine} {taken:.1f} s: {taken / alone:.2f}")
+            print(f"{len(found)} rows, {'equal' if same_bits(found, expected) else 'OTHER'} bits")
+    done = answered(log)
+    if done:
+        print(f"rows answered by each: {', '.join(str(count) for count in done.values())}; all {sum(done.values())}")
+    shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,46 @@
+"""The first contact in each row of a Parquet table, by Dask.
+
+    python dask_frame.py knot.ccd box.ccd motions.parquet contacts
+
+The table has the columns that `rigid_ccd.first_contacts` takes, and ids that are unique. The results are Parquet files in
+a new folder.
+"""
+
+import argparse
+import os
+from pathlib import Path
+
+import dask.dataframe
+from distributed import Client, LocalCluster
+
+from rigid_ccd import TableQuery
+
+
+def answer(a: Path, b: Path, motions: Path, results: Path) -> None:
+    """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
+    results.mkdir(parents=True)  # Dask would mix the files with those of a former run
+    # In Arrow's types an empty cell is a default and NaN an error. In pandas' own NaN is an empty cell.
+    # A partition is a file or some of its row groups.
+    frame = dask.dataframe.read_parquet(motions, dtype_backend="pyarrow", split_row_groups=True)
+    query = TableQuery(a.resolve(), b.resolve())
+    found = frame.map_partitions(query, meta=query.schema(frame._meta))
+    found.to_parquet(results, write_index=False)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("a", type=Path, help="a mesh, or a body that Body.save prepared")
+    parser.add_argument("b", type=Path)
+    parser.add_argument("motions", type=Path, help="a folder or a file of Parquet")
+    parser.add_argument("results", type=Path, help="a folder to make")
+    parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
+    given = parser.parse_args()
+    # This machine alone; Client("tcp://…") is a cluster that runs.
+    cluster = LocalCluster(n_workers=given.workers, threads_per_worker=1, dashboard_address=None)
+    with cluster, Client(cluster):
+        answer(given.a, given.b, given.motions, given.results)
+        print(f"{len(dask.dataframe.read_parquet(given.results))} rows in {given.results}")
+
+
+if __name__ == "__main__":
+    main()
