@@ -76,7 +76,7 @@ def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Calla
             if sum(done.values()) >= given.rows / 3:
                 victim = max(victims, key=done.__getitem__)
                 kill(victim)
-                print(f"killed after {sum(done.values())} rows; it had answered {done[victim]}")
+                print(f"killed after {sum(done.values())} rows, of which the dead had answered {done[victim]}")
                 return
 
     watching = threading.Thread(target=watch)
@@ -90,12 +90,13 @@ def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Calla
 
 @contextmanager
 def ray(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
-    """Three nodes: the head with a processor for reading and writing, and two of which one dies."""
+    """Three nodes: the head, and two of which one dies."""
     from ray.cluster_utils import Cluster
 
     example = importlib.import_module("ray_data")
+    example.TableQuery = OfRay
     node = {"node_ip_address": "127.0.0.1", "object_store_memory": 500 * 2**20, "include_dashboard": False}
-    cluster = Cluster(initialize_head=True, head_node_args={**node, "num_cpus": 1 + given.spare})
+    cluster = Cluster(initialize_head=True, head_node_args={**node, "num_cpus": given.head})
     nodes = {made.node_id: made for made in (cluster.add_node(**node, num_cpus=1) for _ in range(2))}
     cluster.connect()
 
@@ -104,7 +105,7 @@ def ray(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
 
     def answer(*paths: Path) -> None:
         with killer(given, log, list(nodes), kill):
-            example.answer(*paths, actors=given.cores, query=OfRay)
+            example.answer(*paths, actors=given.actors)
 
     yield answer
     example.ray.shutdown()
@@ -184,8 +185,9 @@ def main() -> None:
     parser.add_argument("engine", choices=["ray", "dask", "spark"])
     parser.add_argument("rows", type=int)
     parser.add_argument("--kill", action="store_true", help="kill a node of Ray, or a worker of Dask, meanwhile")
-    parser.add_argument("--cores", type=int, default=2)
-    parser.add_argument("--spare", type=int, default=1, help="processors of Ray's head beside those of its actors")
+    parser.add_argument("--cores", type=int, default=2, help="of one process, of Dask and of Spark")
+    parser.add_argument("--head", type=int, default=1, help="processors of Ray's head; its other nodes have one")
+    parser.add_argument("--actors", type=int, help="of Ray, instead of tasks")
     parser.add_argument("--repeat", type=int, default=1)
     given = parser.parse_args()
     folder = Path(tempfile.mkdtemp())

@@ -1,36 +1,43 @@
 """The first contact in each row of a Parquet table, by Ray Data.
 
-    python ray_data.py knot.ccd box.ccd motions.parquet contacts
+    python ray_data.py box.ccd knot.ccd motions.parquet contacts
 
 The table has the columns that `rigid_ccd.first_contacts` takes, and ids that are unique. The results are Parquet files in
 a new folder, in any order.
 """
 
 import argparse
-import os
 from pathlib import Path
-from typing import Any
 
 import ray
-from ray.data import ActorPoolStrategy, SaveMode
+from ray.data import ActorPoolStrategy, Dataset, SaveMode
 
 from rigid_ccd import TableQuery
 
 
-def answer(a: Path, b: Path, motions: Path, results: Path, *, actors: int, query: Any = TableQuery) -> None:
+def answer(a: Path, b: Path, motions: Path, results: Path, *, actors: int | None = None) -> None:
     """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
-    table = ray.data.read_parquet(str(motions))
-    # Ray makes blocks of a hundred megabytes: a million rows. An actor takes a block at a time.
+    table = ray.data.read_parquet(str(motions.resolve()))
+    # By itself Ray makes blocks of a hundred megabytes: a million rows, for one task.
     table = table.repartition(target_num_rows_per_block=10_000)
-    table = table.map_batches(
-        query,  # the class: each actor makes its query, and so its bodies, once
-        fn_constructor_args=(a.resolve(), b.resolve()),
-        # A pool that grows leaves a processor to the tasks that read and write. A fixed one may wait for them for ever.
-        compute=ActorPoolStrategy(min_size=1, max_size=actors),
-        batch_format="pyarrow",  # batches of NumPy have no null
-    )
-    # SaveMode.APPEND, the default, would add the same rows again.
+    table = by_tasks(table, a, b) if actors is None else by_actors(table, a, b, actors)
+    # SaveMode.APPEND, the default, would add to the rows of a former run.
     table.write_parquet(str(results.resolve()), mode=SaveMode.ERROR)
+
+
+def by_tasks(table: Dataset, a: Path, b: Path) -> Dataset:
+    """Takes all processors. A process loads the bodies once, for all of its tasks."""
+    return table.map_batches(TableQuery(a.resolve(), b.resolve()), batch_format="pyarrow")
+
+
+def by_actors(table: Dataset, a: Path, b: Path, actors: int) -> Dataset:
+    """Takes as many processors as there are actors, and needs one more: with fewer it waits for ever."""
+    return table.map_batches(
+        TableQuery,
+        fn_constructor_args=(a.resolve(), b.resolve()),
+        compute=ActorPoolStrategy(size=actors),
+        batch_format="pyarrow",
+    )
 
 
 def main() -> None:
@@ -39,12 +46,11 @@ def main() -> None:
     parser.add_argument("b", type=Path)
     parser.add_argument("motions", type=Path, help="a folder or a file of Parquet")
     parser.add_argument("results", type=Path, help="a folder to make")
-    parser.add_argument("--actors", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--actors", type=int, help="use so many actors instead of tasks")
     given = parser.parse_args()
-    # This machine alone; "auto" is the address of a cluster that runs. One processor more is for reading and writing.
-    ray.init(num_cpus=given.actors + 1, include_dashboard=False)
+    ray.init(include_dashboard=False)  # this machine alone; ray.init("auto") joins the cluster that it belongs to
     answer(given.a, given.b, given.motions, given.results, actors=given.actors)
-    print(f"{ray.data.read_parquet(str(given.results)).count()} rows in {given.results}")
+    print(f"{ray.data.read_parquet(str(given.results.resolve())).count()} rows in {given.results}")
 
 
 if __name__ == "__main__":

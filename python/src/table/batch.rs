@@ -147,7 +147,10 @@ impl Cells for &Row {
 
     fn number(&self, cell: usize) -> Result<Option<f64>, String> {
         match self.batch.numbers.get(cell) {
-            Some(Some(column)) if column.is_valid(self.at) => Ok(Some(column.value(self.at))),
+            Some(Some(column)) if column.is_valid(self.at) => match column.value(self.at) {
+                value if value.is_finite() => Ok(Some(value)),
+                value => Err(value.to_string()),
+            },
             _ => Ok(None),
         }
     }

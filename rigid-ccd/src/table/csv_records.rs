@@ -138,7 +138,10 @@ impl Cells for Vec<&str> {
     fn number(&self, cell: usize) -> Result<Option<f64>, String> {
         match self.get(cell) {
             None | Some(&"") => Ok(None),
-            Some(text) => text.parse().map(Some).map_err(|_| (*text).to_owned()),
+            Some(text) => match text.parse::<f64>() {
+                Ok(value) if value.is_finite() => Ok(Some(value)),
+                _ => Err((*text).to_owned()),
+            },
         }
     }
 }

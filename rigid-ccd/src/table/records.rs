@@ -58,9 +58,9 @@ pub trait Cells {
     /// Returns whether a cell has a value.
     fn is_given(&self, cell: usize) -> bool;
 
-    /// Returns the number of a cell; none where it is empty.
+    /// Returns the number of a cell, which is finite; none where the cell is empty.
     ///
     /// # Errors
-    /// The content of a cell that is no number.
+    /// The content of a cell that is no finite number.
     fn number(&self, cell: usize) -> Result<Option<f64>, String>;
 }

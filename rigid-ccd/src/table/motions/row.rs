@@ -183,17 +183,13 @@ impl<C: Cells> Row<'_, C> {
     }
 
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {
-        let not_a_number = |value| RowProblem::NotANumber {
-            column: self.columns.name(slot).to_owned(),
-            value,
-        };
         let Some(cell) = self.columns.index(slot) else {
             return Ok(None);
         };
-        match self.cells.number(cell) {
-            Ok(Some(value)) if !value.is_finite() => Err(not_a_number(value.to_string())),
-            Ok(value) => Ok(value),
-            Err(content) => Err(not_a_number(content)),
-        }
+        let found = self.cells.number(cell);
+        found.map_err(|value| RowProblem::NotANumber {
+            column: self.columns.name(slot).to_owned(),
+            value,
+        })
     }
 }

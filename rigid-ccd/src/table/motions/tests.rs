@@ -159,11 +159,16 @@ fn a_zero_quaternion_is_refused() {
 
 #[test]
 fn end_pose_and_velocity_exclude_each_other() {
-    for (end, velocity) in [("end_qz", "wz"), ("end_px", "vx"), ("end_pz", "wx")] {
-        let problem = only_problem(&format!("b_{end},b_{velocity}\n1,1\n"));
+    let ends = [
+        ("b_end_px,b_end_py,b_end_pz", "1,,", "b_end_px"),
+        ("b_end_px,b_end_py,b_end_pz", ",,1", "b_end_pz"),
+        ("b_end_qw,b_end_qx,b_end_qy,b_end_qz", ",,,1", "b_end_qz"),
+    ];
+    for ((columns, cells, end), velocity) in ends.into_iter().zip(["b_vx", "b_wx", "b_wz"]) {
+        let problem = only_problem(&format!("{columns},{velocity}\n{cells},1\n"));
         let expected = RowProblem::EndPoseAndVelocity {
-            end: format!("b_{end}"),
-            velocity: format!("b_{velocity}"),
+            end: end.to_owned(),
+            velocity: velocity.to_owned(),
         };
         assert_eq!(problem, expected);
     }
