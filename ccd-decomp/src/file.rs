@@ -9,7 +9,8 @@ use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
 use error::{StoreError, StoreFault};
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The extension of a stored body's file.
 pub const STORED_EXTENSION: &str = "ccd";
@@ -28,20 +29,43 @@ type Stored = (
 impl Model {
     /// Stores the model in a file, by convention called `NAME.ccd`.
     ///
+    /// Until it is complete, it is in a file beside it, whose name ends in `.part`: a write that is cut short destroys no
+    /// older file. A link is followed. A pipe or a device is written directly.
+    ///
     /// # Errors
     /// [`StoreFault::Unwritable`] when the operating system refuses.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
-        // A write that is cut short must not destroy the old file.
-        let part = path.with_extension(format!("{STORED_EXTENSION}.part"));
-        let file = File::create(&part).map_err(StoreFault::Unwritable);
-        file.and_then(|file| self.store(file))
-            .and_then(|()| fs::rename(&part, path).map_err(StoreFault::Unwritable))
-            .map_err(|fault| {
-                // The file may not even be there.
-                let _ = fs::remove_file(&part);
-                fault.in_file(path)
-            })
+        let unwritable = StoreFault::Unwritable;
+        let saved = match fs::metadata(path) {
+            Ok(there) if !there.is_file() => {
+                let file = File::options().write(true).open(path);
+                file.map_err(unwritable).and_then(|file| self.store(file))
+            }
+            Ok(_) => {
+                // A file that must not be written must not be replaced either.
+                let writable = File::options().write(true).open(path);
+                let target = writable.and_then(|_| fs::canonicalize(path));
+                target
+                    .map_err(unwritable)
+                    .and_then(|target| self.replace(&target))
+            }
+            Err(_) => self.replace(path),
+        };
+        saved.map_err(|fault| fault.in_file(path))
+    }
+
+    /// Stores the model beside a file, and then in its place.
+    fn replace(&self, target: &Path) -> Result<(), StoreFault> {
+        let (part, file) = part_of(target).map_err(StoreFault::Unwritable)?;
+        let stored = self.store(file);
+        let stored =
+            stored.and_then(|()| fs::rename(&part, target).map_err(StoreFault::Unwritable));
+        if stored.is_err() {
+            // The file may not even be there.
+            let _ = fs::remove_file(&part);
+        }
+        stored
     }
 
     /// Loads a model that [`Model::save`] stored.
@@ -135,6 +159,23 @@ impl Model {
             return Err("the report counts another number of pieces");
         }
         Ok(())
+    }
+}
+
+/// Creates a file beside another, with a name that nothing has: threads and processes may save side by side.
+fn part_of(target: &Path) -> io::Result<(PathBuf, File)> {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let name = target.file_name().unwrap_or_default();
+    loop {
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let mut part = name.to_owned();
+        part.push(format!(".{}-{count}.part", std::process::id()));
+        let part = target.with_file_name(part);
+        match File::create_new(&part) {
+            // Left behind by a process of the same number.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            created => return Ok((part, created?)),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Arrays, by NumPy's own rules.
 
-use crate::errors::input;
+use crate::errors::{caused, input};
 use numpy::{PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -9,7 +9,7 @@ pub(crate) fn rows<const N: usize>(
     values: &Bound<'_, PyAny>,
     what: &str,
 ) -> PyResult<Vec<[f64; N]>> {
-    let array = as_array(values, "float64", what)?;
+    let array = floats(values, what)?;
     let array: PyReadonlyArray2<'_, f64> = of_shape(&array, N, what)?;
     let rows = array.as_array();
     Ok(rows
@@ -21,15 +21,11 @@ pub(crate) fn rows<const N: usize>(
 
 /// Reads rows of three indices.
 pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
-    let numpy = values.py().import("numpy")?;
-    let given = numpy.call_method1("asarray", (values,))?;
-    let kind: String = given.getattr("dtype")?.getattr("kind")?.extract()?;
-    let empty: usize = given.getattr("size")?.extract()?;
-    if kind != "i" && kind != "u" && empty > 0 {
-        return Err(input(format!(
-            "faces: indices are integers, not {}",
-            given.getattr("dtype")?
-        )));
+    let given = plain(values, "faces")?;
+    let size: usize = given.getattr("size")?.extract()?;
+    if size > 0 && !matches!(kind(&given)?, 'i' | 'u') {
+        let dtype = given.getattr("dtype")?;
+        return Err(input(format!("faces: indices are integers, not {dtype}")));
     }
     let array = as_array(&given, "int64", "faces")?;
     let array: PyReadonlyArray2<'_, i64> = of_shape(&array, 3, "faces")?;
@@ -64,7 +60,21 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
 
 /// Reads any number of numbers.
 pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
-    let array = as_array(values, "float64", what)?;
+    let array = floats(values, what)?;
+    array
+        .call_method0("ravel")?
+        .call_method0("tolist")?
+        .extract()
+}
+
+/// Reads any number of whole numbers.
+pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
+    let given = plain(values, what)?;
+    let (kind, size) = (kind(&given)?, given.getattr("size")?.extract::<usize>()?);
+    if size > 0 && !matches!(kind, 'i' | 'u') {
+        return Err(input(format!("{what}: whole numbers are needed")));
+    }
+    let array = as_array(&given, "int64", what)?;
     array
         .call_method0("ravel")?
         .call_method0("tolist")?
@@ -77,9 +87,40 @@ pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
 }
 
 /// Returns the shape of what NumPy makes of some values.
-pub(crate) fn shape(values: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
-    let numpy = values.py().import("numpy")?;
-    numpy.call_method1("shape", (values,))?.extract()
+pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize>> {
+    plain(values, what)?.getattr("shape")?.extract()
+}
+
+/// Makes an array of values, of the type that they have.
+pub(crate) fn plain<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
+    let py = values.py();
+    let numpy = py.import("numpy")?;
+    let masked = numpy.getattr("ma")?.call_method1("is_masked", (values,))?;
+    if masked.is_truthy()? {
+        return Err(input(format!(
+            "{what}: some values are masked; fill them, or leave them out"
+        )));
+    }
+    let array = numpy.call_method1("asarray", (values,));
+    array.map_err(|error| caused(py, what, error))
+}
+
+/// Returns the kind of an array's type, as NumPy abbreviates it.
+pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
+    array.getattr("dtype")?.getattr("kind")?.extract()
+}
+
+/// Makes an array of float64 of numbers.
+fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
+    let given = plain(values, what)?;
+    match kind(&given)? {
+        // Objects are numbers of other kinds, such as fractions.
+        'f' | 'i' | 'u' | 'O' => as_array(&given, "float64", what),
+        _ => {
+            let dtype = given.getattr("dtype")?;
+            Err(input(format!("{what}: numbers are needed, not {dtype}")))
+        }
+    }
 }
 
 fn as_array<'py>(
@@ -87,9 +128,9 @@ fn as_array<'py>(
     dtype: &str,
     what: &str,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let numpy = values.py().import("numpy")?;
-    let array = numpy.call_method1("asarray", (values, dtype));
-    array.map_err(|error| input(format!("{what}: {}", error.value(values.py()))))
+    let py = values.py();
+    let array = py.import("numpy")?.call_method1("asarray", (values, dtype));
+    array.map_err(|error| caused(py, what, error))
 }
 
 fn of_shape<'py, T: numpy::Element>(
@@ -103,7 +144,7 @@ fn of_shape<'py, T: numpy::Element>(
         ))
     };
     let Ok(array) = array.cast::<numpy::PyArray2<T>>() else {
-        return Err(wrong(&shape(array)?));
+        return Err(wrong(&shape(array, what)?));
     };
     match array.shape()[1] == columns {
         true => Ok(array.readonly()),

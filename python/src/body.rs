@@ -1,12 +1,13 @@
 //! Bodies.
 
 use crate::arrays::{rows, triangles};
-use crate::errors::{InputError, input, wrong_type};
-use pyo3::exceptions::PyOSError;
+use crate::errors::{InputError, input, of_file, wrong_type};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::mesh::{Detail, MeshSource, Model, STORED_EXTENSION, TriangleMesh, Unit, prepare};
+use rigid_ccd::mesh::{
+    Detail, MeshSource, Model, STORED_EXTENSION, StoreFault, TriangleMesh, Unit, prepare,
+};
 use rigid_ccd::{Body, Volume};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -38,10 +39,16 @@ pub(crate) struct PyBody {
 
 /// What a body can be made of again: by pickle, in another process.
 enum Made {
+    Shape(Shape),
+    Mesh(Box<Model>),
+}
+
+/// A body that is no mesh.
+#[derive(Clone, Copy)]
+enum Shape {
     Box([f64; 3]),
     Sphere(f64),
     Capsule(f64, f64),
-    Mesh(Box<Model>),
 }
 
 #[pymethods]
@@ -84,9 +91,13 @@ impl PyBody {
         let detail = detail(pieces)?;
         let unit = unit.map(str::parse::<Unit>).transpose();
         let unit = unit.map_err(|error| input(format!("unit: {error}")))?;
-        // A file that cannot be read is an OSError, with its number.
-        std::fs::File::open(&path)?;
         class.py().detach(|| {
+            // A file that cannot be read is an OSError. A pipe would be waited for, and is none.
+            let there = std::fs::metadata(&path).map_err(|error| of_file(&error, &path))?;
+            if !there.is_file() {
+                return Err(input(format!("{}: is no file", path.display())));
+            }
+            std::fs::File::open(&path).map_err(|error| of_file(&error, &path))?;
             let model = match is_stored(&path) && part.is_none() {
                 true => Model::load(&path).map_err(input)?,
                 false => {
@@ -125,28 +136,21 @@ impl PyBody {
     #[classmethod]
     fn r#box(_class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
         let report = format!("box of half extents {x}, {y}, {z}");
-        PyBody::simple(Made::Box([x, y, z]), Body::cuboid([x, y, z]), report)
+        PyBody::simple(Shape::Box([x, y, z]), report)
     }
 
     /// Makes a ball about its origin.
     #[classmethod]
     fn sphere(_class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
-        PyBody::simple(
-            Made::Sphere(radius),
-            Body::ball(radius),
-            format!("ball of radius {radius}"),
-        )
+        let report = format!("ball of radius {radius}");
+        PyBody::simple(Shape::Sphere(radius), report)
     }
 
     /// Makes a capsule along z; half its height is from its middle to the centre of either cap.
     #[classmethod]
     fn capsule(_class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
         let report = format!("capsule of radius {radius} and half height {half_height}");
-        PyBody::simple(
-            Made::Capsule(radius, half_height),
-            Body::capsule(radius, half_height),
-            report,
-        )
+        PyBody::simple(Shape::Capsule(radius, half_height), report)
     }
 
     /// Whether the body fills what it bounds.
@@ -168,8 +172,11 @@ impl PyBody {
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| {
             self.model()?
-                .save(path)
-                .map_err(|error| PyOSError::new_err(error.to_string()))
+                .save(&path)
+                .map_err(|error| match error.fault {
+                    StoreFault::Unwritable(error) => of_file(&error, &path),
+                    _ => input(error),
+                })
         })
     }
 
@@ -179,9 +186,9 @@ impl PyBody {
         let py = slf.py();
         let make = |name: &str| py.get_type::<PyBody>().getattr(name);
         Ok(match &slf.get().made {
-            Made::Box(sides) => (make("box")?, PyTuple::new(py, sides)?),
-            Made::Sphere(radius) => (make("sphere")?, PyTuple::new(py, [*radius])?),
-            Made::Capsule(radius, half_height) => {
+            Made::Shape(Shape::Box(sides)) => (make("box")?, PyTuple::new(py, sides)?),
+            Made::Shape(Shape::Sphere(radius)) => (make("sphere")?, PyTuple::new(py, [*radius])?),
+            Made::Shape(Shape::Capsule(radius, half_height)) => {
                 (make("capsule")?, PyTuple::new(py, [*radius, *half_height])?)
             }
             Made::Mesh(model) => {
@@ -217,21 +224,25 @@ impl PyBody {
         })
     }
 
-    fn simple(
-        made: Made,
-        body: Result<Body, rigid_ccd::InputError>,
-        report: String,
-    ) -> PyResult<Self> {
-        let body = body.map_err(input)?;
+    fn simple(shape: Shape, report: String) -> PyResult<Self> {
+        let (body, lengths) = match shape {
+            Shape::Box(sides) => (Body::cuboid(sides), sides.to_vec()),
+            Shape::Sphere(radius) => (Body::ball(radius), vec![radius]),
+            Shape::Capsule(radius, half) => (Body::capsule(radius, half), vec![radius, half]),
+        };
+        if let Some(length) = lengths.iter().find(|&&length| length < 0.0) {
+            return Err(input(format!(
+                "{length} is no length: it has to be at least 0"
+            )));
+        }
+        let (body, made) = (body.map_err(input)?, Made::Shape(shape));
         Ok(PyBody { body, made, report })
     }
 
     fn model(&self) -> PyResult<Cow<'_, Model>> {
         match &self.made {
             Made::Mesh(model) => Ok(Cow::Borrowed(model)),
-            Made::Box(_) | Made::Sphere(_) | Made::Capsule(..) => {
-                Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?))
-            }
+            Made::Shape(_) => Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?)),
         }
     }
 }

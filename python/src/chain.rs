@@ -167,7 +167,12 @@ pub(crate) struct PyChain {
 impl PyChain {
     #[new]
     #[pyo3(signature = (joints, base = None))]
-    fn new(joints: Vec<Py<PyJoint>>, base: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+    fn new(joints: &Bound<'_, PyAny>, base: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        // One by one: what says that it is long may be no list.
+        let joints = joints
+            .try_iter()?
+            .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));
+        let joints: Vec<Py<PyJoint>> = joints.collect::<PyResult<_>>()?;
         let base = base.map_or(Ok(GivenPose::IDENTITY), |base| given_pose(base, "base"))?;
         let of_chain = joints.iter().map(|joint| joint.get().joint.clone());
         Ok(PyChain {
@@ -248,6 +253,9 @@ impl PyChain {
 type ChainParts = (Vec<Py<PyJoint>>, GivenPose);
 
 /// A moving link of a `Chain`; `Chain.link` makes it.
+///
+/// Times and distances are as certain as those of a `Motion`. Witnesses are within the tolerance of where they are said
+/// to be.
 #[pyclass(name = "Link", module = "rigid_ccd", frozen)]
 pub(crate) struct PyLink {
     chain: Py<PyChain>,

@@ -1,6 +1,8 @@
 //! The exceptions.
 
-use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{
+    PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
+};
 use pyo3::prelude::*;
 use std::fmt::Display;
 
@@ -26,6 +28,34 @@ pyo3::create_exception!(
 /// Turns an error of the library into an `InputError`.
 pub(crate) fn input(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
+}
+
+/// Turns an exception of somebody else into an `InputError`, with it as the cause. Those that are to end the program,
+/// such as that of Ctrl-C, stay what they are.
+pub(crate) fn caused(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
+    if !cause.is_instance_of::<PyException>(py) {
+        return cause;
+    }
+    let error = InputError::new_err(format!("{what}: {}", cause.value(py)));
+    error.set_cause(py, Some(cause));
+    error
+}
+
+/// Turns an error of a file into an `OSError` of its kind, with its number and the file.
+pub(crate) fn of_file(error: &std::io::Error, path: &std::path::Path) -> PyErr {
+    match error.raw_os_error() {
+        // OSError chooses the class by the number.
+        Some(number) => {
+            let text = error.to_string();
+            let text = text
+                .split(" (os error")
+                .next()
+                .unwrap_or_default()
+                .to_owned();
+            PyOSError::new_err((number, text, path.display().to_string()))
+        }
+        None => PyOSError::new_err(format!("{}: {error}", path.display())),
+    }
 }
 
 /// Turns an error of a query into an exception.
@@ -81,7 +111,8 @@ pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> 
     PyTypeError::new_err(format!("{what}: {needed} is needed, not {name}"))
 }
 
-fn with_attribute<'py>(
+/// Adds an attribute to an exception.
+pub(crate) fn with_attribute<'py>(
     py: Python<'py>,
     error: PyErr,
     name: &str,

@@ -214,7 +214,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     if value.hasattr("as_matrix")? {
         return matrix(&value.call_method0("as_matrix")?, "rotation");
     }
-    match shape(value)?[..] {
+    match shape(value, "rotation")?[..] {
         [4] => {
             let [w, x, y, z] = numbers(value, "rotation")?;
             Ok(DQuat::from_xyzw(x, y, z, w))
@@ -257,7 +257,7 @@ pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Given
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(vector(&place, what)?, rotation_of(&turned)?));
     }
-    if shape(value)?[..] != [4, 4] {
+    if shape(value, what)?[..] != [4, 4] {
         return Err(input(format!(
             "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
         )));

@@ -8,6 +8,7 @@ use rigid_ccd::picture::{self, Claim, PageError, Pages, PagesError};
 use rigid_ccd::table::motions::TableError;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use crate::table::Reader;
 
@@ -24,6 +25,7 @@ pub(crate) fn write(
     reader: Reader,
     rows: &HashSet<usize>,
     folder: &Path,
+    stop: &AtomicBool,
 ) -> Result<Vec<PathBuf>, Fault> {
     let shown = picture::Asked {
         claim: Claim::First,
@@ -34,7 +36,7 @@ pub(crate) fn write(
     let mut pages = Pages::create(asked.bodies, shown, title, folder).map_err(Fault::Folder)?;
     let mut paths = Vec::new();
     let mut fault = None;
-    each(asked, reader, rows, |course, row| {
+    each(asked, reader, rows, stop, |course, row| {
         match pages.write(course, row) {
             Ok(path) => paths.push(path),
             Err(error) => {

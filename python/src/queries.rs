@@ -17,11 +17,14 @@ use std::time::Instant;
 /// looks for Ctrl-C.
 const SHORT: u64 = 100_000;
 
+/// What ended a query, and how far it had come: until what time, or to what distance, nothing touches.
+type Reached = Option<(Limit, f64)>;
+
 /// Asks a solver, without the GIL. Ctrl-C ends it.
 fn ask<T: Send>(
     py: Python<'_>,
     config: Config,
-    limit: impl Fn(&T) -> Option<Limit>,
+    reached: impl Fn(&T) -> Reached,
     question: impl Fn(&mut Solver) -> T + Send + Sync,
 ) -> PyResult<T> {
     let begin = Instant::now();
@@ -30,9 +33,10 @@ fn ask<T: Send>(
         ..config
     };
     let first = py.detach(|| question(&mut Solver::new().with_config(short)));
-    if limit(&first) != Some(Limit::Budget) || config.budget <= SHORT {
-        return Ok(first);
-    }
+    let until = match reached(&first) {
+        Some((Limit::Budget, until)) if config.budget > SHORT => until,
+        _ => return Ok(first),
+    };
     let left = config
         .deadline
         .map(|deadline| deadline.saturating_sub(begin.elapsed()));
@@ -45,12 +49,17 @@ fn ask<T: Send>(
         |stop| question(&mut Solver::new().with_config(whole).with_stop(stop)),
         |_| Ok(()),
     );
-    seen.map(|()| found)
+    seen?;
+    // With little time left, the first answer may have come farther.
+    Ok(match reached(&found) {
+        Some((_, farther)) if until > farther => first,
+        _ => found,
+    })
 }
 
-fn limit_of<T>(found: &Result<T, Error>) -> Option<Limit> {
+fn safe_until<T>(found: &Result<T, Error>) -> Reached {
     match found {
-        Err(Error::Unresolved { reason, .. }) => Some(*reason),
+        Err(Error::Unresolved { reason, safe_until }) => Some((*reason, *safe_until)),
         _ => None,
     }
 }
@@ -101,7 +110,7 @@ pub(crate) fn first_contact(
     let config = config(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
-    let found = ask(py, config, limit_of, |solver| match pair.moved() {
+    let found = ask(py, config, safe_until, |solver| match pair.moved() {
         Moved::Steadily(a, b) => solver.first_contact(a, b, duration),
         Moved::Along(a, b) => solver.first_contact_along(a, b, duration),
     })?;
@@ -128,7 +137,7 @@ pub(crate) fn is_free(
     let config = config(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
-    let found = ask(py, config, limit_of, |solver| match pair.moved() {
+    let found = ask(py, config, safe_until, |solver| match pair.moved() {
         Moved::Steadily(a, b) => solver.is_free(a, b, duration),
         Moved::Along(a, b) => solver.is_free_along(a, b, duration),
     })?;
@@ -194,11 +203,11 @@ fn measure(
     config: Config,
     question: impl Fn(&mut Solver) -> Result<ClosestApproach, rigid_ccd::InputError> + Send + Sync,
 ) -> PyResult<PyDistance> {
-    let limit = |found: &Result<ClosestApproach, _>| match found {
-        Ok(ClosestApproach::Unresolved { reason, .. }) => Some(*reason),
+    let reached = |found: &Result<ClosestApproach, _>| match found {
+        Ok(known @ ClosestApproach::Unresolved { reason, .. }) => Some((*reason, known.lower())),
         _ => None,
     };
-    let found = ask(py, config, limit, question)?.map_err(input)?;
+    let found = ask(py, config, reached, question)?.map_err(input)?;
     let bounds = [found.lower(), found.upper()];
     match found {
         ClosestApproach::Unresolved { reason, .. } => Err(unresolved_distance(py, bounds, reason)),

@@ -3,24 +3,25 @@
 pub(crate) mod answering;
 mod batch;
 mod input;
+mod numpy_column;
+mod pieces;
 mod results;
 
 pub(crate) use input::Reader;
 
+use crate::arrays::indices;
 use crate::body::PyBody;
-use crate::errors::{input as refuse, interrupted};
+use crate::errors::{input as refuse, interrupted, with_attribute, wrong_type};
 use crate::pages;
 use crate::polled::polled;
-use crate::settings::{OF_CONTACTS, OF_DISTANCES, config};
-use answering::{Asked, Micros};
+use crate::settings::{self, OF_CONTACTS, OF_DISTANCES, config};
+use answering::{Answered, Asked, Micros};
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
-use arrow_schema::{DataType, Field};
+use arrow_schema::Field;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyList, PyTuple};
-use pyo3_arrow::buffer::PyArrowBuffer;
 use pyo3_arrow::ffi::{
     ArrayIterator, to_array_pycapsules, to_schema_pycapsule, to_stream_pycapsule,
 };
@@ -49,14 +50,13 @@ impl PyTable {
     #[new]
     fn new(py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Self> {
         let reader = input::open(table)?;
-        let schema = reader.schema();
-        let batch = py.detach(|| {
-            let batches = reader.collect::<Result<Vec<_>, _>>()?;
-            arrow_select::concat::concat_batches(&schema, &batches)
-        });
-        Ok(PyTable {
-            batch: batch.map_err(refuse)?,
-        })
+        if reader.schema().fields().is_empty() {
+            return Err(refuse("table: there is no column"));
+        }
+        let (found, seen) = polled(py, |stop| batch::whole(reader, stop), |_| Ok(()));
+        seen?;
+        let batch = found.map_err(|error| refuse(format!("table: {error}")))?;
+        Ok(PyTable { batch })
     }
 
     /// The names of the columns, in order.
@@ -71,8 +71,9 @@ impl PyTable {
     }
 
     /// The rows with these numbers, in that order, as a table.
-    fn take(&self, rows: Vec<i64>) -> PyResult<Self> {
+    fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
+        let rows = indices(rows, "rows")?;
         if let Some(wrong) = rows.iter().find(|&&row| !(0..all as i64).contains(&row)) {
             return Err(refuse(format!("row {wrong}: the table has {all} rows")));
         }
@@ -95,7 +96,7 @@ impl PyTable {
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         match self.batch.column_by_name(name) {
-            Some(column) => to_numpy(py, column),
+            Some(column) => numpy_column::to_numpy(py, column),
             None => Err(PyKeyError::new_err(name.to_owned())),
         }
     }
@@ -161,44 +162,6 @@ impl PyTable {
     }
 }
 
-/// Makes an array of NumPy of a column.
-fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
-    let numpy = py.import("numpy")?;
-    let view = |buffer: &arrow_buffer::Buffer, dtype: &str| {
-        let buffer = PyArrowBuffer::new(buffer.clone());
-        match column.len() {
-            // NumPy takes no empty buffer.
-            0 => numpy.call_method1("empty", (0, dtype)),
-            rows => numpy.call_method1("frombuffer", (buffer, dtype, rows)),
-        }
-    };
-    if let Some(numbers) = column.as_primitive_opt::<Float64Type>()
-        && empty_cells_are_nan(numbers)
-    {
-        return view(numbers.values().inner(), "float64");
-    }
-    if let Some(counts) = column.as_primitive_opt::<Int64Type>()
-        && counts.null_count() == 0
-    {
-        return view(counts.values().inner(), "int64");
-    }
-    if column.data_type().is_numeric() {
-        let cast = arrow_cast::cast(column, &DataType::Float64).map_err(refuse)?;
-        let cells = cast.as_primitive::<Float64Type>().iter();
-        let values: Vec<f64> = cells.map(|cell| cell.unwrap_or(f64::NAN)).collect();
-        return Ok(numpy::PyArray1::from_vec(py, values).into_any());
-    }
-    let texts = arrow_cast::cast(column, &DataType::LargeUtf8).map_err(refuse)?;
-    let texts: Vec<Option<&str>> = texts.as_string::<i64>().iter().collect();
-    numpy.call_method1("array", (texts, "object"))
-}
-
-fn empty_cells_are_nan(numbers: &arrow_array::Float64Array) -> bool {
-    let mut rows = 0..numbers.len();
-    numbers.null_count() == 0
-        || rows.all(|row| numbers.is_valid(row) || numbers.value(row).is_nan())
-}
-
 /// Answers a question about each row of a table of motions; `rigid_ccd.first_contacts` and the like call it.
 #[pyfunction]
 #[pyo3(signature = (question, a, b, motions, *, clearance = None, threads = None, progress = None, micros = true, **settings))]
@@ -210,8 +173,8 @@ pub(crate) fn answer_table(
     b: &Bound<'_, PyBody>,
     motions: &Bound<'_, PyAny>,
     clearance: Option<f64>,
-    threads: Option<NonZeroUsize>,
-    progress: Option<Py<PyAny>>,
+    threads: Option<i64>,
+    progress: Option<Bound<'_, PyAny>>,
     micros: bool,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyTable> {
@@ -224,7 +187,7 @@ pub(crate) fn answer_table(
         config: config(settings, known(question))?,
         question,
         clearance,
-        threads,
+        threads: settings::threads(threads)?,
         micros: match micros {
             true => Micros::Told,
             false => Micros::LeftOut,
@@ -232,8 +195,12 @@ pub(crate) fn answer_table(
     };
     // One query shows whether the settings can be used: an error of each row would only repeat it.
     check(asked)?;
-    let (rows, done) = (input::rows(motions), AtomicUsize::new(0));
+    if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
+        return Err(wrong_type("progress", "a function", progress));
+    }
+    let progress = progress.map(Bound::unbind);
     let reader = input::open(motions)?;
+    let (rows, done) = (input::rows(motions, &reader), AtomicUsize::new(0));
     let mut told = None;
     let mut tell = |py: Python<'_>| {
         let now = done.load(Ordering::Relaxed);
@@ -244,16 +211,14 @@ pub(crate) fn answer_table(
             _ => Ok(()),
         }
     };
-    let (found, seen) = polled(
-        py,
-        |stop| answering::answer(asked, reader, stop, &done),
-        &mut tell,
-    );
-    let batch = found.map_err(|error| table_error(&error))?;
-    let table = PyTable { batch };
-    match seen.and_then(|()| tell(py)) {
-        Ok(()) => Ok(table),
-        Err(cause) => Err(interrupted(py, cause, table)),
+    let work = |stop: &_| answering::answer(asked, reader, stop, &done);
+    let (found, seen) = polled(py, work, &mut tell);
+    let Answered { results, fault } = found.map_err(|error| table_error(&error))?;
+    let table = PyTable { batch: results };
+    match (seen.and_then(|()| tell(py)), fault) {
+        (Err(cause), _) => Err(interrupted(py, cause, table)),
+        (Ok(()), Some(fault)) => Err(with_attribute(py, table_error(&fault), "results", table)),
+        (Ok(()), None) => Ok(table),
     }
 }
 
@@ -281,7 +246,10 @@ pub(crate) fn write_pages(
         micros: Micros::LeftOut,
     };
     let reader = input::open(motions)?;
-    Ok(py.detach(|| pages::write(asked, reader, &rows, &folder))?)
+    let work = |stop: &Arc<_>| pages::write(asked, reader, &rows, &folder, stop);
+    let (written, seen) = polled(py, work, |_| Ok(()));
+    seen?;
+    Ok(written?)
 }
 
 fn question(name: &str) -> PyResult<Question> {
@@ -306,10 +274,17 @@ fn known(question: Question) -> &'static [&'static str] {
 
 /// Refuses settings that no query can have.
 fn check(asked: Asked<'_>) -> PyResult<()> {
-    if asked.clearance.is_some() && !asked.question.is_for_a_distance() {
-        return Err(refuse(
-            "clearance: only distances are compared with one; use margin",
-        ));
+    match asked.clearance {
+        Some(_) if !asked.question.is_for_a_distance() => {
+            return Err(refuse(
+                "clearance: only distances are compared with one; use margin",
+            ));
+        }
+        // Written so that NaN is refused.
+        Some(clearance) if !(clearance >= 0.0 && clearance.is_finite()) => {
+            return Err(refuse(format!("clearance: {clearance} is no distance")));
+        }
+        _ => {}
     }
     let Bodies { a, b } = asked.bodies;
     let still = rigid_ccd::Motion::STILL;

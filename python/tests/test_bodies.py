@@ -1,5 +1,6 @@
 """Bodies, from arrays, files and trimesh."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,9 @@ def test_vertices_of_any_kind_of_number_are_taken(dtype: type) -> None:
         (CORNERS, np.zeros((0, 3), dtype=int), "face"),
         (np.zeros((0, 3)), np.zeros((0, 3), dtype=int), "vert"),
         (None, FACES, "vertices"),
+        (CORNERS + 1j, FACES, "vertices: numbers are needed"),
+        (CORNERS.astype(str), FACES, "vertices: numbers are needed"),
+        (CORNERS, [[0, 1, 2], [0]], "faces: "),
     ],
 )
 def test_what_is_no_mesh_is_refused(vertices: object, faces: object, message: str) -> None:
@@ -62,6 +66,10 @@ def test_names_are_checked() -> None:
         Body.sphere(-1)
     with pytest.raises(InputError):
         Body.capsule(float("nan"), 1)
+    with pytest.raises(InputError, match="-1 is no length"):
+        Body.box(1, -1, 1)
+    with pytest.raises(InputError, match="-1 is no length"):
+        Body.capsule(1, -1)
 
 
 def test_files_are_read(tmp_path: Path) -> None:
@@ -70,8 +78,14 @@ def test_files_are_read(tmp_path: Path) -> None:
     path.write_text("\n".join(lines))
     assert Body.from_file(path).is_solid
     assert Body.from_file(str(path)).pieces == 1
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError) as missing:
         Body.from_file(tmp_path / "nothing.obj")
+    assert missing.value.filename == str(tmp_path / "nothing.obj")
+    # A pipe without a writer would be waited for.
+    os.mkfifo(tmp_path / "pipe.obj")
+    for other in ("pipe.obj", "."):
+        with pytest.raises(InputError, match="is no file"):
+            Body.from_file(tmp_path / other)
     with pytest.raises(InputError, match="unit"):
         Body.from_file(path, unit="mile")  # type: ignore[arg-type]
     path.write_text("v 1 2\n")

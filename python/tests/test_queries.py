@@ -125,3 +125,13 @@ def test_threads_give_the_same_bits() -> None:
     speeds = [3 + 0.01 * k for k in range(400)]
     with ThreadPoolExecutor(4) as pool:
         assert list(pool.map(ask, speeds)) == [ask(speed) for speed in speeds]
+
+
+def test_more_time_does_not_prove_less() -> None:
+    from test_tables import knot
+
+    body, flies = knot(600), Motion([3.3, 0, 0], spin=[6e5, 6e5, 0])
+    for deadline in (0.05, 0.2, 0.3, 0.4):
+        with pytest.raises(Unresolved) as error:
+            first_contact(body, body, flies, tolerance=1e-9, deadline=deadline)
+        assert error.value.safe_until > 0

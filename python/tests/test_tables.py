@@ -136,17 +136,76 @@ def test_numbers_of_any_kind_are_taken(dtype: str) -> None:
 def test_ids_come_back_as_they_are() -> None:
     pyarrow = pytest.importorskip("pyarrow")
     start = {"a_px": [-3.0, -3.0]}
-    assert first_contacts(BALL, WALL, {"id": np.array([7, 9], "uint16"), **start})["id"].tolist() == [7, 9]
+    for ids in (np.array([7, 9], "uint16"), [2**53 + 1, 2**53 + 2], np.array([2**63 + 1, 2**63 + 3], "uint64")):
+        assert first_contacts(BALL, WALL, {"id": ids, **start})["id"].tolist() == list(ids)
+    for texts in (["x", "1"], ["x", None], ["x", "a\0"], np.array(["x", "y"]), np.array(["x", None], object)):
+        assert first_contacts(BALL, WALL, {"id": texts, **start})["id"].tolist() == list(texts)
     assert first_contacts(BALL, WALL, start)["id"].tolist() == [0, 1]
     for ids in (
         pyarrow.array(["x", None]),
         pyarrow.array([3, 4], pyarrow.int16()),
-        pyarrow.array(["x", "y"]).dictionary_encode(),
+        pyarrow.array([2**53 + 1, None]),
+        pyarrow.array([b"\xff", b"y"]),
+        pyarrow.array([[1, 2], [3]]),
+        pyarrow.array([{"x": 1}, {"x": 2}]),
         pyarrow.array(["x", "y"], pyarrow.string_view()),
     ):
-        found = pyarrow.table(first_contacts(BALL, WALL, pyarrow.table({"id": ids, **start})))
-        assert found.schema.field("id").type == ids.type
-        assert found["id"].to_pylist() == ids.to_pylist()
+        found = first_contacts(BALL, WALL, pyarrow.table({"id": ids, **start}))
+        table = pyarrow.table(found)
+        assert table.schema.field("id").type == ids.type
+        assert table["id"].to_pylist() == ids.to_pylist() == [plain(id) for id in found["id"]]
+    # Dictionaries of parts may not fit into one.
+    names = [f"n{k}" for k in range(300)]
+    parts = [pyarrow.array(names[k : k + 50]).cast(pyarrow.dictionary(pyarrow.int8(), pyarrow.string())) for k in range(0, 300, 50)]
+    chunks = pyarrow.concat_tables([pyarrow.table({"id": part, "a_px": np.full(50, -3.0)}) for part in parts])
+    assert first_contacts(BALL, WALL, chunks)["id"].tolist() == names
+
+
+def plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+@pytest.mark.parametrize("ids", [["1", 1], [1.0, 2.0], [True, False], [(1,), (2,)], [2**64, 1], [2**63, -1]])
+def test_ids_that_might_become_equal_are_refused(ids: list[Any]) -> None:
+    with pytest.raises((InputError, TypeError), match="column id"):
+        first_contacts(BALL, WALL, {"id": ids, "a_px": [-3.0, -3.0]})
+
+
+def test_numbers_that_float64_cannot_hold_are_bad_rows() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    times = [2**60 + 129, 2**60 + 10**9]
+    for motions in (
+        {"t": np.array(times), "a_px": np.zeros(2)},
+        {"t": np.array(times, "uint64"), "a_px": np.zeros(2)},
+        pyarrow.table({"t": times, "a_px": [0.0, 0.0]}),
+    ):
+        found = first_contacts(BALL, WALL, motions)
+        assert found["status"].tolist() == ["error"] and "1152921504606847105" in found["reason"][0]
+    # Powers of two are exact, and times since the first are small.
+    assert first_contacts(BALL, WALL, {"t": [2**60, 2**61], "a_px": [0.0, 0]})["status"].tolist() == ["overlapping"]
+
+
+def test_masked_values_are_refused() -> None:
+    masked = np.ma.masked_array([-3.0, 0, -3], mask=[False, True, False])
+    with pytest.raises(InputError, match="column a_px: some values are masked"):
+        first_contacts(BALL, WALL, {"a_px": masked})
+    with pytest.raises(InputError, match="position: some values are masked"):
+        Motion(masked)
+    assert len(first_contacts(BALL, WALL, {"a_px": np.ma.masked_array([-3.0])})) == 1
+
+
+def test_a_stream_that_fails_leaves_what_is_done() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    table = pyarrow.table(shots(50))
+
+    def batches() -> Any:
+        yield from table.to_batches(max_chunksize=10)
+        raise RuntimeError("the disk is gone")
+
+    reader = pyarrow.RecordBatchReader.from_batches(table.schema, batches())
+    with pytest.raises(InputError, match="the disk is gone") as error:
+        first_contacts(BALL, WALL, reader, micros=False)
+    same(error.value.results, first_contacts(BALL, WALL, table, micros=False))
 
 
 def test_bad_rows_are_rows() -> None:
@@ -190,6 +249,7 @@ def test_empty_cells_have_defaults() -> None:
         ({"a_px": [1 + 2j]}, "column a_px: numbers are needed"),
         ({"a_px": [[1.0]]}, "column a_px: an array of one dimension is needed, not of 2"),
         ({"a_px": 1.0}, "column a_px: an array of one dimension is needed, not of 0"),
+        ({"id": np.zeros((2, 2), int)}, "column id: an array of one dimension is needed, not of 2"),
         ({"a_px": [None]}, "column a_px: numbers are needed, not object"),
     ],
 )
@@ -217,6 +277,7 @@ def test_what_is_no_table_is_refused() -> None:
 
 
 def test_bad_settings_are_refused_at_once() -> None:
+    wrong: dict[str, Any]
     settings: list[dict[str, Any]] = [
         {"tolerance": 0},
         {"tolerance": math.nan},
@@ -227,10 +288,21 @@ def test_bad_settings_are_refused_at_once() -> None:
     for wrong in settings:
         with pytest.raises(InputError):
             first_contacts(BALL, WALL, shots(3), **wrong)
-    integers: list[dict[str, Any]] = [{"threads": 0}, {"threads": -1}, {"budget": -1}]
-    for wrong in integers:
-        with pytest.raises((ValueError, OverflowError)):
+    wrongs: list[dict[str, Any]] = [{"threads": 0}, {"threads": -1}, {"threads": 10**9}, {"budget": -1}]
+    for wrong in wrongs:
+        with pytest.raises(InputError, match=next(iter(wrong))):
             first_contacts(BALL, WALL, shots(3), **wrong)
+    for wrong in ({"tolerance": None}, {"margin": "x"}, {"budget": 0.5}, {"deadline": []}):
+        with pytest.raises(TypeError, match=next(iter(wrong))):
+            first_contacts(BALL, WALL, shots(3), **wrong)
+    wrongs = [{"clearance": math.nan}, {"clearance": -1.0}]
+    for wrong in wrongs:
+        with pytest.raises(InputError, match="clearance"):
+            distances(BALL, WALL, shots(3), **wrong)
+    for progress in (5, "x"):
+        with pytest.raises(TypeError, match="progress"):
+            first_contacts(BALL, WALL, shots(3), progress=progress)  # type: ignore[arg-type]
+    assert len(first_contacts(BALL, WALL, shots(3), deadline=math.inf)) == 3
     with pytest.raises(TypeError, match="speed"):
         first_contacts(BALL, WALL, shots(3), speed=1)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="clearance"):
@@ -306,12 +378,24 @@ def test_results_go_everywhere_without_a_copy() -> None:
         found["times"]
     some = found.take([4, 2, 2])
     assert some["id"].tolist() == ["shot 4", "shot 2", "shot 2"]
-    for wrong in (50, -1):
-        with pytest.raises(InputError, match=f"row {wrong}: the table has 50 rows"):
-            found.take([wrong])
     # A column outlives its table.
     del found, table
     assert np.isfinite(column).all()
+
+
+def test_rows_are_taken_by_their_numbers() -> None:
+    found = first_contacts(BALL, WALL, shots(50))
+    assert found.take([4, 2, 2])["id"].tolist() == ["shot 4", "shot 2", "shot 2"]
+    assert len(found.take([])) == 0 and len(found.take(np.arange(50)[::7])) == 8
+    for wrong in (50, -1, 2**62):
+        with pytest.raises(InputError, match=f"row {wrong}: the table has 50 rows"):
+            found.take([wrong])
+    for rows in ([0.5], ["x"], range(10**15)):
+        with pytest.raises(InputError):
+            found.take(rows)
+    nested = Table(pytest.importorskip("pyarrow").table({"id": [[1], [2]]}))
+    with pytest.raises(InputError):
+        nested.take([2])
 
 
 def test_float64_columns_are_not_copied() -> None:
@@ -377,6 +461,44 @@ def test_ctrl_c_ends_a_table_with_what_is_done(rows: int) -> None:
     done = error.value.results
     assert len(done) < rows and "unresolved" not in done["status"]
     assert done["id"].tolist() == list(range(len(done)))
+
+
+@pytest.mark.parametrize("column", ["a_px", "t"])
+def test_ctrl_c_ends_an_endless_stream(column: str) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    schema = pyarrow.schema({column: pyarrow.float64()})
+
+    def batches() -> Any:
+        row = 0
+        while True:
+            row += 1
+            time.sleep(0.01)
+            yield pyarrow.record_batch({column: [float(row)]}, schema=schema)
+
+    def reader() -> Any:
+        return pyarrow.RecordBatchReader.from_batches(schema, batches())
+
+    reads: list[Callable[[], Any]] = [lambda: first_contacts(BALL, WALL, reader()), lambda: Table(reader())]
+    for read in reads:
+        interrupt(0.5)
+        begin = time.perf_counter()
+        with pytest.raises(KeyboardInterrupt):
+            read()
+        assert time.perf_counter() - begin < 0.5 + 1
+
+
+def test_what_ends_the_program_is_no_bad_input() -> None:
+    class Ends:
+        def __array__(self, *_: Any, **__: Any) -> Any:
+            raise KeyboardInterrupt
+
+    reads: list[Callable[[], Any]] = [
+        lambda: Motion(Ends()),
+        lambda: first_contacts(BALL, WALL, {"a_px": Ends()}),
+    ]
+    for read in reads:
+        with pytest.raises(KeyboardInterrupt):
+            read()
 
 
 def test_ctrl_c_ends_a_single_query() -> None:

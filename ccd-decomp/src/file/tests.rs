@@ -260,3 +260,60 @@ proptest! {
         check(&reframed(&payload[cut.index(payload.len())..]));
     }
 }
+
+/// A new folder for a test's files.
+fn folder(name: &str) -> std::path::PathBuf {
+    let folder = std::env::temp_dir().join(format!("ccd-{name}-{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn threads_save_side_by_side() {
+    let folder = folder("side-by-side");
+    let models = [TETRAHEDRON, DENTED].map(|mesh| model(mesh, Detail::Triangles));
+    std::thread::scope(|scope| {
+        for thread in 0..4 {
+            let (model, folder) = (&models[thread % 2], &folder);
+            scope.spawn(move || {
+                for _ in 0..50 {
+                    // Names that differ by their ending alone, and one that all share.
+                    let own = folder.join(format!("body.v{thread}"));
+                    model.save(&own).unwrap();
+                    assert_eq!(stored(&Model::load(&own).unwrap()), stored(model));
+                    let shared = folder.join("shared.ccd");
+                    model.save(&shared).unwrap();
+                    assert!(Model::load(&shared).is_ok());
+                }
+            });
+        }
+    });
+    let left = std::fs::read_dir(&folder).unwrap().count();
+    assert_eq!(left, 5, "no parts are left");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_devices_stay_what_they_are() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let folder = folder("links");
+    let body = model(TETRAHEDRON, Detail::Hull);
+    let (target, link) = (folder.join("target.ccd"), folder.join("link.ccd"));
+    std::fs::write(&target, "old").unwrap();
+    symlink(&target, &link).unwrap();
+    body.save(&link).unwrap();
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(stored(&Model::load(&target).unwrap()), stored(&body));
+
+    // A link to a device: if it were replaced, the device itself would stay.
+    let device = folder.join("device.ccd");
+    symlink("/dev/null", &device).unwrap();
+    body.save(&device).unwrap();
+    let there = std::fs::metadata(&device).unwrap();
+    assert!(there.file_type().is_char_device());
+    assert!(std::fs::symlink_metadata(&device).unwrap().is_symlink());
+    assert!(body.save(&folder).is_err(), "a folder");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -8,7 +8,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from . import _rigid_ccd
-from ._rigid_ccd import Body, Table
+from ._rigid_ccd import Body, InputError, Table
 from ._settings import ContactsOfTables
 from ._tables import Motions, first_contacts
 
@@ -18,11 +18,11 @@ class Audit:
     """What another checker has missed."""
 
     rows: int
-    """The number of rows."""
+    """The number of rows, or of paths."""
     missed: Table
     """The rows that are not free, with the time and the witnesses of the first contact: columns of `first_contacts`."""
     missed_rows: tuple[int, ...]
-    """Their numbers in the table of motions, from 0."""
+    """Their numbers in the table of motions, from 0; of paths, their numbers among the paths."""
     unproven: Table
     """The rows that are neither: unresolved, because a limit was reached, or no motions."""
     pages: tuple[Path, ...]
@@ -73,6 +73,8 @@ def audit(
     >>> found.missed["id"], found.missed["time"].round(3)
     (array(['fast'], dtype=object), array([0.042]))
     """
+    if most_pages < 0:
+        raise InputError(f"most_pages: {most_pages} is not at least 0")
     table = motions if isinstance(motions, Table) else Table(motions)
     contacts: dict[str, Any] = {"tolerance": 1e-6, **settings}
     results = first_contacts(a, b, table, **contacts)

@@ -52,6 +52,9 @@ class TableQuery:
         self._a, self._b, self._ask, self._paths = a, b, ask, paths
         self._settings = {"threads": 1, "micros": False, **settings}
         # What is wrong with the question is wrong here, not on a worker. Files may be there alone.
+        for body in (a, b):
+            if not isinstance(body, (Body, str, os.PathLike)):
+                raise TypeError(f"a, b: a Body or the path of a file is needed, not {type(body).__name__}")
         if paths not in ("refused", "whole"):
             raise InputError(f"paths: `refused` or `whole` is needed, not `{paths}`")
         answer(self._ask, _NOTHING, _NOTHING, {"a_px": []}, **self._settings)
@@ -106,11 +109,14 @@ _NOTHING = Body.sphere(0)
 
 
 def _body(given: BodyOrFile) -> Body:
-    return given if isinstance(given, Body) else _load(os.fspath(given), os.stat(given).st_mtime_ns)
+    if isinstance(given, Body):
+        return given
+    there = os.stat(given)
+    return _load(os.fspath(given), (there.st_mtime_ns, there.st_size))
 
 
 @lru_cache(maxsize=32)
-def _load(path: str, _changed: int) -> Body:
+def _load(path: str, _changed: tuple[int, int]) -> Body:
     """Loads a file, again only if it has changed."""
     return Body.from_file(path)
 

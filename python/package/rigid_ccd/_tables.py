@@ -23,7 +23,8 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         motions: anything that speaks the Arrow PyCapsule protocol (a table or a stream of pyarrow, polars, pandas 3,
             duckdb), or a dict of arrays. Columns of float64 are not copied; do not write to them meanwhile. They go by
             name, in any order, and have defaults; so have null cells (in pandas NaN is null, in a dict it is an error):
-            id: the name of the row, of any type; it comes back as it is. Without it, rows are numbered from 0.
+            id: the name of the row, of any type; it comes back as it is, a dictionary as its values. Without it, rows
+                are numbered from 0.
             a_px a_py a_pz: the position of A at the start (0).
             a_qw a_qx a_qy a_qz: its orientation (the identity).
             a_vx a_vy a_vz: the velocity of its center (0).
@@ -38,8 +39,8 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         budget: the work after which a row is left unresolved; a million takes about a second.
         deadline: seconds after which a row is left unresolved.
         threads: one on each core by default.
-        progress: a function of the number of rows answered and of all rows (None if it is not known), called a few
-            times a second; or a bar of tqdm; or True for one.
+        progress: a function of the number of rows answered and of all rows (None if it is not known, or if rows make
+            paths), called up to fifty times a second; or a bar of tqdm; or True for one.
         micros: False leaves the column empty, so that equal answers are equal tables.
 
     Returns:
@@ -49,8 +50,9 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         `time`), or error: a row that is no motion, with its reason.
 
     Raises:
-        InputError: a column is unknown or missing, or has no numbers.
-        Interrupted: Ctrl-C; its `results` has the rows answered by then, from the first on.
+        InputError: a column is unknown or missing, or has no numbers; or a stream failed: then it has `results`, too.
+        Interrupted: Ctrl-C; its `results` has the rows answered by then, from the first on. A stream that waits for its
+            next batch is waited for.
 
     >>> import numpy as np
     >>> from rigid_ccd import Body, first_contacts

@@ -2,14 +2,20 @@
 
 use super::input::Reader;
 use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
-use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
+use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array, Int64Array, RecordBatch};
 use arrow_cast::cast;
-use arrow_schema::{ArrowError, DataType, Schema};
+use arrow_cast::display::{ArrayFormatter, FormatOptions};
+use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
 use rigid_ccd::table::motions::{Columns, RowPosition, RowProblem, TableError};
 use rigid_ccd::table::records::{Cells, Record, Records};
+use std::collections::HashMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The name of the column of ids.
+pub(crate) const ID: &str = "id";
 
 /// Consecutive rows of a table.
 #[derive(Debug)]
@@ -18,11 +24,25 @@ pub(crate) struct Batch {
     pub(crate) first: usize,
     pub(crate) rows: usize,
     /// The column `id` as it came.
-    pub(crate) id: Option<ArrayRef>,
-    /// The column `id` as text, if it is read.
-    names: Option<StringArray>,
+    id: Option<ArrayRef>,
+    names: Names,
     /// The other columns, none in the place of `id`.
-    numbers: Vec<Option<Float64Array>>,
+    columns: Vec<Option<Numbers>>,
+}
+
+/// A column of numbers.
+#[derive(Debug)]
+struct Numbers {
+    values: Float64Array,
+    /// Whole numbers of more digits than a float64 has, by their rows.
+    inexact: HashMap<usize, String>,
+}
+
+/// Whether ids are read as text: results have them as they came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Names {
+    Read,
+    LeftOut,
 }
 
 /// A row of a batch.
@@ -56,58 +76,54 @@ pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     Ok(())
 }
 
-const ID: &str = "id";
+/// Returns the column of ids that results of a table have: those that came, or the rows' numbers.
+pub(crate) fn id_field(schema: &Schema) -> Field {
+    match schema.field_with_name(ID) {
+        Ok(field) => field
+            .clone()
+            .with_data_type(unpacked(field.data_type()).clone())
+            .with_nullable(true),
+        Err(_) => Field::new(ID, DataType::Int64, true),
+    }
+}
+
+/// The type of values: dictionaries of parts of a table may not fit into one.
+fn unpacked(kind: &DataType) -> &DataType {
+    match kind {
+        DataType::Dictionary(_, values) => unpacked(values),
+        other => other,
+    }
+}
+
+fn is_numeric(kind: &DataType) -> bool {
+    *unpacked(kind) == DataType::Null || unpacked(kind).is_numeric()
+}
 
 fn unreadable(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
 
-fn is_numeric(kind: &DataType) -> bool {
-    match kind {
-        DataType::Null => true,
-        DataType::Dictionary(_, values) => is_numeric(values),
-        other => other.is_numeric(),
-    }
-}
-
 impl Batch {
     /// Takes a batch whose columns have been checked. Columns of float64 are not copied.
-    fn new(batch: &RecordBatch, first: usize) -> Result<Self, TableError> {
+    fn new(batch: &RecordBatch, first: usize, names: Names) -> Result<Self, TableError> {
         let schema = batch.schema();
-        let (mut id, mut numbers) = (None, Vec::new());
+        let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
-            numbers.push(match (field.name().as_str(), column.data_type()) {
-                (ID, _) => {
-                    id = Some(Arc::clone(column));
+            let column = cast(column, unpacked(field.data_type())).map_err(unreadable)?;
+            columns.push(match field.name() == ID {
+                true => {
+                    id = Some(column);
                     None
                 }
-                (_, DataType::Float64) => Some(column.as_primitive::<Float64Type>().clone()),
-                _ => {
-                    let column = cast(column, &DataType::Float64).map_err(unreadable)?;
-                    Some(column.as_primitive::<Float64Type>().clone())
-                }
+                false => Some(Numbers::of(&column)?),
             });
         }
         Ok(Batch {
             first,
             rows: batch.num_rows(),
             id,
-            names: None,
-            numbers,
-        })
-    }
-
-    /// Reads the column `id` as text.
-    fn with_names(self) -> Result<Self, TableError> {
-        let names = self
-            .id
-            .as_ref()
-            .map(|id| cast(id, &DataType::Utf8))
-            .transpose();
-        let names = names.map_err(|error| TableError::Unreadable(format!("column id: {error}")))?;
-        Ok(Batch {
-            names: names.map(|names| names.as_string().clone()),
-            ..self
+            names,
+            columns,
         })
     }
 
@@ -117,12 +133,42 @@ impl Batch {
             Some(id) => id.slice(at, rows),
             None => {
                 let first = self.first + at;
-                Arc::new(arrow_array::Int64Array::from_iter_values(
-                    (first..first + rows).map(|row| row as i64),
-                ))
+                let numbers = (first..first + rows).map(|row| row as i64);
+                Arc::new(Int64Array::from_iter_values(numbers))
             }
         }
     }
+}
+
+impl Numbers {
+    fn of(column: &ArrayRef) -> Result<Self, TableError> {
+        let inexact = match column.data_type() {
+            DataType::Int64 => {
+                inexact::<Int64Type>(column, |whole| whole as f64 as i128 == i128::from(whole))
+            }
+            DataType::UInt64 => {
+                inexact::<UInt64Type>(column, |whole| whole as f64 as i128 == i128::from(whole))
+            }
+            _ => HashMap::new(),
+        };
+        let values = cast(column, &DataType::Float64).map_err(unreadable)?;
+        Ok(Numbers {
+            values: values.as_primitive::<Float64Type>().clone(),
+            inexact,
+        })
+    }
+}
+
+/// Returns the numbers of a column that are not exact as float64, by their rows.
+fn inexact<T: ArrowPrimitiveType<Native: std::fmt::Display>>(
+    column: &ArrayRef,
+    is_exact: fn(T::Native) -> bool,
+) -> HashMap<usize, String> {
+    let numbers = column.as_primitive::<T>().iter().enumerate();
+    let text = |number| format!("{number}, which has more digits than a float64,");
+    numbers
+        .filter_map(|(row, number)| number.filter(|&n| !is_exact(n)).map(|n| (row, text(n))))
+        .collect()
 }
 
 impl Record for Row {
@@ -133,25 +179,34 @@ impl Record for Row {
     }
 
     fn text(&self, _: usize) -> Option<String> {
-        let names = self.batch.names.as_ref()?;
-        names
-            .is_valid(self.at)
-            .then(|| names.value(self.at).to_owned())
+        let id = self.batch.id.as_ref()?;
+        if self.batch.names == Names::LeftOut || id.is_null(self.at) {
+            return None;
+        }
+        let options = FormatOptions::default();
+        let texts = ArrayFormatter::try_new(id.as_ref(), &options).ok()?;
+        texts.value(self.at).try_to_string().ok()
     }
 }
 
 impl Cells for &Row {
     fn is_given(&self, cell: usize) -> bool {
-        matches!(self.batch.numbers.get(cell), Some(Some(column)) if column.is_valid(self.at))
+        matches!(self.batch.columns.get(cell), Some(Some(column)) if column.values.is_valid(self.at))
     }
 
     fn number(&self, cell: usize) -> Result<Option<f64>, String> {
-        match self.batch.numbers.get(cell) {
-            Some(Some(column)) if column.is_valid(self.at) => match column.value(self.at) {
-                value if value.is_finite() => Ok(Some(value)),
-                value => Err(value.to_string()),
-            },
-            _ => Ok(None),
+        let Some(Some(column)) = self.batch.columns.get(cell) else {
+            return Ok(None);
+        };
+        if column.values.is_null(self.at) {
+            return Ok(None);
+        }
+        if let Some(whole) = column.inexact.get(&self.at) {
+            return Err(whole.clone());
+        }
+        match column.values.value(self.at) {
+            value if value.is_finite() => Ok(Some(value)),
+            value => Err(value.to_string()),
         }
     }
 }
@@ -161,13 +216,6 @@ pub(crate) struct Batches {
     reader: Reader,
     rows: usize,
     names: Names,
-}
-
-/// Whether ids are read as text: results have them as they came.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Names {
-    Read,
-    LeftOut,
 }
 
 impl Batches {
@@ -183,13 +231,18 @@ impl Batches {
         let Some(batch) = self.reader.next() else {
             return Ok(None);
         };
-        let batch = Batch::new(&batch.map_err(unreadable)?, self.rows)?;
+        let batch = Batch::new(&batch.map_err(unreadable)?, self.rows, self.names)?;
         self.rows += batch.rows;
-        Ok(Some(match self.names {
-            Names::Read => batch.with_names()?,
-            Names::LeftOut => batch,
-        }))
+        Ok(Some(batch))
     }
+}
+
+/// Reads a whole table as one batch, until the flag is set.
+pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, ArrowError> {
+    let schema = reader.schema();
+    let go_on = |_: &Result<RecordBatch, _>| !stop.load(Ordering::Relaxed);
+    let batches: Vec<RecordBatch> = reader.take_while(go_on).collect::<Result<_, _>>()?;
+    concat_batches(&schema, &batches)
 }
 
 /// The rows of a batch one by one, as paths are read.
@@ -201,19 +254,12 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Reads a whole table, as one batch.
-    pub(crate) fn of(reader: Reader) -> Result<Self, TableError> {
-        let schema = reader.schema();
-        let whole = reader
-            .collect::<Result<Vec<_>, _>>()
-            .and_then(|batches| concat_batches(&schema, &batches))
-            .map_err(unreadable)?;
+    /// Takes all rows of a table.
+    pub(crate) fn of(table: &RecordBatch) -> Result<Self, TableError> {
+        let batch = Arc::new(Batch::new(table, 0, Names::Read)?);
         Ok(Rows {
-            header: header(&schema),
-            current: Row {
-                batch: Arc::new(Batch::new(&whole, 0)?.with_names()?),
-                at: 0,
-            },
+            header: header(&table.schema()),
+            current: Row { batch, at: 0 },
             read: 0,
         })
     }

@@ -1,10 +1,14 @@
 //! Tables of motions, as Python has them.
 
-use crate::errors::{input, wrong_type};
-use arrow_array::{ArrayRef, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray};
+use super::batch::ID;
+use crate::arrays::{kind, plain};
+use crate::errors::{caused, input, wrong_type};
+use arrow_array::{
+    ArrayRef, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray,
+};
 use arrow_schema::{Field, Schema};
 use pyo3::prelude::*;
-use pyo3::types::PyMapping;
+use pyo3::types::{PyBool, PyMapping, PyString};
 use pyo3_arrow::buffer::AnyBufferProtocol;
 use pyo3_arrow::{PyRecordBatch, PyRecordBatchReader};
 use std::sync::Arc;
@@ -15,11 +19,18 @@ pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 /// Opens anything that speaks the Arrow PyCapsule protocol, or a dict of arrays. Columns are not copied, except for
 /// arrays that are not contiguous float64.
 pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
+    let failed = |error| caused(motions.py(), "motions", error);
     if motions.hasattr("__arrow_c_stream__")? {
-        return motions.extract::<PyRecordBatchReader>()?.into_reader();
+        let reader = motions.extract::<PyRecordBatchReader>();
+        return reader
+            .and_then(PyRecordBatchReader::into_reader)
+            .map_err(failed);
     }
     if motions.hasattr("__arrow_c_array__")? {
-        return Ok(one(motions.extract::<PyRecordBatch>()?.into_inner()));
+        return Ok(one(motions
+            .extract::<PyRecordBatch>()
+            .map_err(failed)?
+            .into_inner()));
     }
     match motions.cast::<PyMapping>() {
         Ok(columns) => Ok(one(of_arrays(columns)?)),
@@ -31,13 +42,20 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-/// Returns the number of rows, where the table knows it beforehand.
-pub(crate) fn rows(motions: &Bound<'_, PyAny>) -> Option<usize> {
+/// Returns the number of answers that there will be, where the table knows it beforehand: as many as rows, unless they
+/// are poses of paths.
+pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize> {
+    if reader.schema().field_with_name(TIME).is_ok() {
+        return None;
+    }
     match motions.cast::<PyMapping>() {
         Ok(columns) => columns.values().ok()?.get_item(0).ok()?.len().ok(),
         Err(_) => motions.len().ok(),
     }
 }
+
+/// The column of a table of paths.
+const TIME: &str = "t";
 
 fn one(batch: RecordBatch) -> Reader {
     let schema = batch.schema();
@@ -67,44 +85,63 @@ fn of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
 }
 
 fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
-    let py = values.py();
-    let numpy = py.import("numpy")?;
-    let array = numpy.call_method1("asarray", (values,));
-    let array = array.map_err(|error| input(format!("column {name}: {}", error.value(py))))?;
+    let what = format!("column {name}");
+    let numpy = values.py().import("numpy")?;
+    if name == ID && !values.is_instance(&numpy.getattr("ndarray")?)? {
+        return ids(values);
+    }
+    let array = plain(values, &what)?;
     let dimensions: usize = array.getattr("ndim")?.extract()?;
     if dimensions != 1 {
         return Err(input(format!(
-            "column {name}: an array of one dimension is needed, not of {dimensions}"
+            "{what}: an array of one dimension is needed, not of {dimensions}"
         )));
     }
     let dtype = array.getattr("dtype")?;
-    let kind: String = dtype.getattr("kind")?.extract()?;
-    match (name, kind.as_str()) {
-        ("id", "i" | "u") => {
-            contiguous(&numpy, &array, &dtype.call_method1("newbyteorder", ("=",))?)
+    match (name, kind(&array)?) {
+        (_, 'i' | 'u') => contiguous(&array, &dtype.call_method1("newbyteorder", ("=",))?),
+        (ID, _) => ids(&array.call_method0("tolist")?),
+        (_, 'f') => contiguous(&array, PyString::new(values.py(), "float64").as_any()),
+        _ => Err(input(format!("{what}: numbers are needed, not {dtype}"))),
+    }
+}
+
+/// Reads ids: all texts, or all whole numbers; None is a row without one.
+fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
+    let (mut texts, mut numbers) = (Vec::new(), Vec::new());
+    for id in values.try_iter()? {
+        let id = id?;
+        let text: Option<String> = id.extract().ok();
+        let number: Option<i64> = match id.is_instance_of::<PyBool>() {
+            true => None,
+            false => id.extract().ok(),
+        };
+        if !id.is_none() && text.is_none() && number.is_none() {
+            return Err(wrong_type(
+                "column id",
+                "text or a whole number of 64 bits",
+                &id,
+            ));
         }
-        ("id", _) => {
-            let texts = array.call_method1("astype", ("str",))?;
-            let texts: Vec<String> = texts.call_method0("tolist")?.extract()?;
-            Ok(Arc::new(StringArray::from(texts)))
-        }
-        (_, "f" | "i" | "u") => contiguous(
-            &numpy,
-            &array,
-            pyo3::types::PyString::new(py, "float64").as_any(),
-        ),
-        _ => Err(input(format!(
-            "column {name}: numbers are needed, not {dtype}"
-        ))),
+        texts.push(text);
+        numbers.push(number);
+    }
+    let given = |some: usize| some > 0;
+    match (
+        texts.iter().flatten().count(),
+        numbers.iter().flatten().count(),
+    ) {
+        (texts, numbers) if given(texts) && given(numbers) => Err(input(
+            "column id: some are text, and some are numbers; make them all text",
+        )),
+        (0, some) if given(some) => Ok(Arc::new(Int64Array::from(numbers))),
+        _ => Ok(Arc::new(StringArray::from(texts))),
     }
 }
 
 /// Returns an array of that type, without a copy where it is one already.
-fn contiguous(
-    numpy: &Bound<'_, PyModule>,
-    array: &Bound<'_, PyAny>,
-    dtype: &Bound<'_, PyAny>,
-) -> PyResult<ArrayRef> {
+fn contiguous(array: &Bound<'_, PyAny>, dtype: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
+    let numpy = array.py().import("numpy")?;
     let plain = numpy.call_method1("require", (array, dtype, ["C", "A"]))?;
     let buffer: AnyBufferProtocol = plain.extract()?;
     Ok(buffer.into_arrow_array()?)

@@ -1,23 +1,45 @@
 //! Rows of results as Arrow columns.
 
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray, new_empty_array};
 use arrow_buffer::NullBuffer;
+use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
+use arrow_select::concat::concat_batches;
 use rigid_ccd::batch::Question;
 use rigid_ccd::table::results::{COLUMNS, LAST_TIME, ResultRow};
 use std::sync::Arc;
 
-/// Returns the columns of the results of a question about rows with ids of that type: those of the command.
-pub(crate) fn schema(question: Question, id: &DataType) -> Schema {
-    let batch = batch(question, Arc::new(Int64Array::new_null(0)), &[]);
-    let fields = batch
-        .iter()
-        .flat_map(|batch| batch.schema().fields().to_vec());
-    let field = |(k, field): (usize, Arc<Field>)| match k {
-        0 => Arc::new(Field::new(COLUMNS[0], id.clone(), true)),
-        _ => field,
+/// Returns the columns of the results of a question about rows with such ids: those of the command.
+pub(crate) fn schema(question: Question, id: Field) -> Result<Schema, ArrowError> {
+    let batch = batch(question, new_empty_array(id.data_type()), &[])?;
+    let mut fields = batch.schema().fields().to_vec();
+    fields[0] = Arc::new(id);
+    Ok(Schema::new(fields))
+}
+
+/// Puts results one after another. Ids too long for one column of their type become those of the type for long ones.
+pub(crate) fn joined(
+    schema: &Arc<Schema>,
+    batches: &[RecordBatch],
+) -> Result<RecordBatch, ArrowError> {
+    let joined = concat_batches(schema, batches);
+    let long = match schema.field(0).data_type() {
+        DataType::Utf8 => DataType::LargeUtf8,
+        DataType::Binary => DataType::LargeBinary,
+        _ => return joined,
     };
-    Schema::new(fields.enumerate().map(field).collect::<Vec<_>>())
+    joined.or_else(|_| {
+        let mut fields = schema.fields().to_vec();
+        fields[0] = Arc::new(schema.field(0).clone().with_data_type(long.clone()));
+        let schema = Arc::new(Schema::new(fields));
+        let with_long = |batch: &RecordBatch| {
+            let mut columns = batch.columns().to_vec();
+            columns[0] = cast(&columns[0], &long)?;
+            RecordBatch::try_new(Arc::clone(&schema), columns)
+        };
+        let batches: Vec<RecordBatch> = batches.iter().map(with_long).collect::<Result<_, _>>()?;
+        concat_batches(&schema, &batches)
+    })
 }
 
 /// Makes columns of rows.

@@ -1,0 +1,97 @@
+//! A column as an array of NumPy.
+
+use crate::errors::input as refuse;
+use arrow_array::cast::AsArray;
+use arrow_array::types::{
+    Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
+    UInt32Type, UInt64Type,
+};
+use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array};
+use arrow_cast::cast;
+use arrow_schema::DataType;
+use pyo3::prelude::*;
+use pyo3_arrow::PyArray;
+use pyo3_arrow::buffer::PyArrowBuffer;
+
+/// Makes an array of a column: of numbers a view, of text and other values an array of objects.
+///
+/// Empty cells of float64 are NaN, and so are those of whole numbers, unless some have more digits than a float64.
+pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+    match column.data_type() {
+        DataType::Float64 => floats(py, column.as_primitive()),
+        DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => texts(py, column),
+        _ if column.null_count() > 0 => with_empty_cells(py, column),
+        DataType::Float32 => view::<Float32Type>(py, column, "float32"),
+        DataType::Int8 => view::<Int8Type>(py, column, "int8"),
+        DataType::Int16 => view::<Int16Type>(py, column, "int16"),
+        DataType::Int32 => view::<Int32Type>(py, column, "int32"),
+        DataType::Int64 => view::<Int64Type>(py, column, "int64"),
+        DataType::UInt8 => view::<UInt8Type>(py, column, "uint8"),
+        DataType::UInt16 => view::<UInt16Type>(py, column, "uint16"),
+        DataType::UInt32 => view::<UInt32Type>(py, column, "uint32"),
+        DataType::UInt64 => view::<UInt64Type>(py, column, "uint64"),
+        _ => objects(py, column),
+    }
+}
+
+fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, PyAny>> {
+    let mut rows = 0..numbers.len();
+    let is_nan = |row| numbers.is_valid(row) || numbers.value(row).is_nan();
+    if numbers.null_count() == 0 || rows.all(is_nan) {
+        let column: ArrayRef = std::sync::Arc::new(numbers.clone());
+        return view::<Float64Type>(py, &column, "float64");
+    }
+    let values: Vec<f64> = numbers
+        .iter()
+        .map(|cell| cell.unwrap_or(f64::NAN))
+        .collect();
+    Ok(numpy::PyArray1::from_vec(py, values).into_any())
+}
+
+/// Returns a view of values, whatever is valid.
+fn view<'py, T: ArrowPrimitiveType>(
+    py: Python<'py>,
+    column: &ArrayRef,
+    dtype: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let numpy = py.import("numpy")?;
+    let buffer = column.as_primitive::<T>().values().inner();
+    match column.len() {
+        // NumPy takes no empty buffer.
+        0 => numpy.call_method1("empty", (0, dtype)),
+        rows => {
+            let buffer = PyArrowBuffer::new(buffer.clone());
+            numpy.call_method1("frombuffer", (buffer, dtype, rows))
+        }
+    }
+}
+
+fn with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+    if column.data_type().is_integer() {
+        let wide = cast(column, &DataType::Float64).map_err(refuse)?;
+        let wide: &Float64Array = wide.as_primitive();
+        // From 2^53 on a float64 does not tell neighbours apart.
+        let most = (1_u64 << 53) as f64;
+        if wide.iter().flatten().all(|whole| whole.abs() < most) {
+            return floats(py, wide);
+        }
+    }
+    objects(py, column)
+}
+
+fn texts<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+    let texts = cast(column, &DataType::LargeUtf8).map_err(refuse)?;
+    let texts: Vec<Option<&str>> = texts.as_string::<i64>().iter().collect();
+    py.import("numpy")?.call_method1("array", (texts, "object"))
+}
+
+fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+    let array = Bound::new(py, PyArray::from_array_ref(ArrayRef::clone(column)))?;
+    let values = array.call_method0("to_pylist")?;
+    // NumPy would make lists of lists an array of more dimensions.
+    let objects = py
+        .import("numpy")?
+        .call_method1("empty", (column.len(), "object"))?;
+    objects.set_item(pyo3::types::PySlice::full(py), values)?;
+    Ok(objects)
+}
