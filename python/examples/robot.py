@@ -135,7 +135,7 @@ class Obstacle:
 def obstacle_of(name: str, mesh: trimesh.Trimesh, at: ArrayLike, turned: np.ndarray | None = None) -> Obstacle:
     pose = np.eye(4) if turned is None else turned.copy()
     pose[:3, 3] = at
-    return Obstacle(name, mesh, Body.from_trimesh(mesh), pose, Motion(at, pose[:3, :3]))
+    return Obstacle(name, mesh, Body.from_trimesh(mesh), pose, Motion.still(pose))
 
 
 box, ball = trimesh.creation.box, trimesh.creation.icosphere
@@ -213,8 +213,8 @@ def collides(at: np.ndarray) -> bool:
 
 
 def at_time(start: np.ndarray, end: np.ndarray, t: float) -> np.ndarray:
-    """The joints at a time from 0 to 1. `start + t * (end - start)` could round to beyond a limit, which is refused."""
-    return (1 - t) * start + t * end
+    """The joints at a time from 0 to 1."""
+    return start + t * (end - start)
 
 
 def first_step(start: np.ndarray, end: np.ndarray, steps: int) -> float | None:
