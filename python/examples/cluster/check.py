@@ -14,6 +14,7 @@ import importlib
 import math
 import os
 import shutil
+import statistics
 import tempfile
 import threading
 import time
@@ -27,7 +28,7 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from rigid_ccd import Body, TableQuery, first_contacts
+from rigid_ccd import Body, Table, TableQuery, first_contacts
 
 # Local clusters listen on loopback alone, and tell nobody.
 os.environ |= {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0", "RAY_USAGE_STATS_ENABLED": "0", "SPARK_LOCAL_IP": "127.0.0.1"}
@@ -67,7 +68,7 @@ def answered(log: Path) -> Counter[str]:
 
 @contextmanager
 def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Callable[[str], None]) -> Iterator[None]:
-    """Kills the busiest place meanwhile, when a third of the rows is answered."""
+    """Kills the busiest of these places meanwhile, when a third of the rows is answered."""
     over = threading.Event()
 
     def watch() -> None:
@@ -78,14 +79,17 @@ def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Calla
                 kill(victim)
                 print(f"killed after {sum(done.values())} rows, of which the dead had answered {done[victim]}")
                 return
+        print("NOT killed: the answers came too soon")
 
     watching = threading.Thread(target=watch)
     if given.kill:
         watching.start()
-    yield
-    over.set()
-    if given.kill:
-        watching.join()
+    try:
+        yield
+    finally:
+        over.set()
+        if given.kill:
+            watching.join()
 
 
 @contextmanager
@@ -162,22 +166,27 @@ def motions(rows: int) -> pyarrow.Table:
     return pyarrow.table(columns)
 
 
-def same_bits(found: pyarrow.Table, expected: pyarrow.Table) -> bool:
-    """Compares tables, in the order of their ids. NaN and null are alike."""
+def bits(column: pyarrow.ChunkedArray) -> pyarrow.Array:
+    """What is compared: the bits of floats, of which NaN and null are alike; else the values."""
+    if not pyarrow.types.is_floating(column.type):
+        return column.cast(pyarrow.string()).combine_chunks()
+    numbers = column.to_numpy()
+    return pyarrow.array(np.where(np.isnan(numbers), np.nan, numbers).view(np.uint64))
+
+
+def compare(found: pyarrow.Table, expected: pyarrow.Table) -> str:
     ids = found["id"].to_numpy()
     assert len(np.unique(ids)) == len(ids) == len(expected), "rows are lost, or there twice"
-    found, expected = (table.combine_chunks().sort_by("id") for table in (found, expected))
     assert found.column_names == expected.column_names
-    for name in found.column_names:
-        one, other = (table[name].to_numpy(zero_copy_only=False) for table in (found, expected))
-        if pyarrow.types.is_floating(expected.schema.field(name).type):
-            one, other = (np.where(np.isnan(values), np.nan, values).view(np.uint64) for values in (one, other))
-        else:
-            one, other = (table[name].cast(expected.schema.field(name).type) for table in (found, expected))
-            one, other = np.array(one.equals(other)), np.array(True)
-        if not np.array_equal(one, other):
-            return False
-    return True
+    found, expected = (table.sort_by("id") for table in (found, expected))
+    other = [name for name in found.column_names if not bits(found[name]).equals(bits(expected[name]))]
+    return f"OTHER bits in {other}" if other else "equal bits"
+
+
+def timed(answer: Callable[..., None], *paths: Path) -> float:
+    begin = time.perf_counter()
+    answer(*paths)
+    return time.perf_counter() - begin
 
 
 def main() -> None:
@@ -191,32 +200,34 @@ def main() -> None:
     parser.add_argument("--repeat", type=int, default=1)
     given = parser.parse_args()
     folder = Path(tempfile.mkdtemp())
-    a, b, table, log, results = (folder / name for name in ("box.ccd", "knot.ccd", "motions.parquet", "log", "results"))
+    a, b, table, log, one, results = (
+        folder / name for name in ("box.ccd", "knot.ccd", "motions.parquet", "log", "one.parquet", "results")
+    )
     Body.box(0.5, 0.3, 0.2).save(a)
     knot().save(b)
     pyarrow.parquet.write_table(motions(given.rows), table, row_group_size=10_000)
     log.mkdir()
     os.environ[LOG] = str(log)
+
+    def alone(*paths: Path) -> None:
+        a, b, motions, results = paths
+        starts = pyarrow.parquet.read_table(motions)
+        found = first_contacts(Body.from_file(a), Body.from_file(b), starts, threads=given.cores, micros=False)
+        pyarrow.parquet.write_table(pyarrow.table(found), results)
+
     begin = time.perf_counter()
     with globals()[given.engine](given, log) as answer:
         print(f"the cluster started in {time.perf_counter() - begin:.1f} s")
+        ratios = []
         for _ in range(given.repeat):
-            begin = time.perf_counter()
-            bodies = Body.from_file(a), Body.from_file(b)
-            one = first_contacts(*bodies, pyarrow.parquet.read_table(table), threads=given.cores, micros=False)
-            expected = pyarrow.table(one)
-            pyarrow.parquet.write_table(expected, folder / "one.parquet")
-            alone = time.perf_counter() - begin
             shutil.rmtree(results, ignore_errors=True)
-            begin = time.perf_counter()
-            answer(a, b, table, results)
-            taken = time.perf_counter() - begin
-            found = pyarrow.parquet.read_table(results)
-            print(f"{one}\none process {alone:.1f} s, {given.engine} {taken:.1f} s: {taken / alone:.2f}")
-            print(f"{len(found)} rows, {'equal' if same_bits(found, expected) else 'OTHER'} bits")
-    done = answered(log)
-    if done:
-        print(f"rows answered by each: {', '.join(str(count) for count in done.values())}; all {sum(done.values())}")
+            both = [timed(alone, a, b, table, one), timed(answer, a, b, table, results)]
+            ratios.append(both[1] / both[0])
+            found, expected = pyarrow.parquet.read_table(results), pyarrow.parquet.read_table(one)
+            print(f"one process {both[0]:.1f} s, {given.engine} {both[1]:.1f} s, {compare(found, expected)}")
+    print(f"{Table(expected)}\nratio {statistics.median(ratios):.2f}, the median of {len(ratios)}")
+    if done := answered(log):
+        print(f"rows answered by each: {', '.join(map(str, done.values()))}; all {sum(done.values())}")
     shutil.rmtree(folder)
 
 
