@@ -13,6 +13,7 @@ mod polled;
 mod queries;
 mod settings;
 mod table;
+mod table_queries;
 
 use pyo3::prelude::*;
 
@@ -36,7 +37,7 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(queries::is_free, module)?)?;
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;
     module.add_function(wrap_pyfunction!(queries::distance, module)?)?;
-    module.add_function(wrap_pyfunction!(table::answer_table, module)?)?;
-    module.add_function(wrap_pyfunction!(table::write_pages, module)?)?;
+    module.add_function(wrap_pyfunction!(table_queries::answer_table, module)?)?;
+    module.add_function(wrap_pyfunction!(pages::write_pages, module)?)?;
     Ok(())
 }

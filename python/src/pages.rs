@@ -1,26 +1,61 @@
 //! Pages of rows: what `ccd view` shows.
 
-use crate::errors::input as refuse;
-use crate::table::answering::{Asked, each};
-use pyo3::exceptions::PyOSError;
+use crate::body::PyBody;
+use crate::errors::{input as refuse, of_file};
+use crate::polled::polled;
+use crate::settings::{OF_CONTACTS, config};
+use crate::table::answering::{Asked, Micros, each};
+use crate::table::input::{self, Reader};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rigid_ccd::batch::{Bodies, Question};
 use rigid_ccd::picture::{self, Claim, PageError, Pages, PagesError};
 use rigid_ccd::table::motions::TableError;
 use std::collections::HashSet;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::table::Reader;
+/// Writes a page for each of some rows of a table of motions, by their numbers; `rigid_ccd.audit` calls it.
+#[pyfunction]
+#[pyo3(signature = (a, b, motions, rows, folder, **settings))]
+pub(crate) fn write_pages(
+    py: Python<'_>,
+    a: &Bound<'_, PyBody>,
+    b: &Bound<'_, PyBody>,
+    motions: &Bound<'_, PyAny>,
+    rows: HashSet<usize>,
+    folder: PathBuf,
+    settings: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Vec<PathBuf>> {
+    let asked = Asked {
+        bodies: Bodies {
+            a: &a.get().body,
+            b: &b.get().body,
+        },
+        question: Question::FirstContact,
+        config: config(settings, OF_CONTACTS)?,
+        clearance: None,
+        threads: NonZeroUsize::new(1),
+        micros: Micros::LeftOut,
+    };
+    let reader = input::open(motions)?;
+    let work = |stop: &Arc<_>| write(asked, reader, &rows, &folder, stop);
+    let (written, seen) = polled(py, work, |_| Ok(()));
+    seen?;
+    Ok(written?)
+}
 
 /// A page cannot be made.
-pub(crate) enum Fault {
+enum Fault {
     Table(TableError),
-    Folder(std::io::Error),
+    Folder(PathBuf, std::io::Error),
     Page(PagesError),
 }
 
 /// Writes a page for each of some rows of a table into a folder; returns their paths, in the order of the rows.
-pub(crate) fn write(
+fn write(
     asked: Asked<'_>,
     reader: Reader,
     rows: &HashSet<usize>,
@@ -33,7 +68,8 @@ pub(crate) fn write(
         clearance: None,
     };
     let title = "Body A and body B".to_owned();
-    let mut pages = Pages::create(asked.bodies, shown, title, folder).map_err(Fault::Folder)?;
+    let mut pages = Pages::create(asked.bodies, shown, title, folder)
+        .map_err(|error| Fault::Folder(folder.to_owned(), error))?;
     let mut paths = Vec::new();
     let mut fault = None;
     each(asked, reader, rows, stop, |course, row| {
@@ -55,9 +91,9 @@ impl From<Fault> for PyErr {
     fn from(fault: Fault) -> Self {
         match fault {
             Fault::Table(error) => refuse(error),
-            Fault::Folder(error) => error.into(),
+            Fault::Folder(path, error) => of_file(&error, &path),
             Fault::Page(PagesError::Page(PageError::Write { path, source })) => {
-                PyOSError::new_err(format!("{}: {source}", path.display()))
+                of_file(&source, &path)
             }
             Fault::Page(error) => refuse(error),
         }

@@ -41,7 +41,7 @@ def by_dask(example: ModuleType, *paths: Path) -> None:
 def by_spark(example: ModuleType, *paths: Path) -> None:
     if shutil.which("java") is None and "JAVA_HOME" not in os.environ:
         pytest.skip("Spark needs Java")
-    session = example.session(2)
+    session = example.session("local[1]")
     try:
         example.answer(session, *paths)
     finally:

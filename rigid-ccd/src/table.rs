@@ -2,6 +2,7 @@
 //!
 //! Public only because `ccd-bench` and the Python package share them; no stable interface.
 
+pub mod columns;
 #[cfg(feature = "command")]
 pub(crate) mod contacts;
 pub mod courses;

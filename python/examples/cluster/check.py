@@ -2,11 +2,11 @@
 
     python check.py ray 1000000 --kill
     python check.py dask 100000 --kill
-    python check.py spark 10000
+    python check.py spark 100000 --kill
 
 A table of random motions is answered in one process, and by the example of the engine on as many cores. Times are of both
-in turn, with reading and writing, without the start of the cluster. With --kill, `kill -9` ends what answers on a node of
-Ray, or a worker of Dask, when a third of the rows is answered.
+in turn, with reading and writing, without the start of the cluster. With --kill, `kill -9` ends a node of Ray, a worker of
+Dask, or an executor of Spark, when a third of the rows is answered.
 """
 
 import argparse
@@ -14,6 +14,7 @@ import importlib
 import math
 import os
 import shutil
+import signal
 import statistics
 import tempfile
 import threading
@@ -32,7 +33,6 @@ from rigid_ccd import Body, Table, TableQuery, first_contacts
 
 # Local clusters listen on loopback alone, and tell nobody.
 os.environ |= {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0", "RAY_USAGE_STATS_ENABLED": "0", "SPARK_LOCAL_IP": "127.0.0.1"}
-LOG = "CHECK_LOG"
 
 
 class Logged(TableQuery):
@@ -42,7 +42,7 @@ class Logged(TableQuery):
 
     def __call__(self, motions: Any) -> Any:
         found = super().__call__(motions)
-        with open(Path(os.environ[LOG]) / self.where(), "a") as file:
+        with open(Path(self._a).with_name("log") / self.where(), "a") as file:  # type: ignore[arg-type]
             file.write(f"{len(found)}\n")
         return found
 
@@ -61,6 +61,13 @@ class OfDask(Logged):
         return str(os.getpid())
 
 
+class OfSpark(Logged):
+    @staticmethod
+    def where() -> str:
+        """The executor: it has started a daemon, which has started this process."""
+        return Path(f"/proc/{os.getppid()}/stat").read_text().rpartition(")")[2].split()[1]
+
+
 def answered(log: Path) -> Counter[str]:
     """The number of rows that each place has answered."""
     return Counter({place.name: sum(map(int, place.read_text().split())) for place in log.iterdir()})
@@ -68,16 +75,16 @@ def answered(log: Path) -> Counter[str]:
 
 @contextmanager
 def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Callable[[str], None]) -> Iterator[None]:
-    """Kills the busiest of these places meanwhile, when a third of the rows is answered."""
+    """Kills the busiest of these places, or of all, when a third of the rows is answered."""
     over = threading.Event()
 
     def watch() -> None:
         while not over.wait(0.05):
             done = answered(log)
             if sum(done.values()) >= given.rows / 3:
-                victim = max(victims, key=done.__getitem__)
+                victim = max(victims or done, key=done.__getitem__)
                 kill(victim)
-                print(f"killed after {sum(done.values())} rows, of which the dead had answered {done[victim]}")
+                print(f"\nkilled after {sum(done.values())} rows, of which the dead had answered {done[victim]}")
                 return
         print("NOT killed: the answers came too soon")
 
@@ -129,7 +136,7 @@ def dask(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
 
         def answer(*paths: Path) -> None:
             workers = [str(nanny.pid) for nanny in cluster.workers.values()]
-            with killer(given, log, workers, lambda victim: os.kill(int(victim), 9)):
+            with killer(given, log, workers, kill_process):
                 example.answer(*paths)
 
         yield answer
@@ -137,10 +144,24 @@ def dask(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
 
 @contextmanager
 def spark(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
+    """Executors are processes of their own if one has to die."""
+    import pyspark
+
     example = importlib.import_module("spark_arrow")
-    session = example.session(given.cores)
-    yield lambda *paths: example.answer(session, *paths)
+    example.TableQuery = OfSpark
+    os.environ["SPARK_HOME"] = str(Path(pyspark.__file__).parent)
+    session = example.session(f"local-cluster[{given.cores},1,1024]" if given.kill else f"local[{given.cores}]")
+
+    def answer(*paths: Path) -> None:
+        with killer(given, log, [], kill_process):
+            example.answer(session, *paths)
+
+    yield answer
     session.stop()
+
+
+def kill_process(number: str) -> None:
+    os.kill(int(number), signal.SIGKILL)
 
 
 def knot() -> Body:
@@ -193,7 +214,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("engine", choices=["ray", "dask", "spark"])
     parser.add_argument("rows", type=int)
-    parser.add_argument("--kill", action="store_true", help="kill a node of Ray, or a worker of Dask, meanwhile")
+    parser.add_argument("--kill", action="store_true", help="kill a node, a worker or an executor meanwhile")
     parser.add_argument("--cores", type=int, default=2, help="of one process, of Dask and of Spark")
     parser.add_argument("--head", type=int, default=1, help="processors of Ray's head; its other nodes have one")
     parser.add_argument("--actors", type=int, help="of Ray, instead of tasks")
@@ -207,7 +228,6 @@ def main() -> None:
     knot().save(b)
     pyarrow.parquet.write_table(motions(given.rows), table, row_group_size=10_000)
     log.mkdir()
-    os.environ[LOG] = str(log)
 
     def alone(*paths: Path) -> None:
         a, b, motions, results = paths

@@ -17,11 +17,11 @@ from pyspark.sql.pandas.types import from_arrow_schema, to_arrow_schema
 from rigid_ccd import TableQuery
 
 
-def session(cores: int) -> SparkSession:
-    """Starts Spark on this machine alone."""
+def session(master: str) -> SparkSession:
+    """Starts Spark."""
     os.environ.setdefault("PYSPARK_PYTHON", sys.executable)  # the workers' Python
     os.environ.setdefault("SPARK_LOCAL_IP", "127.0.0.1")
-    return SparkSession.builder.master(f"local[{cores}]").config("spark.ui.enabled", False).getOrCreate()
+    return SparkSession.builder.master(master).config("spark.ui.enabled", False).getOrCreate()
 
 
 def answer(spark: SparkSession, a: Path, b: Path, motions: Path, results: Path) -> None:
@@ -42,7 +42,7 @@ def main() -> None:
     parser.add_argument("results", type=Path, help="a folder to make")
     parser.add_argument("--cores", type=int, default=os.cpu_count() or 1)
     given = parser.parse_args()
-    spark = session(given.cores)
+    spark = session(f"local[{given.cores}]")  # this machine alone
     answer(spark, given.a, given.b, given.motions, given.results)
     print(f"{spark.read.parquet(str(given.results.resolve())).count()} rows in {given.results}")
     spark.stop()

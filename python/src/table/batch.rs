@@ -1,6 +1,6 @@
 //! Rows of Arrow columns, as the library reads them.
 
-use super::input::Reader;
+use super::input::{ID, Reader};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
 use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array, Int64Array, RecordBatch};
@@ -8,14 +8,12 @@ use arrow_cast::cast;
 use arrow_cast::display::{ArrayFormatter, FormatOptions};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
-use rigid_ccd::table::motions::{Columns, RowPosition, RowProblem, TableError};
+use rigid_ccd::table::columns::Columns;
+use rigid_ccd::table::motions::{RowPosition, RowProblem, TableError};
 use rigid_ccd::table::records::{Cells, Record, Records};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The name of the column of ids.
-pub(crate) const ID: &str = "id";
 
 /// Consecutive rows of a table.
 #[derive(Debug)]

@@ -1,6 +1,5 @@
 //! Tables of motions, as Python has them.
 
-use super::batch::ID;
 use crate::arrays::{kind, plain};
 use crate::errors::{caused, input, wrong_type};
 use arrow_array::{
@@ -54,7 +53,9 @@ pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize>
     }
 }
 
-/// The column of a table of paths.
+/// The column of the names of rows.
+pub(crate) const ID: &str = "id";
+/// The column of times that a table of paths has.
 const TIME: &str = "t";
 
 fn one(batch: RecordBatch) -> Reader {

@@ -4,8 +4,9 @@ use super::batch::{Batch, Batches, Names, Row, Rows, check_types, header, whole}
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use rigid_ccd::batch::Question;
+use rigid_ccd::table::columns::{Columns, Form};
 use rigid_ccd::table::courses::{Course, CourseRow, Courses};
-use rigid_ccd::table::motions::{self, Columns, Form, RowError, TableError};
+use rigid_ccd::table::motions::{self, RowError, TableError};
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

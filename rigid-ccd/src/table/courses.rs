@@ -1,9 +1,9 @@
 //! The rows of a query: motions, or paths.
 
+use super::columns::{Columns, Form};
 use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
-use super::motions::columns::Form;
-use super::motions::{Columns, MotionRows, Query};
+use super::motions::{MotionRows, Query};
 use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;

@@ -1,9 +1,9 @@
 //! The records of a CSV table, with their positions and a checksum.
 
+use crate::table::columns::Columns;
 use crate::table::error::{RowProblem, TableError};
 use crate::table::foreign;
 use crate::table::lines::Lines;
-use crate::table::motions::Columns;
 use crate::table::position::RowPosition;
 use crate::table::quotes::Quotes;
 use crate::table::records::{Cells, Record, Records};

@@ -1,6 +1,5 @@
 //! The table of motions: CSV read as motions of two bodies, and written.
 
-pub(in crate::table) mod columns;
 pub(in crate::table) mod row;
 #[cfg(test)]
 mod tests;
@@ -8,10 +7,10 @@ mod write;
 
 pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
-pub use columns::{Columns, Form};
 pub use row::query;
 pub use write::write;
 
+use crate::table::columns::{Columns, Form};
 use crate::table::csv_records::CsvRecords;
 use crate::table::records::Records;
 use ccd_core::Motion;

@@ -3,8 +3,8 @@
 #[cfg(test)]
 mod tests;
 
+use super::columns::Columns;
 use super::error::{RowError, RowProblem, TableError};
-use super::motions::Columns;
 use super::motions::row::{self, Poses};
 use super::position::RowPosition;
 use super::records::Records;

@@ -1,7 +1,7 @@
 //! Tables of any format, as rows of cells.
 
+use super::columns::Columns;
 use super::error::{RowProblem, TableError};
-use super::motions::Columns;
 use super::position::RowPosition;
 
 /// A table that is read row by row.

@@ -1,7 +1,7 @@
 //! One row of the table, parsed as the motions of two bodies.
 
 use super::Query;
-use super::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
+use crate::table::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
 use crate::table::error::RowProblem;
 use crate::table::records::{Cells, Record};
 use ccd_core::glam::{DQuat, DVec3};

@@ -1,7 +1,7 @@
 //! The table of motions, written.
 
 use super::Query;
-use super::columns::{DURATION, Form, ID, Quantity, Side};
+use crate::table::columns::{DURATION, Form, ID, Quantity, Side};
 use ccd_core::Motion;
 use std::io;
 

@@ -1,4 +1,4 @@
-//! The columns of the table of motions.
+//! The columns of tables of motions and of paths.
 
 use crate::table::error::TableError;
 use crate::table::foreign;
@@ -13,7 +13,7 @@ pub(in crate::table) enum Side {
 
 /// A quantity of a body, held by consecutive columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Quantity {
+pub(in crate::table) enum Quantity {
     Position,
     Orientation,
     EndPosition,
@@ -41,7 +41,7 @@ const OF_POSE: usize = 7;
 
 impl Form {
     /// Returns all columns in order.
-    pub(super) fn names(self) -> Vec<String> {
+    pub(in crate::table) fn names(self) -> Vec<String> {
         let bodies = ['a', 'b'].into_iter().flat_map(|letter| {
             let of_body = OF_BODY.iter().take(self.of_body());
             of_body.map(move |name| format!("{letter}_{name}"))
@@ -61,7 +61,7 @@ impl Form {
     }
 
     /// The slots of a quantity.
-    pub(super) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
+    pub(in crate::table) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
         let within = match quantity {
             Quantity::Position => 0..3,
             Quantity::Orientation => 3..7,
@@ -91,7 +91,7 @@ impl Form {
     }
 
     /// Lists the columns for messages.
-    pub(super) fn listed(self) -> &'static str {
+    pub(in crate::table) fn listed(self) -> &'static str {
         match self {
             Form::Motions => {
                 "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, \
@@ -192,7 +192,7 @@ impl Columns {
     }
 
     /// The slots of a quantity.
-    pub(super) fn slots(&self, side: Side, quantity: Quantity) -> Range<usize> {
+    pub(in crate::table) fn slots(&self, side: Side, quantity: Quantity) -> Range<usize> {
         self.form.slots(side, quantity)
     }
 
@@ -201,12 +201,12 @@ impl Columns {
         self.len
     }
 
-    pub(super) fn name(&self, slot: usize) -> &str {
+    pub(in crate::table) fn name(&self, slot: usize) -> &str {
         &self.names[slot]
     }
 
     /// Returns the index of the cell of a column.
-    pub(super) fn index(&self, slot: usize) -> Option<usize> {
+    pub(in crate::table) fn index(&self, slot: usize) -> Option<usize> {
         self.cells[slot]
     }
 
@@ -256,9 +256,9 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
 }
 
 /// The slot of the id.
-pub(super) const ID: usize = 0;
+pub(in crate::table) const ID: usize = 0;
 /// The slot of the duration of motions.
-pub(super) const DURATION: usize = 2 * OF_BODY.len() + 1;
+pub(in crate::table) const DURATION: usize = 2 * OF_BODY.len() + 1;
 /// The slot of the time of poses.
-pub(super) const TIME: usize = 1;
+pub(in crate::table) const TIME: usize = 1;
 const TIME_NAME: &str = "t";

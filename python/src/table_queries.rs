@@ -1,0 +1,121 @@
+//! A question about each row of a table.
+
+use crate::body::PyBody;
+use crate::errors::{input as refuse, interrupted, with_attribute, wrong_type};
+use crate::polled::polled;
+use crate::settings::{self, OF_CONTACTS, OF_DISTANCES, config};
+use crate::table::answering::{Answered, Asked, Micros, answer};
+use crate::table::{PyTable, input};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rigid_ccd::batch::{Bodies, Question};
+use rigid_ccd::table::motions::TableError;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Answers a question about each row of a table of motions; `rigid_ccd.first_contacts` and the like call it.
+#[pyfunction]
+#[pyo3(signature = (question, a, b, motions, *, clearance = None, threads = None, progress = None, micros = true, **settings))]
+#[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
+pub(crate) fn answer_table(
+    py: Python<'_>,
+    question: &str,
+    a: &Bound<'_, PyBody>,
+    b: &Bound<'_, PyBody>,
+    motions: &Bound<'_, PyAny>,
+    clearance: Option<f64>,
+    threads: Option<i64>,
+    progress: Option<Bound<'_, PyAny>>,
+    micros: bool,
+    settings: Option<&Bound<'_, PyDict>>,
+) -> PyResult<PyTable> {
+    let question = self::question(question)?;
+    let asked = Asked {
+        bodies: Bodies {
+            a: &a.get().body,
+            b: &b.get().body,
+        },
+        config: config(settings, known(question))?,
+        question,
+        clearance,
+        threads: settings::threads(threads)?,
+        micros: match micros {
+            true => Micros::Told,
+            false => Micros::LeftOut,
+        },
+    };
+    // One query shows whether the settings can be used: an error of each row would only repeat it.
+    check(asked)?;
+    if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
+        return Err(wrong_type("progress", "a function", progress));
+    }
+    let progress = progress.map(Bound::unbind);
+    let reader = input::open(motions)?;
+    let (rows, done) = (input::rows(motions, &reader), AtomicUsize::new(0));
+    let mut told = None;
+    let mut tell = |py: Python<'_>| {
+        let now = done.load(Ordering::Relaxed);
+        match &progress {
+            Some(progress) if told.replace(now) != Some(now) => {
+                progress.call1(py, (now, rows)).map(drop)
+            }
+            _ => Ok(()),
+        }
+    };
+    let work = |stop: &_| answer(asked, reader, stop, &done);
+    let (found, seen) = polled(py, work, &mut tell);
+    let Answered { results, fault } = found.map_err(|error| table_error(&error))?;
+    let table = PyTable { batch: results };
+    match (seen.and_then(|()| tell(py)), fault) {
+        (Err(cause), _) => Err(interrupted(py, cause, table)),
+        (Ok(()), Some(fault)) => Err(with_attribute(py, table_error(&fault), "results", table)),
+        (Ok(()), None) => Ok(table),
+    }
+}
+
+fn question(name: &str) -> PyResult<Question> {
+    let found = Question::ALL
+        .into_iter()
+        .find(|question| question.name() == name);
+    found.ok_or_else(|| {
+        let names: Vec<String> = Question::ALL
+            .iter()
+            .map(|q| format!("{:?}", q.name()))
+            .collect();
+        refuse(format!("ask: {name:?} is none of {}", names.join(", ")))
+    })
+}
+
+fn known(question: Question) -> &'static [&'static str] {
+    match question.is_for_a_distance() {
+        true => OF_DISTANCES,
+        false => OF_CONTACTS,
+    }
+}
+
+/// Refuses settings that no query can have.
+fn check(asked: Asked<'_>) -> PyResult<()> {
+    match asked.clearance {
+        Some(_) if !asked.question.is_for_a_distance() => {
+            return Err(refuse(
+                "clearance: only distances are compared with one; use margin",
+            ));
+        }
+        // Written so that NaN is refused.
+        Some(clearance) if !(clearance >= 0.0 && clearance.is_finite()) => {
+            return Err(refuse(format!("clearance: {clearance} is no distance")));
+        }
+        _ => {}
+    }
+    let Bodies { a, b } = asked.bodies;
+    let still = rigid_ccd::Motion::STILL;
+    let problem = rigid_ccd::Problem::new((a, still), (b, still), 1.0, &asked.config);
+    problem.map(drop).map_err(refuse)
+}
+
+fn table_error(error: &TableError) -> PyErr {
+    refuse(match error {
+        TableError::Empty => "motions: there is no column".to_owned(),
+        TableError::Unreadable(why) => format!("motions: {why}"),
+        other => format!("motions: {other}"),
+    })
+}
