@@ -42,6 +42,8 @@ class Logged(TableQuery):
 
     def __call__(self, motions: Any) -> Any:
         found = super().__call__(motions)
+        if isinstance(found, Iterator):  # it calls this method for each table
+            return found
         with open(Path(self._a).with_name("log") / self.where(), "a") as file:  # type: ignore[arg-type]
             file.write(f"{len(found)}\n")
         return found

@@ -1,6 +1,6 @@
 """The first contact in each row of a Parquet table, by Dask.
 
-    python dask_frame.py knot.ccd box.ccd motions.parquet contacts
+    python dask_frame.py box.ccd knot.ccd motions.parquet contacts
 
 The table has the columns that `rigid_ccd.first_contacts` takes, and ids that are unique. The results are Parquet files in
 a new folder.
@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 
 import dask.dataframe
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, get_client
 
 from rigid_ccd import TableQuery
 
@@ -19,12 +19,15 @@ from rigid_ccd import TableQuery
 def answer(a: Path, b: Path, motions: Path, results: Path) -> None:
     """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
     results.mkdir(parents=True)  # Dask would mix the files with those of a former run
-    # In Arrow's types an empty cell is a default and NaN an error. In pandas' own NaN is an empty cell.
-    # A partition is a file or some of its row groups.
-    frame = dask.dataframe.read_parquet(motions, dtype_backend="pyarrow", split_row_groups=True)
+    # In Arrow's types an empty cell is a default and NaN an error. In pandas' own types NaN is an empty cell.
+    frame = dask.dataframe.read_parquet(motions.resolve(), dtype_backend="pyarrow", split_row_groups=True)
+    # A row group may have a million rows. A thread takes a partition at a time.
+    parts = 8 * sum(get_client().nthreads().values())
+    if frame.npartitions < parts:
+        frame = frame.repartition(npartitions=parts)
     query = TableQuery(a.resolve(), b.resolve())
     found = frame.map_partitions(query, meta=query.schema(frame._meta))
-    found.to_parquet(results, write_index=False)
+    found.to_parquet(results.resolve(), write_index=False)
 
 
 def main() -> None:

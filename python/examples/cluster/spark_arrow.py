@@ -1,6 +1,6 @@
 """The first contact in each row of a Parquet table, by Spark.
 
-    python spark_arrow.py knot.ccd box.ccd motions.parquet contacts
+    python spark_arrow.py box.ccd knot.ccd motions.parquet contacts
 
 The table has the columns that `rigid_ccd.first_contacts` takes, and ids that are unique. The results are Parquet files in
 a new folder, in any order.
