@@ -32,8 +32,8 @@ pub(crate) struct Batch {
 #[derive(Debug)]
 struct Numbers {
     values: Float64Array,
-    /// Whole numbers of more digits than a float64 has, by their rows.
-    inexact: HashMap<usize, String>,
+    /// Whole numbers of more digits than a float64 has, by their rows; none if there are none.
+    inexact: Option<HashMap<usize, String>>,
 }
 
 /// Whether ids are read as text: results have them as they came.
@@ -147,7 +147,7 @@ impl Numbers {
             DataType::UInt64 => {
                 inexact::<UInt64Type>(column, |whole| whole as f64 as i128 == i128::from(whole))
             }
-            _ => HashMap::new(),
+            _ => None,
         };
         let values = cast(column, &DataType::Float64).map_err(unreadable)?;
         Ok(Numbers {
@@ -161,12 +161,13 @@ impl Numbers {
 fn inexact<T: ArrowPrimitiveType<Native: std::fmt::Display>>(
     column: &ArrayRef,
     is_exact: fn(T::Native) -> bool,
-) -> HashMap<usize, String> {
+) -> Option<HashMap<usize, String>> {
     let numbers = column.as_primitive::<T>().iter().enumerate();
     let text = |number| format!("{number}, which has more digits than a float64,");
-    numbers
+    let found: HashMap<usize, String> = numbers
         .filter_map(|(row, number)| number.filter(|&n| !is_exact(n)).map(|n| (row, text(n))))
-        .collect()
+        .collect();
+    (!found.is_empty()).then_some(found)
 }
 
 impl Record for Row {
@@ -199,7 +200,9 @@ impl Cells for &Row {
         if column.values.is_null(self.at) {
             return Ok(None);
         }
-        if let Some(whole) = column.inexact.get(&self.at) {
+        if let Some(inexact) = &column.inexact
+            && let Some(whole) = inexact.get(&self.at)
+        {
             return Err(whole.clone());
         }
         match column.values.value(self.at) {
