@@ -450,13 +450,12 @@ def knot(size: int) -> Body:
 def test_ctrl_c_ends_a_table_with_what_is_done(rows: int) -> None:
     body = knot(600)
     random = np.random.default_rng(1)
-    # It turns a hundred thousand times, and barely misses each time: minutes of work.
+    # It turns a hundred thousand times, and barely misses each time: minutes of work. bench/interrupt.py tells how soon
+    # Ctrl-C ends it.
     columns = {"a_px": random.uniform(3.2, 3.4, rows), "a_wx": np.full(rows, 6e5), "a_wy": np.full(rows, 6e5)}
     interrupt(0.5)
-    begin = time.perf_counter()
     with pytest.raises(Interrupted) as error:
         first_contacts(body, body, columns, tolerance=1e-9, budget=2**60)
-    assert time.perf_counter() - begin < 0.5 + 1
     assert isinstance(error.value, KeyboardInterrupt)
     done = error.value.results
     assert len(done) < rows and "unresolved" not in done["status"]
@@ -481,10 +480,8 @@ def test_ctrl_c_ends_an_endless_stream(column: str) -> None:
     reads: list[Callable[[], Any]] = [lambda: first_contacts(BALL, WALL, reader()), lambda: Table(reader())]
     for read in reads:
         interrupt(0.5)
-        begin = time.perf_counter()
         with pytest.raises(KeyboardInterrupt):
             read()
-        assert time.perf_counter() - begin < 0.5 + 1
 
 
 def test_what_ends_the_program_is_no_bad_input() -> None:
@@ -504,10 +501,8 @@ def test_what_ends_the_program_is_no_bad_input() -> None:
 def test_ctrl_c_ends_a_single_query() -> None:
     body = knot(600)
     interrupt(0.5)
-    begin = time.perf_counter()
     with pytest.raises(KeyboardInterrupt):
         first_contact(body, body, Motion([3.3, 0, 0], spin=[6e5, 6e5, 0]), tolerance=1e-9, budget=2**60)
-    assert time.perf_counter() - begin < 0.5 + 1
 
 
 def interrupt(seconds: float) -> None:
