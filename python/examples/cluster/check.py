@@ -184,7 +184,11 @@ def motions(rows: int) -> pyarrow.Table:
     random = np.random.default_rng(1)
     columns = {name: random.uniform(-3, 3, rows) for name in ("a_wx", "a_wy", "b_wx", "b_wz")}
     columns |= {name: random.uniform(-2, 2, rows) for name in ("a_py", "a_pz")}
-    columns |= {"id": random.permutation(rows), "a_px": random.uniform(-4, -3, rows), "a_vx": random.uniform(2, 8, rows)}
+    columns |= {
+        "id": random.permutation(rows),
+        "a_px": random.uniform(-4, -3, rows),
+        "a_vx": random.uniform(2, 8, rows),
+    }
     columns["a_px"][::1000] = np.nan
     return pyarrow.table(columns)
 
