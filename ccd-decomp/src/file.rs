@@ -62,7 +62,7 @@ impl Model {
         let stored =
             stored.and_then(|()| fs::rename(&part, target).map_err(StoreFault::Unwritable));
         if stored.is_err() {
-            // The file may not even be there.
+            // What stays behind does no harm.
             let _ = fs::remove_file(&part);
         }
         stored

@@ -12,7 +12,6 @@ use rigid_ccd::batch::{Bodies, Question};
 use rigid_ccd::picture::{self, Claim, PageError, Pages, PagesError};
 use rigid_ccd::table::motions::TableError;
 use std::collections::HashSet;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -37,7 +36,7 @@ pub(crate) fn write_pages(
         question: Question::FirstContact,
         config: config(settings, OF_CONTACTS)?,
         clearance: None,
-        threads: NonZeroUsize::new(1),
+        threads: Some(1),
         micros: Micros::LeftOut,
     };
     let reader = input::open(motions)?;
@@ -60,7 +59,7 @@ fn write(
     reader: Reader,
     rows: &HashSet<usize>,
     folder: &Path,
-    stop: &AtomicBool,
+    stop: &Arc<AtomicBool>,
 ) -> Result<Vec<PathBuf>, Fault> {
     let shown = picture::Asked {
         claim: Claim::First,

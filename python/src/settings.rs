@@ -5,7 +5,6 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Config;
-use std::num::NonZeroUsize;
 use std::time::Duration;
 
 /// The settings of a query that looks for contacts.
@@ -15,7 +14,7 @@ pub(crate) const OF_CONTACTS: &[&str] = &["tolerance", "margin", "budget", "dead
 pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
 
 /// The most threads: as many as the command takes.
-pub(crate) const MOST_THREADS: i64 = 1024;
+const MOST_THREADS: u16 = 1024;
 
 /// Reads the settings of a query, which may have those that are `known`.
 pub(crate) fn config(
@@ -32,22 +31,21 @@ pub(crate) fn config(
             "budget" => {
                 config.budget = read::<Option<u64>>(&name, &value)?.unwrap_or(config.budget)
             }
-            _ => config.deadline = deadline(read(&name, &value)?)?,
+            "deadline" => config.deadline = deadline(read(&name, &value)?)?,
+            _ => return Err(unknown(&name, known)),
         }
     }
     Ok(config)
 }
 
 /// Reads a number of threads; none for one on each core.
-pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<NonZeroUsize>> {
-    let in_range = |threads: &i64| (1..=MOST_THREADS).contains(threads);
-    match given {
-        None => Ok(None),
-        Some(threads) if in_range(&threads) => Ok(NonZeroUsize::new(threads as usize)),
-        Some(threads) => Err(input(format!(
-            "threads: {threads} is not from 1 to {MOST_THREADS}"
-        ))),
-    }
+pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<u16>> {
+    let in_range = |&threads: &u16| (1..=MOST_THREADS).contains(&threads);
+    let threads = |given: i64| {
+        let threads = u16::try_from(given).ok().filter(in_range);
+        threads.ok_or_else(|| input(format!("threads: {given} is not from 1 to {MOST_THREADS}")))
+    };
+    given.map(threads).transpose()
 }
 
 fn read<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>

@@ -133,6 +133,19 @@ def test_numbers_of_any_kind_are_taken(dtype: str) -> None:
     same(first_contacts(BALL, WALL, columns, micros=False), expected)
 
 
+def test_a_pandas_frame_may_be_filtered() -> None:
+    pandas = pytest.importorskip("pandas")
+    columns = shots(50)
+    whole = first_contacts(BALL, WALL, columns, micros=False)
+    frame = pandas.DataFrame(columns)
+    kept = np.flatnonzero(frame["a_vx"] > 2)
+    assert 10 < len(kept) < 50
+    for some in (frame[frame["a_vx"] > 2], frame.iloc[kept].set_index("id")):
+        same(first_contacts(BALL, WALL, some, micros=False), whole.take(kept))
+    with pytest.raises(InputError, match="unknown column `shot`"):
+        first_contacts(BALL, WALL, frame.rename_axis("shot"))
+
+
 def test_ids_come_back_as_they_are() -> None:
     pyarrow = pytest.importorskip("pyarrow")
     start = {"a_px": [-3.0, -3.0]}

@@ -15,11 +15,13 @@ pub use question::{Found, Question, Questions};
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub(crate) use timed::{Settings, Timed, time};
+pub use timed::solve;
 #[cfg(feature = "command")]
-pub use timed::{on_threads, solve};
+pub(crate) use timed::{Settings, Timed, time};
 
+use crate::ParallelSolver;
 use ccd_core::Body;
+use std::num::NonZeroUsize;
 
 /// The two bodies of a query; both may be the same.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +30,14 @@ pub struct Bodies<'a> {
     pub a: &'a Body,
     /// Body B.
     pub b: &'a Body,
+}
+
+/// Creates a solver for each thread that is asked for, by default one for each core.
+pub fn on_threads<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> ParallelSolver<S> {
+    match threads.and_then(|threads| NonZeroUsize::new(threads.into())) {
+        Some(threads) => ParallelSolver::with_threads(threads, solver),
+        None => ParallelSolver::new(solver),
+    }
 }
 
 /// Sorts values and returns their median; NaN without values.

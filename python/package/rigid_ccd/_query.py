@@ -82,9 +82,6 @@ class TableQuery:
 
     def _table(self, motions: Any) -> Table:
         """Takes a table, if its rows can be told apart and its paths are whole."""
-        if _library(motions) == "pandas":
-            # An index with a name is a column.
-            motions = motions.reset_index(drop=motions.index.names == [None])
         table = Table(motions)
         if "id" not in table:
             raise InputError("motions: no column `id`: engines return rows in any order")

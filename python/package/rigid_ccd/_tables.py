@@ -22,7 +22,8 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         a, b: the bodies.
         motions: anything that speaks the Arrow PyCapsule protocol (a table or a stream of pyarrow, polars, pandas 3,
             duckdb), or a dict of arrays. Columns of float64 are not copied; do not write to them meanwhile. They go by
-            name, in any order, and have defaults; so have null cells (in pandas NaN is null, in a dict it is an error):
+            name, in any order, and have defaults; so have null cells (in pandas NaN is null, in a dict it is an error). Of
+            a frame of pandas, an index without a name is dropped:
             id: the name of the row, of any type; it comes back as it is, a dictionary as its values. Without it, rows
                 are numbered from 0.
             a_px a_py a_pz: the position of A at the start (0).
@@ -103,14 +104,14 @@ def distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOf
 
 def answer(ask: Ask, a: Body, b: Body, motions: Motions, *, progress: Progress = None, **settings: Any) -> Table:
     """Asks a question about each row."""
-    tell, close = _teller(progress, motions)
+    tell, close = _teller(progress)
     try:
         return _rigid_ccd.answer_table(ask, a, b, motions, progress=tell, **settings)
     finally:
         close()
 
 
-def _teller(progress: Progress, motions: Motions) -> tuple[Callable[[int, int | None], object] | None, Callable[[], object]]:
+def _teller(progress: Progress) -> tuple[Callable[[int, int | None], object] | None, Callable[[], object]]:
     """Makes a function of rows done and all rows, and one that ends it."""
     if progress is None or progress is False:
         return None, lambda: None

@@ -7,13 +7,13 @@ use super::results;
 use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
 use arrow_select::concat::concat_batches;
-use rigid_ccd::batch::{BatchSize, Bodies, Question, Questions};
+use rigid_ccd::batch::{BatchSize, Bodies, Question, Questions, on_threads};
+use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow};
 use rigid_ccd::table::motions::{RowProblem, TableError};
 use rigid_ccd::table::results::ResultRow;
-use rigid_ccd::{Config, Limit, ParallelSolver, Solver};
+use rigid_ccd::{Config, Limit, Solver};
 use std::collections::HashSet;
-use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
@@ -27,7 +27,7 @@ pub(crate) struct Asked<'a> {
     /// What distances are compared with.
     pub(crate) clearance: Option<f64>,
     /// The number of threads; none for one on each core.
-    pub(crate) threads: Option<NonZeroUsize>,
+    pub(crate) threads: Option<u16>,
     pub(crate) micros: Micros,
 }
 
@@ -54,14 +54,20 @@ pub(crate) fn answer(
     stop: &Arc<AtomicBool>,
     done: &AtomicUsize,
 ) -> Result<Answered, TableError> {
-    check(&reader)?;
+    let columns = check(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable)?);
     let mut answered = Vec::new();
-    let fault = rounds(asked, reader, stop, done, |found: &[RecordBatch]| {
-        answered.push(concat_batches(&schema, found)?);
-        Ok(())
-    });
+    let fault = rounds(
+        asked,
+        (reader, columns),
+        stop,
+        done,
+        |found: &[RecordBatch]| {
+            answered.push(concat_batches(&schema, found)?);
+            Ok(())
+        },
+    );
     Ok(Answered {
         results: results::joined(&schema, &answered).map_err(unreadable)?,
         fault: fault.err(),
@@ -71,17 +77,14 @@ pub(crate) fn answer(
 /// Answers rows round by round, on all threads, and hands over the results of each.
 fn rounds(
     asked: Asked<'_>,
-    reader: Reader,
+    table: (Reader, Columns),
     stop: &Arc<AtomicBool>,
     done: &AtomicUsize,
     mut take: impl FnMut(&[RecordBatch]) -> Result<(), ArrowError>,
 ) -> Result<(), TableError> {
-    let mut pieces = Pieces::of(reader, asked.question, Names::LeftOut, stop)?;
+    let mut pieces = Pieces::of(table, asked.question, Names::LeftOut, stop)?;
     let create = || Solver::new().with_config(asked.config).with_stop(stop);
-    let mut solver = match asked.threads {
-        Some(threads) => ParallelSolver::with_threads(threads, create),
-        None => ParallelSolver::new(create),
-    };
+    let mut solver = on_threads(asked.threads, create);
     let mut size = BatchSize::new(solver.threads());
     loop {
         let (round, fault) = pieces.take(size.items(), solver.threads(), stop);
@@ -119,11 +122,12 @@ pub(crate) fn each(
     asked: Asked<'_>,
     reader: Reader,
     wanted: &HashSet<usize>,
-    stop: &AtomicBool,
+    stop: &Arc<AtomicBool>,
     mut take: impl FnMut(&Course, &ResultRow),
 ) -> Result<(), TableError> {
-    let mut pieces = Pieces::of(reader, asked.question, Names::Read, stop)?;
-    let mut solver = Solver::new().with_config(asked.config);
+    let columns = check(&reader)?;
+    let mut pieces = Pieces::of((reader, columns), asked.question, Names::Read, stop)?;
+    let mut solver = Solver::new().with_config(asked.config).with_stop(stop);
     let mut number = 0;
     loop {
         let (round, fault) = pieces.take(BatchSize::new(1).items(), 1, stop);

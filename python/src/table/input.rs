@@ -7,7 +7,7 @@ use arrow_array::{
 };
 use arrow_schema::{Field, Schema};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyMapping, PyString};
+use pyo3::types::{PyBool, PyDict, PyMapping, PyString};
 use pyo3_arrow::buffer::AnyBufferProtocol;
 use pyo3_arrow::{PyRecordBatch, PyRecordBatchReader};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     let failed = |error| caused(motions.py(), "motions", error);
     if motions.hasattr("__arrow_c_stream__")? {
-        let reader = motions.extract::<PyRecordBatchReader>();
+        let reader = without_index(motions)?.extract::<PyRecordBatchReader>();
         return reader
             .and_then(PyRecordBatchReader::into_reader)
             .map_err(failed);
@@ -39,6 +39,22 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
             motions,
         )),
     }
+}
+
+/// Drops the index of a frame of pandas, which would be a column, unless it has a name.
+fn without_index<'py>(motions: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let module: String = motions.get_type().getattr("__module__")?.extract()?;
+    if module.split('.').next() != Some("pandas") {
+        return Ok(motions.clone());
+    }
+    let names: Vec<_> = motions
+        .getattr("index")?
+        .getattr("names")?
+        .try_iter()?
+        .collect::<PyResult<_>>()?;
+    let how = PyDict::new(motions.py());
+    how.set_item("drop", names.iter().all(|name| name.is_none()))?;
+    motions.call_method("reset_index", (), Some(&how))
 }
 
 /// Returns the number of answers that there will be, where the table knows it beforehand: as many as rows, unless they

@@ -45,14 +45,13 @@ pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
 }
 
 impl Pieces {
-    /// Begins to read a table. One of paths is read to its end, or until the flag is set.
+    /// Begins to read a table whose columns have been checked. One of paths is read to its end, or until the flag is set.
     pub(crate) fn of(
-        reader: Reader,
+        (reader, columns): (Reader, Columns),
         question: Question,
         names: Names,
         stop: &AtomicBool,
     ) -> Result<Self, TableError> {
-        let columns = check(&reader)?;
         Ok(match columns.form() {
             Form::Motions => Pieces::Motions {
                 batches: Batches::new(reader, names),

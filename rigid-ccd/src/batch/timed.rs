@@ -1,7 +1,6 @@
 //! Queries answered by a method that is chosen at run time, each with its time.
 
 use super::{Bodies, Found, Question, Solve, SolverKind, median};
-use crate::ParallelSolver;
 use crate::table::courses::Course;
 use crate::table::motions::{Query, RowProblem};
 use ccd_core::{Answer, Config, InputError, Moving, Problem};
@@ -39,14 +38,6 @@ pub(crate) struct Timed {
     pub(crate) answer: Answer<Found>,
     /// The time to pose and solve the query, in microseconds.
     pub(crate) micros: f64,
-}
-
-/// Creates a solver for each thread that `--threads` asks for, by default one for each core.
-pub fn on_threads<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> ParallelSolver<S> {
-    match threads.and_then(|threads| NonZeroUsize::new(threads.into())) {
-        Some(threads) => ParallelSolver::with_threads(threads, solver),
-        None => ParallelSolver::new(solver),
-    }
 }
 
 /// Answers a query as often as the settings say.

@@ -7,10 +7,10 @@ use super::files::{
 use super::numbers::{not_negative, seconds, tolerance};
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::progress::{Progress, Total};
-use super::view::title;
+use super::view::{answered, title};
 use super::{Exit, complain};
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Question, Settings, Solve, SolverKind, on_threads, time};
+use crate::batch::{BatchSize, Bodies, Question, Settings, Solve, SolverKind, on_threads};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
 use crate::table::courses::CourseRow;
 use crate::table::motions::TableError;
@@ -178,10 +178,7 @@ impl Audit<'_> {
             let answers = self.solver.map(&batch, |solver, row| {
                 progress.step();
                 match row {
-                    Ok((_, course)) => match time(bodies, course, settings, solver.as_mut()) {
-                        Ok(timed) => ResultRow::new(course, &timed.answer, timed.micros, None),
-                        Err(problem) => ResultRow::error(course.id(), &problem),
-                    },
+                    Ok((_, course)) => answered(bodies, course, settings, solver.as_mut()),
                     Err(error) => ResultRow::error(&error.id, &error.problem),
                 }
             });

@@ -14,7 +14,7 @@ use super::files::{
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::{Exit, complain};
 use crate::Scene;
-use crate::batch::{Question, Settings, SolverKind, time};
+use crate::batch::{Bodies, Question, Settings, Solve, SolverKind, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
 use crate::table::results::{self, ResultRow};
@@ -80,7 +80,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         }
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
-            None => Some(answered(&pair, &course, &settings, solver.as_mut())),
+            None => Some(answered(pair.bodies(), &course, &settings, solver.as_mut())),
         };
         if let Some(row) = row {
             chosen.offer(&course, &row);
@@ -127,13 +127,14 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }
 
-fn answered(
-    pair: &Pair,
+/// Returns the row of the results for a row of motions or paths.
+pub(super) fn answered(
+    bodies: Bodies<'_>,
     course: &Course,
     settings: &Settings,
-    solver: &mut dyn crate::batch::Solve,
+    solver: &mut dyn Solve,
 ) -> ResultRow {
-    match time(pair.bodies(), course, settings, solver) {
+    match time(bodies, course, settings, solver) {
         Ok(timed) => ResultRow::new(course, &timed.answer, timed.micros, None),
         Err(problem) => ResultRow::error(course.id(), &problem),
     }
