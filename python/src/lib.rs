@@ -26,8 +26,6 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<chain::PyJoint>()?;
     module.add_class::<chain::PyChain>()?;
     module.add_class::<chain::PyLink>()?;
-    module.add_class::<answers::PyContact>()?;
-    module.add_class::<answers::PyDistance>()?;
     module.add_class::<table::PyTable>()?;
     let py = module.py();
     module.add("InputError", py.get_type::<errors::InputError>())?;

@@ -1,6 +1,6 @@
 //! One query at a time.
 
-use crate::answers::{PyContact, PyDistance};
+use crate::answers;
 use crate::body::PyBody;
 use crate::course::{Course, Moved, Pair};
 use crate::errors::{input, query, unresolved_distance};
@@ -98,15 +98,15 @@ fn pair<'c>(
 /// True
 #[pyfunction]
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
-pub(crate) fn first_contact(
-    py: Python<'_>,
+pub(crate) fn first_contact<'py>(
+    py: Python<'py>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Option<PyContact>> {
+) -> PyResult<Option<Bound<'py, PyAny>>> {
     let config = config(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
@@ -115,7 +115,7 @@ pub(crate) fn first_contact(
         Moved::Along(a, b) => solver.first_contact_along(a, b, duration),
     })?;
     match found {
-        Ok(hit) => Ok(hit.as_ref().map(PyContact::of)),
+        Ok(hit) => hit.map(|hit| answers::contact(py, &hit)).transpose(),
         Err(error) => Err(query(py, error)),
     }
 }
@@ -149,15 +149,15 @@ pub(crate) fn is_free(
 /// Arguments and exceptions are those of `first_contact`, without a margin. `Unresolved` has `lower` and `upper`.
 #[pyfunction]
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
-pub(crate) fn closest_approach(
-    py: Python<'_>,
+pub(crate) fn closest_approach<'py>(
+    py: Python<'py>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
-) -> PyResult<PyDistance> {
+) -> PyResult<Bound<'py, PyAny>> {
     let config = config(settings, OF_DISTANCES)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
@@ -178,14 +178,14 @@ pub(crate) fn closest_approach(
 /// 2.0
 #[pyfunction]
 #[pyo3(signature = (a, b, pose_a = None, pose_b = None, **settings))]
-pub(crate) fn distance(
-    py: Python<'_>,
+pub(crate) fn distance<'py>(
+    py: Python<'py>,
     a: &Bound<'_, PyBody>,
     b: &Bound<'_, PyBody>,
     pose_a: Option<&Bound<'_, PyAny>>,
     pose_b: Option<&Bound<'_, PyAny>>,
     settings: Option<&Bound<'_, PyDict>>,
-) -> PyResult<PyDistance> {
+) -> PyResult<Bound<'py, PyAny>> {
     let pose = |pose: Option<&Bound<'_, PyAny>>, what| match pose {
         Some(pose) => pose_of(pose, what),
         None => Ok(rigid_ccd::Pose::IDENTITY),
@@ -198,11 +198,11 @@ pub(crate) fn distance(
 }
 
 /// Asks for a bracket of a distance.
-fn measure(
-    py: Python<'_>,
+fn measure<'py>(
+    py: Python<'py>,
     config: Config,
     question: impl Fn(&mut Solver) -> Result<ClosestApproach, rigid_ccd::InputError> + Send + Sync,
-) -> PyResult<PyDistance> {
+) -> PyResult<Bound<'py, PyAny>> {
     let reached = |found: &Result<ClosestApproach, _>| match found {
         Ok(known @ ClosestApproach::Unresolved { reason, .. }) => Some((*reason, known.lower())),
         _ => None,
@@ -211,6 +211,6 @@ fn measure(
     let bounds = [found.lower(), found.upper()];
     match found {
         ClosestApproach::Unresolved { reason, .. } => Err(unresolved_distance(py, bounds, reason)),
-        _ => Ok(PyDistance::of(&found)),
+        _ => answers::distance(py, &found),
     }
 }

@@ -12,10 +12,12 @@ use crate::errors::input as refuse;
 use crate::polled::polled;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
+use arrow_ipc::reader::StreamReader;
+use arrow_ipc::writer::StreamWriter;
 use arrow_schema::Field;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyList, PyTuple};
+use pyo3::types::{PyBytes, PyCapsule, PyList, PyTuple, PyType};
 use pyo3_arrow::ffi::{
     ArrayIterator, to_array_pycapsules, to_schema_pycapsule, to_stream_pycapsule,
 };
@@ -68,6 +70,30 @@ impl PyTable {
         let rows = arrow_array::Int64Array::from(rows);
         let batch = arrow_select::take::take_record_batch(&self.batch, &rows).map_err(refuse)?;
         Ok(PyTable { batch })
+    }
+
+    /// Makes a table of what pickle has kept of it.
+    #[classmethod]
+    fn _from_bytes(_class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
+        let batches = StreamReader::try_new(stored, None).and_then(Iterator::collect);
+        let batches: Vec<RecordBatch> = batches.map_err(refuse)?;
+        match batches.as_slice() {
+            [batch] => Ok(PyTable { batch: batch.clone() }),
+            _ => Err(refuse(format!("table: {} batches, not one", batches.len()))),
+        }
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let (py, batch) = (slf.py(), &slf.get().batch);
+        let stored = py.detach(|| {
+            let mut writer = StreamWriter::try_new(Vec::new(), &batch.schema())?;
+            writer.write(batch)?;
+            writer.into_inner()
+        });
+        let make = slf.get_type().getattr("_from_bytes")?;
+        Ok((make, (PyBytes::new(py, &stored.map_err(refuse)?),)))
     }
 
     fn __len__(&self) -> usize {

@@ -1,13 +1,25 @@
 """Queries, against closed forms."""
 
 import math
+import pickle
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, InputError, Motion, Unresolved, closest_approach, distance, first_contact, is_free
+from rigid_ccd import (
+    Body,
+    Contact,
+    Distance,
+    InputError,
+    Motion,
+    Unresolved,
+    closest_approach,
+    distance,
+    first_contact,
+    is_free,
+)
 
 BALL = Body.sphere(0.5)
 WALL = Body.box(0.1, 5, 5)
@@ -18,13 +30,13 @@ def test_a_ball_flies_at_a_wall(speed: float) -> None:
     flies = Motion([-3, 0, 0], velocity=[speed, 0, 0], spin=[0, 3, 50])
     exact = 2.4 / speed
     hit = first_contact(BALL, WALL, flies)
-    assert hit is not None and hit.kind == "contact"
+    assert isinstance(hit, Contact) and hit.kind == "contact"
     assert exact - 1.01e-3 / speed <= hit.time <= exact
     assert hit.normal == pytest.approx((1, 0, 0), abs=1e-6)
     assert hit.witness_b[0] == pytest.approx(-0.1, abs=1e-9)
     assert hit.distance is not None and 0 <= hit.distance[0] <= hit.distance[1] <= 1e-3
     assert not is_free(BALL, WALL, flies)
-    assert "Contact(time=" in repr(hit)
+    assert eval(repr(hit)) == pickle.loads(pickle.dumps(hit)) == hit
 
 
 def test_a_slow_ball_stays_apart() -> None:
@@ -32,8 +44,10 @@ def test_a_slow_ball_stays_apart() -> None:
     assert first_contact(BALL, WALL, flies) is None
     assert is_free(BALL, WALL, flies)
     nearest = closest_approach(BALL, WALL, flies, tolerance=1e-6)
+    assert isinstance(nearest, Distance)
     assert nearest.lower <= 0.4 <= nearest.upper + 1e-12 and nearest.upper - nearest.lower <= 1e-6
     assert nearest.time == pytest.approx(1)
+    assert eval(repr(nearest)) == pickle.loads(pickle.dumps(nearest)) == nearest
 
 
 def test_what_touches_at_the_start_is_told() -> None:

@@ -26,6 +26,16 @@ def test_bodies_are_pickled_with_the_same_answers(body: Body) -> None:
     same(expected(again), expected(body))
 
 
+def test_tables_are_pickled() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    names = pyarrow.array(["a", None, "b"] * 20).dictionary_encode()
+    some = pyarrow.table({**COLUMNS, "id": names})
+    for table in (expected(), expected().take([]), first_contacts(BALL, WALL, some), Table(some)):
+        assert pyarrow.table(pickle.loads(pickle.dumps(table))).equals(pyarrow.table(table))
+    with pytest.raises(InputError):
+        Table._from_bytes(b"no table")
+
+
 def test_bodies_are_saved_with_the_same_answers(tmp_path: Path) -> None:
     for body in (knot(60), Body.box(1, 2, 3)):
         body.save(tmp_path / "body.ccd")

@@ -20,13 +20,12 @@ Lengths are in any one unit, times in the motions' unit, angles in radians. Quat
 tables of the command ``ccd``.
 """
 
+from ._answers import Contact, Distance
 from ._audit import Audit, audit
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
     Chain,
-    Contact,
-    Distance,
     InputError,
     Interrupted,
     Joint,
