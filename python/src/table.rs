@@ -78,7 +78,9 @@ impl PyTable {
         let batches = StreamReader::try_new(stored, None).and_then(Iterator::collect);
         let batches: Vec<RecordBatch> = batches.map_err(refuse)?;
         match batches.as_slice() {
-            [batch] => Ok(PyTable { batch: batch.clone() }),
+            [batch] => Ok(PyTable {
+                batch: batch.clone(),
+            }),
             _ => Err(refuse(format!("table: {} batches, not one", batches.len()))),
         }
     }
