@@ -1,0 +1,52 @@
+"""Answers as frozen objects."""
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+Point: TypeAlias = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """The first contact of two bodies. Nothing touches before its time: that is proven, in floating point.
+
+    Attributes:
+        time: no contact happens before it.
+        kind: "contact", or at the start "touching" or "overlapping".
+        witness_a: the point of body A nearest to B, in the world at that time.
+        witness_b: the point of body B nearest to A.
+        normal: the unit vector from A to B; None where one body is inside the other.
+        distance: bounds of the distance at that time; negative for pieces that intersect, None like the normal.
+        feature_a: the feature of A in contact, such as "v7", "e3-7", "f12" or "p0"; None like the normal.
+        feature_b: the feature of B in contact.
+    """
+
+    time: float
+    kind: Literal["contact", "touching", "overlapping"]
+    witness_a: Point
+    witness_b: Point
+    normal: Point | None
+    distance: tuple[float, float] | None
+    feature_a: str | None
+    feature_b: str | None
+
+
+@dataclass(frozen=True)
+class Distance:
+    """The least distance of two bodies, to within the tolerance.
+
+    Attributes:
+        lower: the bodies are never nearer than this.
+        upper: at `time` they are at most this far apart.
+        time: when they are nearest; 0 where they overlap at the start.
+        is_overlapping: whether they overlap at the start.
+        witness_a: the nearest point of body A, in the world at that time; None where they overlap at the start.
+        witness_b: the nearest point of body B.
+    """
+
+    lower: float
+    upper: float
+    time: float
+    is_overlapping: bool
+    witness_a: Point | None
+    witness_b: Point | None
