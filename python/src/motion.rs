@@ -15,7 +15,7 @@ const ORTHONORMAL: f64 = 1e-5;
 ///
 /// Args:
 ///     position: the place of the body's origin at time 0, three numbers.
-///     rotation: a matrix of shape (3, 3), a quaternion (w, x, y, z), or a scipy Rotation; None does not turn it.
+///     rotation: a matrix of shape (3, 3), a quaternion (w, x, y, z), or a scipy Rotation; None is no rotation.
 ///     velocity: of the centre, per unit of time.
 ///     spin: the angular velocity about the world's axes, in radians per unit of time.
 ///     center: the centre of rotation in the body's frame.

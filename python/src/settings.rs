@@ -65,12 +65,17 @@ where
 fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let finite = seconds.filter(|&seconds| seconds != f64::INFINITY);
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();
-    deadline.map_err(|error| input(format!("deadline: {error}")))
+    deadline.map_err(|_| {
+        input(format!(
+            "deadline: {} is no number of seconds from 0",
+            seconds.unwrap_or_default()
+        ))
+    })
 }
 
 fn unknown(name: &str, known: &[&str]) -> PyErr {
     PyTypeError::new_err(format!(
-        "unexpected keyword argument '{name}'; the settings are {}",
+        "unexpected keyword argument '{name}'; besides its other arguments, a query takes {}",
         known.join(", ")
     ))
 }

@@ -15,18 +15,22 @@ from ._tables import Motions, first_contacts
 
 @dataclass(frozen=True, repr=False)
 class Audit:
-    """What another checker has missed."""
+    """What another checker has missed.
+
+    Attributes:
+        rows: the number of rows, or of paths.
+        missed: the rows that are not free, with time and witnesses of the first contact: columns of `first_contacts`.
+        missed_rows: their numbers in the table of motions, from 0; of paths, their numbers among the paths.
+        unproven: the rows that are neither free nor missed: a limit was reached (status "unresolved"), or the row is not
+            a valid motion ("error").
+        pages: the files of the pages, for the first missed rows, in their order.
+    """
 
     rows: int
-    """The number of rows, or of paths."""
     missed: Table
-    """The rows that are not free, with the time and the witnesses of the first contact: columns of `first_contacts`."""
     missed_rows: tuple[int, ...]
-    """Their numbers in the table of motions, from 0; of paths, their numbers among the paths."""
     unproven: Table
-    """The rows that are neither: unresolved, because a limit was reached, or no motions."""
     pages: tuple[Path, ...]
-    """A page for each missed row, in their order, as far as there are any."""
 
     @property
     def is_clean(self) -> bool:
@@ -53,14 +57,14 @@ def audit(
         a, b: the bodies.
         motions: the table that the checker has called free, as of `first_contacts`.
         pages: a folder for a page on each missed row, which shows the motion and the contact in any browser, offline.
-        most_pages: no more pages than that.
+        most_pages: the first so many missed rows have pages. Pages of earlier audits stay in the folder.
         tolerance: what comes within margin + tolerance counts as missed; `distance_upper` says how near it came. It is
             1e-6 by default: nobody is blamed for what passes closely.
         margin: the distance that the checker was to keep.
         settings: the others of `first_contacts`.
 
     Raises:
-        InputError: a column is unknown or missing, or has no numbers.
+        InputError: a column is unknown, missing, or not numeric.
         OSError: a page cannot be written.
 
     >>> from rigid_ccd import Body, audit

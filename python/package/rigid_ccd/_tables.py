@@ -22,8 +22,8 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         a, b: the bodies.
         motions: anything that speaks the Arrow PyCapsule protocol (a table or a stream of pyarrow, polars, pandas 3,
             duckdb), or a dict of arrays. Columns of float64 are not copied; do not write to them meanwhile. They go by
-            name, in any order, and have defaults; so have null cells (in pandas NaN is null, in a dict it is an error). Of
-            a frame of pandas, an index without a name is dropped:
+            name, in any order, and have defaults; so have null cells, except for
+            floats in frames of pandas, where null is NaN. NaN is an error. An index of pandas without a name is dropped:
             id: the name of the row, of any type; it comes back as it is, a dictionary as its values. Without it, rows
                 are numbered from 0.
             a_px a_py a_pz: the position of A at the start (0).
@@ -48,10 +48,10 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         A `Table` with the columns of ``ccd query``: id, status, time, distance_lower, distance_upper, normal_x ...,
         witness_a_x ..., witness_b_x ..., feature_a, feature_b, iterations, oracle_calls, micros, reason. Status is
         contact, free, touching or overlapping (at the start), unresolved (a limit was reached: nothing touches before
-        `time`), or error: a row that is no motion, with its reason.
+        `time`), or error: the row is not a valid motion, with its reason.
 
     Raises:
-        InputError: a column is unknown or missing, or has no numbers; or a stream failed: then it has `results`, too.
+        InputError: a column is unknown, missing, or not numeric; or a stream failed: then it has `results`, too.
         Interrupted: Ctrl-C; its `results` has the rows answered by then, from the first on. A stream that waits for its
             next batch is waited for.
 
@@ -72,7 +72,8 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
 def are_free(a: Body, b: Body, motions: Motions, **settings: Unpack[ContactsOfTables]) -> Table:
     """Finds out in which rows two bodies stay apart, by more than the margin.
 
-    It is `first_contacts`, but for the time of a contact, which is that of any: rows with one are answered sooner.
+    Rows with a contact are answered sooner than by `first_contacts`: time and status are those of any contact, not of the
+    first.
     """
     return answer("is-free", a, b, motions, **settings)
 

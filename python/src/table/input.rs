@@ -2,8 +2,11 @@
 
 use crate::arrays::{kind, plain};
 use crate::errors::{caused, input, wrong_type};
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float32Type, Float64Type};
 use arrow_array::{
-    ArrayRef, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray,
+    Array, ArrayRef, ArrowPrimitiveType, Int64Array, PrimitiveArray, RecordBatch,
+    RecordBatchIterator, RecordBatchReader, StringArray,
 };
 use arrow_schema::{Field, Schema};
 use pyo3::prelude::*;
@@ -20,10 +23,16 @@ pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     let failed = |error| caused(motions.py(), "motions", error);
     if motions.hasattr("__arrow_c_stream__")? {
-        let reader = without_index(motions)?.extract::<PyRecordBatchReader>();
-        return reader
-            .and_then(PyRecordBatchReader::into_reader)
-            .map_err(failed);
+        let read = |table: &Bound<'_, PyAny>| {
+            let reader = table.extract::<PyRecordBatchReader>();
+            reader
+                .and_then(PyRecordBatchReader::into_reader)
+                .map_err(failed)
+        };
+        return match is_of_pandas(motions)? {
+            true => Ok(with_nans(read(&without_index(motions)?)?)),
+            false => read(motions),
+        };
     }
     if motions.hasattr("__arrow_c_array__")? {
         return Ok(one(motions
@@ -41,20 +50,41 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-/// Drops the index of a frame of pandas, which would be a column, unless it has a name.
-fn without_index<'py>(motions: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+fn is_of_pandas(motions: &Bound<'_, PyAny>) -> PyResult<bool> {
     let module: String = motions.get_type().getattr("__module__")?.extract()?;
-    if module.split('.').next() != Some("pandas") {
-        return Ok(motions.clone());
-    }
-    let names: Vec<_> = motions
-        .getattr("index")?
-        .getattr("names")?
-        .try_iter()?
-        .collect::<PyResult<_>>()?;
-    let how = PyDict::new(motions.py());
+    Ok(module.split('.').next() == Some("pandas"))
+}
+
+/// Drops the index of a frame of pandas, which would be a column, unless it has a name.
+fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let names = frame.getattr("index")?.getattr("names")?;
+    let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
+    let how = PyDict::new(frame.py());
     how.set_item("drop", names.iter().all(|name| name.is_none()))?;
-    motions.call_method("reset_index", (), Some(&how))
+    frame.call_method("reset_index", (), Some(&how))
+}
+
+/// Makes NaN of nulls in columns of floats: pandas hands over NaN as null, and no NaN may pass for a default.
+fn with_nans(reader: Reader) -> Reader {
+    fn filled<T: ArrowPrimitiveType>(column: &ArrayRef, nan: T::Native) -> Option<ArrayRef> {
+        let column = column.as_primitive_opt::<T>()?;
+        let cells = column.iter().map(|cell| cell.unwrap_or(nan));
+        Some(Arc::new(PrimitiveArray::<T>::from_iter_values(cells)))
+    }
+    let schema = reader.schema();
+    let batches = reader.map(|batch| {
+        let batch = batch?;
+        let (schema, mut columns, _) = batch.into_parts();
+        for (field, column) in schema.fields().iter().zip(&mut columns) {
+            if field.name() != ID && column.null_count() > 0 {
+                let with_nans = filled::<Float64Type>(column, f64::NAN)
+                    .or_else(|| filled::<Float32Type>(column, f32::NAN));
+                *column = with_nans.unwrap_or_else(|| Arc::clone(column));
+            }
+        }
+        RecordBatch::try_new(schema, columns)
+    });
+    Box::new(RecordBatchIterator::new(batches, schema))
 }
 
 /// Returns the number of answers that there will be, where the table knows it beforehand: as many as rows, unless they
