@@ -146,7 +146,7 @@ def test_a_pandas_frame_may_be_filtered() -> None:
         first_contacts(BALL, WALL, frame.rename_axis("shot"))
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32", "Float64"])
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
 def test_no_nan_of_pandas_passes_for_a_default(dtype: str) -> None:
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame({"id": [1.5, None], "a_px": [-3.0, -3.0], "a_vx": [4.0, math.nan]})
@@ -154,6 +154,14 @@ def test_no_nan_of_pandas_passes_for_a_default(dtype: str) -> None:
     assert found["status"].tolist() == ["contact", "error"]
     assert found["reason"][1] == "column a_vx: `NaN` is not a finite number"
     assert as_pyarrow(found)["id"].to_pylist() == [1.5, None]
+
+
+@pytest.mark.parametrize("dtype", ["Float64", "double[pyarrow]"])
+def test_what_pandas_says_is_missing_is_a_default(dtype: str) -> None:
+    pandas = pytest.importorskip("pandas")
+    cells = pandas.array([4.0, None], dtype=dtype)
+    found = first_contacts(BALL, WALL, pandas.DataFrame({"a_px": [-3.0, -3.0], "a_vx": cells}))
+    assert found["status"].tolist() == ["contact", "free"]
 
 
 def test_ids_come_back_as_they_are() -> None:

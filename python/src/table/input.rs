@@ -9,10 +9,12 @@ use arrow_array::{
     RecordBatchIterator, RecordBatchReader, StringArray,
 };
 use arrow_schema::{Field, Schema};
+use numpy::PyArrayDescr;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyMapping, PyString};
 use pyo3_arrow::buffer::AnyBufferProtocol;
 use pyo3_arrow::{PyRecordBatch, PyRecordBatchReader};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// A table, batch by batch.
@@ -29,8 +31,11 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
                 .and_then(PyRecordBatchReader::into_reader)
                 .map_err(failed)
         };
-        return match is_of_pandas(motions)? {
-            true => Ok(with_nans(read(&without_index(motions)?)?)),
+        return match is_frame_of_pandas(motions)? {
+            true => {
+                let frame = without_index(motions)?;
+                Ok(with_nans(read(&frame)?, numpy_columns(&frame)?))
+            }
             false => read(motions),
         };
     }
@@ -50,9 +55,10 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-fn is_of_pandas(motions: &Bound<'_, PyAny>) -> PyResult<bool> {
-    let module: String = motions.get_type().getattr("__module__")?.extract()?;
-    Ok(module.split('.').next() == Some("pandas"))
+fn is_frame_of_pandas(motions: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let class = motions.get_type();
+    let module: String = class.getattr("__module__")?.extract()?;
+    Ok(module.split('.').next() == Some("pandas") && class.name()? == "DataFrame")
 }
 
 /// Drops the index of a frame of pandas, which would be a column, unless it has a name.
@@ -64,19 +70,31 @@ fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     frame.call_method("reset_index", (), Some(&how))
 }
 
-/// Makes NaN of nulls in columns of floats: pandas hands over NaN as null, and no NaN may pass for a default.
-fn with_nans(reader: Reader) -> Reader {
+/// Returns the names of a frame's columns of NumPy's types; others are of Arrow, or have a mask.
+fn numpy_columns(frame: &Bound<'_, PyAny>) -> PyResult<HashSet<String>> {
+    let mut names = HashSet::new();
+    for column in frame.getattr("dtypes")?.call_method0("items")?.try_iter()? {
+        let (name, dtype): (Bound<'_, PyAny>, Bound<'_, PyAny>) = column?.extract()?;
+        if dtype.cast::<PyArrayDescr>().is_ok() {
+            names.insert(name.str()?.to_string());
+        }
+    }
+    Ok(names)
+}
+
+/// Makes NaN again of nulls in these columns: pandas hands over NaN as null, and no NaN may pass for a default.
+fn with_nans(reader: Reader, names: HashSet<String>) -> Reader {
     fn filled<T: ArrowPrimitiveType>(column: &ArrayRef, nan: T::Native) -> Option<ArrayRef> {
         let column = column.as_primitive_opt::<T>()?;
         let cells = column.iter().map(|cell| cell.unwrap_or(nan));
         Some(Arc::new(PrimitiveArray::<T>::from_iter_values(cells)))
     }
     let schema = reader.schema();
-    let batches = reader.map(|batch| {
+    let batches = reader.map(move |batch| {
         let batch = batch?;
         let (schema, mut columns, _) = batch.into_parts();
         for (field, column) in schema.fields().iter().zip(&mut columns) {
-            if field.name() != ID && column.null_count() > 0 {
+            if field.name() != ID && names.contains(field.name()) && column.null_count() > 0 {
                 let with_nans = filled::<Float64Type>(column, f64::NAN)
                     .or_else(|| filled::<Float32Type>(column, f32::NAN));
                 *column = with_nans.unwrap_or_else(|| Arc::clone(column));
