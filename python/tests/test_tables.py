@@ -146,7 +146,7 @@ def test_a_pandas_frame_may_be_filtered() -> None:
         first_contacts(BALL, WALL, frame.rename_axis("shot"))
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("dtype", ["float64", "float32", "float16"])
 def test_no_nan_of_pandas_passes_for_a_default(dtype: str) -> None:
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame({"id": [1.5, None], "a_px": [-3.0, -3.0], "a_vx": [4.0, math.nan]})
@@ -154,6 +154,14 @@ def test_no_nan_of_pandas_passes_for_a_default(dtype: str) -> None:
     assert found["status"].tolist() == ["contact", "error"]
     assert found["reason"][1] == "column a_vx: `NaN` is not a finite number"
     assert as_pyarrow(found)["id"].to_pylist() == [1.5, None]
+
+
+@pytest.mark.parametrize("cells", [[4, math.nan], [4, None], [math.nan, math.nan]])
+def test_objects_of_pandas_with_missing_cells_are_refused(cells: list[Any]) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"a_px": [-3.0, -3.0], "a_vx": pandas.Series(cells, dtype=object)})
+    with pytest.raises(InputError, match="column a_vx: "):
+        first_contacts(BALL, WALL, frame)
 
 
 @pytest.mark.parametrize("dtype", ["Float64", "double[pyarrow]"])

@@ -40,7 +40,6 @@ class _Mesh(Protocol):
 
 _Rotation: TypeAlias = ArrayLike | _ScipyRotation
 _Pose: TypeAlias = ArrayLike | tuple[ArrayLike, _Rotation]
-_Point: TypeAlias = tuple[float, float, float]
 _Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull"]
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
 _Course: TypeAlias = Motion | Path | Link

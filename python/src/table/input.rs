@@ -3,12 +3,13 @@
 use crate::arrays::{kind, plain};
 use crate::errors::{caused, input, wrong_type};
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float32Type, Float64Type};
+use arrow_array::types::Float64Type;
 use arrow_array::{
-    Array, ArrayRef, ArrowPrimitiveType, Int64Array, PrimitiveArray, RecordBatch,
-    RecordBatchIterator, RecordBatchReader, StringArray,
+    Array, ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader,
+    StringArray,
 };
-use arrow_schema::{Field, Schema};
+use arrow_cast::cast;
+use arrow_schema::{ArrowError, DataType, Field, Schema};
 use numpy::PyArrayDescr;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyMapping, PyString};
@@ -84,25 +85,31 @@ fn numpy_columns(frame: &Bound<'_, PyAny>) -> PyResult<HashSet<String>> {
 
 /// Makes NaN again of nulls in these columns: pandas hands over NaN as null, and no NaN may pass for a default.
 fn with_nans(reader: Reader, names: HashSet<String>) -> Reader {
-    fn filled<T: ArrowPrimitiveType>(column: &ArrayRef, nan: T::Native) -> Option<ArrayRef> {
-        let column = column.as_primitive_opt::<T>()?;
-        let cells = column.iter().map(|cell| cell.unwrap_or(nan));
-        Some(Arc::new(PrimitiveArray::<T>::from_iter_values(cells)))
-    }
     let schema = reader.schema();
     let batches = reader.map(move |batch| {
         let batch = batch?;
         let (schema, mut columns, _) = batch.into_parts();
         for (field, column) in schema.fields().iter().zip(&mut columns) {
-            if field.name() != ID && names.contains(field.name()) && column.null_count() > 0 {
-                let with_nans = filled::<Float64Type>(column, f64::NAN)
-                    .or_else(|| filled::<Float32Type>(column, f32::NAN));
-                *column = with_nans.unwrap_or_else(|| Arc::clone(column));
+            if field.name() != ID && names.contains(field.name()) && column.logical_null_count() > 0
+            {
+                *column = with_nan(field.name(), column)?;
             }
         }
         RecordBatch::try_new(schema, columns)
     });
     Box::new(RecordBatchIterator::new(batches, schema))
+}
+
+fn with_nan(name: &str, column: &ArrayRef) -> Result<ArrayRef, ArrowError> {
+    let of = column.data_type();
+    if !of.is_floating() {
+        let text = format!("column {name}: a cell of its objects is missing; make it float64");
+        return Err(ArrowError::SchemaError(text));
+    }
+    let cells = cast(column, &DataType::Float64)?;
+    let cells = cells.as_primitive::<Float64Type>().iter();
+    let cells = Float64Array::from_iter_values(cells.map(|cell| cell.unwrap_or(f64::NAN)));
+    cast(&cells, of)
 }
 
 /// Returns the number of answers that there will be, where the table knows it beforehand: as many as rows, unless they
