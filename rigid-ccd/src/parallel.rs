@@ -4,8 +4,8 @@ use crate::{Error, Hit, Solver};
 use ccd_core::{DistanceOracle, Moving};
 use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread::{self, Builder, available_parallelism};
 
 /// Finds the first contact of each pair of moving bodies, on all cores.
@@ -55,7 +55,7 @@ pub struct QueryError {
 /// Solvers for many queries side by side, one on each thread. Keep it between calls: it reuses its memory.
 ///
 /// Each thread takes the next query when it has answered one, so that a few slow queries do not hold up the
-/// others. No thread waits for a lock. Answers are in the order of the queries. They are the same bits on
+/// others. Answers are in the order of the queries. They are the same bits on
 /// any number of threads, unless a [deadline](ccd_core::Config::deadline) ends a query.
 ///
 /// A panic ends a call: the threads take no more queries, and the panic goes on in the caller.
@@ -149,7 +149,7 @@ impl<S: Send> ParallelSolver<S> {
     /// results are in memory at one time; pass very many queries in parts.
     ///
     /// The caller's thread works as well. The others last for this call, and where one cannot be started,
-    /// the rest do its work.
+    /// the rest do its work. No thread waits for a lock.
     ///
     /// # Panics
     /// `answer` panics.
@@ -172,21 +172,81 @@ impl<S: Send> ParallelSolver<S> {
         queries: &[Q],
         answer: impl Fn(&mut S, &Q) -> R + Sync,
     ) -> Vec<R> {
-        // The counter only shares out the queries: the end of a thread makes its results visible.
-        let next = Own(AtomicUsize::new(0));
         let results: Vec<OnceLock<R>> = queries.iter().map(|_| OnceLock::new()).collect();
+        // The counter only shares out the queries: the end of a thread makes its results visible.
+        let counter = Own(AtomicUsize::new(0));
+        let next = || {
+            let index = counter.0.fetch_add(1, Ordering::Relaxed);
+            Some((queries.get(index)?, results.get(index)?))
+        };
+        self.share(queries.len(), next, |solver, (query, result)| {
+            // No other thread has this index: the cell is empty.
+            let _ = result.set(answer(solver, query));
+        });
+        let results = results.into_iter().filter_map(OnceLock::into_inner);
+        results.collect()
+    }
+
+    /// Calls a function with a solver and each query of an iterator, and returns the results in the order of
+    /// the queries.
+    ///
+    /// It is [`map`](ParallelSolver::map) for queries that are read or made while others are answered. A lock
+    /// guards the iterator: let an item be many queries if they are short. The threads end after the
+    /// iterator's first `None`.
+    ///
+    /// # Panics
+    /// `answer` or the iterator panics.
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Outcome, ParallelSolver, Pose, Solver};
+    /// let ball = Body::ball(0.5)?;
+    /// let flies = |speed| Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3]);
+    /// let speeds = std::iter::successors(Some(1.0), |speed| Some(2.0 * speed)).take(10);
+    /// let hits = ParallelSolver::new(Solver::new).map_iter(speeds, |solver, speed| {
+    ///     let found = solver.first_contact((&ball, flies(speed)?), (&ball, Motion::STILL), 1.0)?;
+    ///     Ok::<bool, rigid_ccd::Error>(found.is_some())
+    /// });
+    /// assert_eq!(hits.into_iter().filter(|hit| matches!(hit, Ok(true))).count(), 9);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn map_iter<Q: Send, R: Send>(
+        &mut self,
+        queries: impl IntoIterator<Item = Q, IntoIter: Send>,
+        answer: impl Fn(&mut S, Q) -> R + Sync,
+    ) -> Vec<R> {
+        let queries = queries.into_iter();
+        let most = queries.size_hint().1.unwrap_or(usize::MAX);
+        let queries = Mutex::new(queries.fuse().enumerate());
+        let results = Mutex::new(Vec::new());
+        // The lock is poisoned where the iterator has panicked: there is no more to do.
+        let next = || queries.lock().ok()?.next();
+        self.share(most, next, |solver, (index, query)| {
+            let result = answer(solver, query);
+            let mut results = results.lock().unwrap_or_else(PoisonError::into_inner);
+            results.push((index, result));
+        });
+        let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+        results.sort_unstable_by_key(|&(index, _)| index);
+        results.into_iter().map(|(_, result)| result).collect()
+    }
+
+    /// Works on queries, on up to `most` threads, until there is no next one.
+    fn share<Q>(
+        &mut self,
+        most: usize,
+        next: impl Fn() -> Option<Q> + Sync,
+        work: impl Fn(&mut S, Q) + Sync,
+    ) {
+        let panicked = Own(AtomicBool::new(false));
         let work = |own: &mut Own<S>| {
-            let _stop = StopOnPanic(&next.0, queries.len());
-            loop {
-                let index = next.0.fetch_add(1, Ordering::Relaxed);
-                let Some(query) = queries.get(index) else {
-                    return;
-                };
-                // No other thread has this index: the cell is empty.
-                let _ = results[index].set(answer(&mut own.0, query));
+            let _tells = TellsOfPanic(&panicked.0);
+            while !panicked.0.load(Ordering::Relaxed)
+                && let Some(query) = next()
+            {
+                work(&mut own.0, query);
             }
         };
-        let useful = self.solvers.len().min(queries.len());
+        let useful = self.solvers.len().min(most);
         if let Some((mine, others)) = self.solvers[..useful].split_first_mut() {
             thread::scope(|scope| {
                 let start = |own| Builder::new().spawn_scoped(scope, || work(own)).ok();
@@ -197,18 +257,16 @@ impl<S: Send> ParallelSolver<S> {
                 }
             });
         }
-        let results = results.into_iter().filter_map(OnceLock::into_inner);
-        results.collect()
     }
 }
 
-/// Leaves no query to the other threads when this one panics.
-struct StopOnPanic<'c>(&'c AtomicUsize, usize);
+/// Tells the other threads that this one panics.
+struct TellsOfPanic<'f>(&'f AtomicBool);
 
-impl Drop for StopOnPanic<'_> {
+impl Drop for TellsOfPanic<'_> {
     fn drop(&mut self) {
         if thread::panicking() {
-            self.0.store(self.1, Ordering::Relaxed);
+            self.0.store(true, Ordering::Relaxed);
         }
     }
 }

@@ -2,13 +2,11 @@
 
 use super::batch::{Names, id_field};
 use super::input::Reader;
-use super::pieces::{Piece, Pieces, check};
+use super::pieces::{Pace, Pieces, check};
 use super::results;
 use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
-use arrow_select::concat::concat_batches;
-use rigid_ccd::batch::{BatchSize, Bodies, Question, Questions, on_threads};
-use rigid_ccd::table::columns::Columns;
+use rigid_ccd::batch::{Bodies, Question, Questions, on_threads};
 use rigid_ccd::table::courses::{Course, CourseRow};
 use rigid_ccd::table::motions::{RowProblem, TableError};
 use rigid_ccd::table::results::ResultRow;
@@ -57,64 +55,38 @@ pub(crate) fn answer(
     let columns = check(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable)?);
-    let mut answered = Vec::new();
-    let fault = rounds(
-        asked,
-        (reader, columns),
-        stop,
-        done,
-        |found: &[RecordBatch]| {
-            answered.push(concat_batches(&schema, found)?);
-            Ok(())
-        },
-    );
+    let (pace, source) = (Pace::new(), (reader, columns.form()));
+    let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &pace, stop)?;
+    let create = || Solver::new().with_config(asked.config).with_stop(stop);
+    let found = on_threads(asked.threads, create).map_iter(pieces.by_ref(), |solver, piece| {
+        let start = Instant::now();
+        let courses = piece.courses(&columns);
+        let found: Vec<ResultRow> = courses
+            .take_while(|_| !stop.load(Ordering::Relaxed))
+            .map_while(|row| result(asked, &row, solver))
+            .collect();
+        done.fetch_add(found.len(), Ordering::Relaxed);
+        pace.adapt(piece.rows(), start.elapsed());
+        let is_whole = found.len() == piece.rows();
+        let found = results::batch(asked.question, piece.ids(found.len()), &found);
+        found.map(|found| (found, is_whole))
+    });
+    let found: Vec<_> = found
+        .into_iter()
+        .collect::<Result<_, _>>()
+        .map_err(unreadable)?;
+    // Of the piece that was stopped, the first rows are answered.
+    let stopped = found.iter().position(|&(_, is_whole)| !is_whole);
+    let first = stopped.map_or(found.len(), |stopped| stopped + 1);
+    let answered: Vec<RecordBatch> = found
+        .into_iter()
+        .map(|(found, _)| found)
+        .take(first)
+        .collect();
     Ok(Answered {
         results: results::joined(&schema, &answered).map_err(unreadable)?,
-        fault: fault.err(),
+        fault: pieces.fault,
     })
-}
-
-/// Answers rows round by round, on all threads, and hands over the results of each.
-fn rounds(
-    asked: Asked<'_>,
-    table: (Reader, Columns),
-    stop: &Arc<AtomicBool>,
-    done: &AtomicUsize,
-    mut take: impl FnMut(&[RecordBatch]) -> Result<(), ArrowError>,
-) -> Result<(), TableError> {
-    let mut pieces = Pieces::of(table, asked.question, Names::LeftOut, stop)?;
-    let create = || Solver::new().with_config(asked.config).with_stop(stop);
-    let mut solver = on_threads(asked.threads, create);
-    let mut size = BatchSize::new(solver.threads());
-    loop {
-        let (round, fault) = pieces.take(size.items(), solver.threads(), stop);
-        let start = Instant::now();
-        let columns = pieces.columns();
-        let found = solver.map(&round, |solver, piece| {
-            let courses = piece.courses(columns);
-            let found: Vec<ResultRow> = courses
-                .take_while(|_| !stop.load(Ordering::Relaxed))
-                .map_while(|row| result(asked, &row, solver))
-                .collect();
-            done.fetch_add(found.len(), Ordering::Relaxed);
-            results::batch(asked.question, piece.ids(found.len()), &found)
-        });
-        size.adapt(start.elapsed());
-        let found: Vec<RecordBatch> = found
-            .into_iter()
-            .collect::<Result<_, _>>()
-            .map_err(unreadable)?;
-        let answered = |(piece, found): (&Piece, &RecordBatch)| found.num_rows() == piece.rows();
-        let stopped = round.iter().zip(&found).position(|pair| !answered(pair));
-        // Of the piece that was stopped, the first rows are answered.
-        let first = stopped.map_or(found.len(), |stopped| stopped + 1);
-        take(&found[..first]).map_err(unreadable)?;
-        match fault {
-            Some(fault) => return Err(fault),
-            None if round.is_empty() || stopped.is_some() => return Ok(()),
-            None => {}
-        }
-    }
 }
 
 /// Answers some rows of a table, by their numbers, one after another, until the flag is set.
@@ -126,15 +98,12 @@ pub(crate) fn each(
     mut take: impl FnMut(&Course, &ResultRow),
 ) -> Result<(), TableError> {
     let columns = check(&reader)?;
-    let mut pieces = Pieces::of((reader, columns), asked.question, Names::Read, stop)?;
+    let (pace, source) = (Pace::new(), (reader, columns.form()));
+    let mut pieces = Pieces::of(source, asked.question, Names::Read, &pace, stop)?;
     let mut solver = Solver::new().with_config(asked.config).with_stop(stop);
     let mut number = 0;
-    loop {
-        let (round, fault) = pieces.take(BatchSize::new(1).items(), 1, stop);
-        for row in round
-            .iter()
-            .flat_map(|piece| piece.courses(pieces.columns()))
-        {
+    for piece in pieces.by_ref() {
+        for row in piece.courses(&columns) {
             let is_wanted = wanted.contains(&number) && !stop.load(Ordering::Relaxed);
             let found = is_wanted
                 .then(|| result(asked, &row, &mut solver))
@@ -144,12 +113,8 @@ pub(crate) fn each(
             }
             number += 1;
         }
-        match fault {
-            Some(fault) => return Err(fault),
-            None if round.is_empty() => return Ok(()),
-            None => {}
-        }
     }
+    pieces.fault.map_or(Ok(()), Err)
 }
 
 fn unreadable(error: ArrowError) -> TableError {

@@ -9,7 +9,8 @@ use rigid_ccd::table::courses::{Course, CourseRow, Courses};
 use rigid_ccd::table::motions::{self, RowError, TableError};
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
 
 /// Rows that one thread answers in one go.
 pub(crate) enum Piece {
@@ -19,22 +20,51 @@ pub(crate) enum Piece {
     Path(Box<CourseRow>, ArrayRef),
 }
 
-/// The most rows that one thread answers in one go: results of many rows are made into columns faster.
-const MOST_ROWS: usize = 64;
+/// The pieces of a table, in order, until the flag is set.
+pub(crate) struct Pieces<'p> {
+    source: Source,
+    pace: &'p Pace,
+    stop: &'p AtomicBool,
+    /// What is wrong with the table after the last piece.
+    pub(crate) fault: Option<TableError>,
+}
 
-/// The pieces of a table, in order.
-pub(crate) enum Pieces {
+enum Source {
     Motions {
         batches: Batches,
-        columns: Columns,
         /// What is left of the batch that was read last.
         rest: Option<(Arc<Batch>, Range<usize>)>,
     },
     Paths(Box<Courses<Rows>>, Arc<Batch>),
 }
 
-/// Some pieces of a table, and what went wrong after them.
-pub(crate) type Taken = (Vec<Piece>, Option<TableError>);
+/// The number of rows that one thread answers in one go.
+///
+/// Results of many rows are made into columns faster, but at the end of a table threads wait for each other.
+pub(crate) struct Pace(AtomicUsize);
+
+/// The time that a piece should take.
+const PIECE: Duration = Duration::from_millis(5);
+
+/// The most rows of a piece.
+const MOST_ROWS: usize = 512;
+
+impl Pace {
+    /// Starts with one row.
+    pub(crate) fn new() -> Self {
+        Pace(AtomicUsize::new(1))
+    }
+
+    /// Adapts the pieces that follow to the time that one has taken.
+    pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
+        let rows = match taken {
+            _ if taken < PIECE / 2 => 2 * rows,
+            _ if taken > 2 * PIECE => rows / 2,
+            _ => rows,
+        };
+        self.0.store(rows.clamp(1, MOST_ROWS), Ordering::Relaxed);
+    }
+}
 
 /// Refuses a table by its columns.
 pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
@@ -44,18 +74,18 @@ pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
     Ok(columns)
 }
 
-impl Pieces {
+impl<'p> Pieces<'p> {
     /// Begins to read a table whose columns have been checked. One of paths is read to its end, or until the flag is set.
     pub(crate) fn of(
-        (reader, columns): (Reader, Columns),
+        (reader, form): (Reader, Form),
         question: Question,
         names: Names,
-        stop: &AtomicBool,
+        pace: &'p Pace,
+        stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
-        Ok(match columns.form() {
-            Form::Motions => Pieces::Motions {
+        let source = match form {
+            Form::Motions => Source::Motions {
                 batches: Batches::new(reader, names),
-                columns,
                 rest: None,
             },
             Form::Paths => {
@@ -63,32 +93,38 @@ impl Pieces {
                 let table = table.map_err(|error| TableError::Unreadable(error.to_string()))?;
                 let rows = Rows::of(&table)?;
                 let batch = rows.batch();
-                Pieces::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
+                Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
             }
+        };
+        Ok(Pieces {
+            source,
+            pace,
+            stop,
+            fault: None,
         })
     }
+}
 
-    /// Takes pieces of about `count` rows, some for each thread, until the flag is set.
-    pub(crate) fn take(&mut self, count: usize, threads: usize, stop: &AtomicBool) -> Taken {
-        let mut pieces = Vec::new();
-        let mut left = count;
-        while left > 0 && !stop.load(Ordering::Relaxed) {
-            match self.next((count / (8 * threads)).clamp(1, MOST_ROWS).min(left)) {
-                Ok(Some(piece)) => {
-                    left -= piece.rows();
-                    pieces.push(piece);
-                }
-                Ok(None) => break,
-                Err(error) => return (pieces, Some(error)),
-            }
+impl Iterator for Pieces<'_> {
+    type Item = Piece;
+
+    fn next(&mut self) -> Option<Piece> {
+        if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
+            return None;
         }
-        (pieces, None)
+        let piece = self.source.next(self.pace.0.load(Ordering::Relaxed));
+        piece.unwrap_or_else(|fault| {
+            self.fault = Some(fault);
+            None
+        })
     }
+}
 
+impl Source {
     /// Returns a piece of up to `most` rows, at least one unless a batch has none.
     fn next(&mut self, most: usize) -> Result<Option<Piece>, TableError> {
         match self {
-            Pieces::Motions { batches, rest, .. } => {
+            Source::Motions { batches, rest } => {
                 let (batch, rows) = match rest.take() {
                     Some((batch, rows)) if rows.start < rows.end => (batch, rows),
                     _ => match batches.next()? {
@@ -103,7 +139,7 @@ impl Pieces {
                 *rest = Some((Arc::clone(&batch), end..rows.end));
                 Ok(Some(Piece::Motions(batch, rows.start..end)))
             }
-            Pieces::Paths(courses, batch) => {
+            Source::Paths(courses, batch) => {
                 let Some(row) = courses.next().transpose()? else {
                     return Ok(None);
                 };
@@ -114,14 +150,6 @@ impl Pieces {
                 let id = batch.ids(position.row, 1);
                 Ok(Some(Piece::Path(Box::new(row), id)))
             }
-        }
-    }
-
-    /// The columns of a table of motions.
-    pub(crate) fn columns(&self) -> Option<&Columns> {
-        match self {
-            Pieces::Motions { columns, .. } => Some(columns),
-            Pieces::Paths(..) => None,
         }
     }
 }
@@ -146,11 +174,11 @@ impl Piece {
     /// Reads the rows one after another.
     pub(crate) fn courses<'p>(
         &'p self,
-        columns: Option<&'p Columns>,
+        columns: &'p Columns,
     ) -> impl Iterator<Item = CourseRow> + 'p {
-        (0..self.rows()).map_while(move |k| match self {
-            Piece::Motions(batch, rows) => Some(course(batch, rows.start + k, columns?)),
-            Piece::Path(row, _) => Some((**row).clone()),
+        (0..self.rows()).map(move |k| match self {
+            Piece::Motions(batch, rows) => course(batch, rows.start + k, columns),
+            Piece::Path(row, _) => (**row).clone(),
         })
     }
 }

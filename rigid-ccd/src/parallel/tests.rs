@@ -66,8 +66,12 @@ fn results_are_in_order_when_queries_take_unlike_times() {
     for threads in [1, 2, 5] {
         let mut counts = ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), || 0);
         assert_eq!(counts.map(&queries, work), expected);
+        let by_value = |count: &mut u64, query: u64| work(count, &query);
+        assert_eq!(counts.map_iter(0..5000, by_value), expected);
+        let unsized_end = (0..).take_while(|&query| query < 5000);
+        assert_eq!(counts.map_iter(unsized_end, by_value), expected);
         let done: u64 = counts.solvers.iter().map(|own| own.0).sum();
-        assert_eq!(done, 5000, "each query is answered once");
+        assert_eq!(done, 3 * 5000, "each query is answered once");
     }
 }
 
@@ -135,27 +139,61 @@ impl Drop for Unwinds<'_> {
 }
 
 #[test]
+fn an_iterator_is_not_asked_again_after_its_end() {
+    for threads in [1, 2, 5] {
+        let mut left = 3;
+        let mut ended = false;
+        let once = std::iter::from_fn(|| {
+            assert!(!ended, "asked after the end");
+            ended = left == 0;
+            left -= 1;
+            (!ended).then_some(left)
+        });
+        let mut solver = solver(threads);
+        assert_eq!(solver.map_iter(once, |_, left| left), [2, 1, 0]);
+        assert!(solver.map_iter(0..0, |_, query| query).is_empty());
+    }
+}
+
+#[test]
+fn a_panic_of_the_iterator_reaches_the_caller() {
+    for threads in [1, 2, 5] {
+        let queries = (0..1000).inspect(|&query| assert!(query < 20, "query 20 is broken"));
+        let mut solver = solver(threads);
+        let call = AssertUnwindSafe(|| solver.map_iter(queries, |_, query| query));
+        let panic = catch_unwind(call).unwrap_err();
+        let text = panic.downcast_ref::<&str>();
+        assert_eq!(text, Some(&"query 20 is broken"));
+        assert_eq!(solver.map_iter(0..9, |_, query| query).len(), 9);
+    }
+}
+
+#[test]
 fn a_panic_reaches_the_caller_and_stops_the_other_threads() {
     let queries: Vec<usize> = (0..1_000_000).collect();
     for threads in [1, 2, 5] {
         let panicked = AtomicBool::new(false);
         let mut counts = ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), || 0);
-        let call = AssertUnwindSafe(|| {
-            counts.map(&queries, |count, &query| {
-                if query == 3 {
-                    let _unwinds = Unwinds(&panicked);
-                    panic!("query 3 is broken");
-                }
-                // The others wait until the panic is on its way.
-                while query > 3 && !panicked.load(Ordering::SeqCst) {
-                    thread::yield_now();
-                }
-                *count += 1;
+        let answer = |count: &mut usize, query: usize| {
+            if query == 3 {
+                let _unwinds = Unwinds(&panicked);
+                panic!("query 3 is broken");
+            }
+            // The others wait until the panic is on its way.
+            while query > 3 && !panicked.load(Ordering::SeqCst) {
                 thread::yield_now();
-            })
-        });
-        let panic = catch_unwind(call).unwrap_err();
-        assert_eq!(panic.downcast_ref(), Some(&"query 3 is broken"));
+            }
+            *count += 1;
+            thread::yield_now();
+        };
+        let slice = AssertUnwindSafe(|| counts.map(&queries, |count, &query| answer(count, query)));
+        let of_slice = catch_unwind(slice).unwrap_err();
+        panicked.store(false, Ordering::SeqCst);
+        let iter = AssertUnwindSafe(|| counts.map_iter(0..queries.len(), answer));
+        let of_iter = catch_unwind(iter).unwrap_err();
+        for panic in [of_slice, of_iter] {
+            assert_eq!(panic.downcast_ref(), Some(&"query 3 is broken"));
+        }
         let done: usize = counts.solvers.iter().map(|own| own.0).sum();
         assert!(done < queries.len() - 1, "{done} queries were answered");
         // The solvers are there for the next call.
