@@ -44,9 +44,17 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     .collect()
 }
 
-/// Reads three numbers.
-pub(crate) fn vector(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; 3]> {
-    numbers(values, what)
+/// Reads `N` finite numbers.
+pub(crate) fn finite<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; N]> {
+    let found = numbers(values, what)?;
+    match found.iter().position(|number| !number.is_finite()) {
+        Some(entry) => {
+            let number = found[entry];
+            let text = format!("{what}: entry {entry} is {number}, no finite number");
+            Err(input(text))
+        }
+        None => Ok(found),
+    }
 }
 
 /// Reads `N` numbers.
@@ -79,6 +87,23 @@ pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64
         .call_method0("ravel")?
         .call_method0("tolist")?
         .extract()
+}
+
+/// Reads numbers of rows, or an array of bool that has one for each.
+pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
+    let given = plain(rows, "rows")?;
+    if kind(&given)? != 'b' {
+        return indices(&given, "rows");
+    }
+    match shape(&given, "rows")?[..] {
+        [length] if length == all => {
+            let numpy = given.py().import("numpy")?;
+            indices(&numpy.call_method1("flatnonzero", (given,))?, "rows")
+        }
+        ref shape => Err(input(format!(
+            "rows: an array of {all} bool is needed, not one of shape {shape:?}"
+        ))),
+    }
 }
 
 /// Reads an index.

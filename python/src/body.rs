@@ -51,6 +51,15 @@ enum Shape {
     Capsule(f64, f64),
 }
 
+/// Takes a body that Python passes.
+pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
+    let needed = "a Body, as Body.from_file or Body.from_trimesh makes it,";
+    match given.cast::<PyBody>() {
+        Ok(body) => Ok(&body.get().body),
+        Err(_) => Err(wrong_type(what, needed, given)),
+    }
+}
+
 #[pymethods]
 impl PyBody {
     #[new]
@@ -230,9 +239,12 @@ impl PyBody {
             Shape::Sphere(radius) => (Body::ball(radius), vec![radius]),
             Shape::Capsule(radius, half) => (Body::capsule(radius, half), vec![radius, half]),
         };
-        if let Some(length) = lengths.iter().find(|&&length| length < 0.0) {
+        if let Some(length) = lengths
+            .iter()
+            .find(|length| !(length.is_finite() && **length >= 0.0))
+        {
             return Err(input(format!(
-                "{length} is no length: it has to be at least 0"
+                "a length is {length}, but must be finite and at least 0"
             )));
         }
         let (body, made) = (body.map_err(input)?, Made::Shape(shape));

@@ -1,6 +1,6 @@
 //! Serial chains: the links of an arm.
 
-use crate::arrays::{any_numbers, index, numbers, vector};
+use crate::arrays::{any_numbers, finite, index, numbers};
 use crate::errors::input;
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
@@ -40,7 +40,7 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::of(Kind::Revolute(vector(axis, "axis")?), origin, limits)
+        PyJoint::of(Kind::Revolute(finite(axis, "axis")?), origin, limits)
     }
 
     /// A joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
@@ -52,7 +52,7 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::of(Kind::Prismatic(vector(axis, "axis")?), origin, limits)
+        PyJoint::of(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
     }
 
     /// A joint without a freedom. It has a position all the same, which does not matter.
@@ -116,7 +116,7 @@ impl PyJoint {
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let origin = given_pose(origin, "origin")?;
-        let pose = origin.pose()?;
+        let pose = origin.pose("origin")?;
         let joint = match kind {
             Kind::Revolute(axis) => Joint::revolute(pose, axis),
             Kind::Prismatic(axis) => Joint::prismatic(pose, axis),
@@ -176,7 +176,7 @@ impl PyChain {
         let base = base.map_or(Ok(GivenPose::IDENTITY), |base| given_pose(base, "base"))?;
         let of_chain = joints.iter().map(|joint| joint.get().joint.clone());
         Ok(PyChain {
-            chain: Chain::new(base.pose()?, of_chain.collect()),
+            chain: Chain::new(base.pose("base")?, of_chain.collect()),
             joints,
             base,
         })

@@ -4,6 +4,7 @@ use pyo3::exceptions::{
     PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
 };
 use pyo3::prelude::*;
+use rigid_ccd::Limit;
 use std::fmt::Display;
 
 pyo3::create_exception!(
@@ -67,8 +68,11 @@ pub(crate) fn query(py: Python<'_>, error: rigid_ccd::Error) -> PyErr {
 }
 
 /// Makes an `Unresolved`.
-pub(crate) fn unresolved(py: Python<'_>, safe_until: f64, reason: impl Display) -> PyErr {
-    let error = Unresolved::new_err(format!("{reason}; no contact happens before {safe_until}"));
+pub(crate) fn unresolved(py: Python<'_>, safe_until: f64, reason: Limit) -> PyErr {
+    let error = Unresolved::new_err(format!(
+        "{}; no contact happens before {safe_until}",
+        ended_by(reason)
+    ));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
@@ -76,11 +80,21 @@ pub(crate) fn unresolved(py: Python<'_>, safe_until: f64, reason: impl Display) 
 pub(crate) fn unresolved_distance(
     py: Python<'_>,
     [lower, upper]: [f64; 2],
-    reason: impl Display,
+    reason: Limit,
 ) -> PyErr {
+    let reason = ended_by(reason);
     let error = Unresolved::new_err(format!("{reason}; the distance is from {lower} to {upper}"));
     let error = with_attribute(py, error, "lower", lower);
     with_attribute(py, error, "upper", upper)
+}
+
+/// Says what ended a query, and what to do.
+fn ended_by(limit: Limit) -> String {
+    match limit {
+        Limit::Budget => "the budget is spent (pass a larger one)".to_owned(),
+        Limit::Deadline => "the deadline has passed (pass a later one)".to_owned(),
+        other => other.to_string(),
+    }
 }
 
 /// Makes an `Interrupted` of Ctrl-C; other exceptions of a signal, or of a callback, stay what they are. Either has

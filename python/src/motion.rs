@@ -1,6 +1,6 @@
 //! Motions, and the forms that poses and rotations come in.
 
-use crate::arrays::{numbers, shape, vector};
+use crate::arrays::{finite, shape};
 use crate::errors::input;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -57,7 +57,7 @@ impl PyMotion {
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let given = |values: Option<&Bound<'_, PyAny>>, what| match values {
-            Some(values) => vector(values, what),
+            Some(values) => finite(values, what),
             None => Ok([0.0; 3]),
         };
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
@@ -96,7 +96,7 @@ impl PyMotion {
             start: given_pose(start, "start")?,
             end: given_pose(end, "end")?,
             duration,
-            center: center.map_or(Ok([0.0; 3]), |center| vector(center, "center"))?,
+            center: center.map_or(Ok([0.0; 3]), |center| finite(center, "center"))?,
         })
     }
 
@@ -152,13 +152,13 @@ impl PyMotion {
                 velocity,
                 spin,
                 center,
-            } => Motion::about(start.pose()?, *velocity, *spin, *center),
+            } => Motion::about(start.pose("pose")?, *velocity, *spin, *center),
             Made::Between {
                 start,
                 end,
                 duration,
                 center,
-            } => Motion::between(start.pose()?, end.pose()?, *center, *duration),
+            } => Motion::between(start.pose("start")?, end.pose("end")?, *center, *duration),
         };
         let motion = motion.map_err(input)?;
         Ok(PyMotion { motion, made })
@@ -173,8 +173,8 @@ impl GivenPose {
     pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], DQuat::IDENTITY);
 
     /// Returns the pose.
-    pub(crate) fn pose(&self) -> PyResult<Pose> {
-        Pose::new(self.0, self.1).map_err(input)
+    pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
+        Pose::new(self.0, self.1).map_err(|error| input(format!("{what}: {error}")))
     }
 }
 
@@ -216,7 +216,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     }
     match shape(value, "rotation")?[..] {
         [4] => {
-            let [w, x, y, z] = numbers(value, "rotation")?;
+            let [w, x, y, z] = finite(value, "rotation")?;
             Ok(DQuat::from_xyzw(x, y, z, w))
         }
         [3, 3] => matrix(value, "rotation"),
@@ -227,7 +227,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
 }
 
 fn matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<DQuat> {
-    rotation(numbers(value, what)?, what)
+    rotation(finite(value, what)?, what)
 }
 
 fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
@@ -249,20 +249,20 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
 
 /// Reads a pose.
 pub(crate) fn pose_of(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
-    given_pose(value, what)?.pose()
+    given_pose(value, what)?.pose(what)
 }
 
 /// Reads a pose as it is given.
 pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
-        return Ok(GivenPose(vector(&place, what)?, rotation_of(&turned)?));
+        return Ok(GivenPose(finite(&place, what)?, rotation_of(&turned)?));
     }
     if shape(value, what)?[..] != [4, 4] {
         return Err(input(format!(
             "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
         )));
     }
-    let m: [f64; 16] = numbers(value, what)?;
+    let m: [f64; 16] = finite(value, what)?;
     if m[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(input(format!(
             "{what}: the last row of the matrix is not 0, 0, 0, 1"

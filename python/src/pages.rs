@@ -1,6 +1,6 @@
 //! Pages of rows: what `ccd view` shows.
 
-use crate::body::PyBody;
+use crate::body::body_of;
 use crate::errors::{input as refuse, of_file};
 use crate::polled::polled;
 use crate::settings::{OF_CONTACTS, config};
@@ -21,8 +21,8 @@ use std::sync::atomic::AtomicBool;
 #[pyo3(signature = (a, b, motions, rows, folder, **settings))]
 pub(crate) fn write_pages(
     py: Python<'_>,
-    a: &Bound<'_, PyBody>,
-    b: &Bound<'_, PyBody>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
     motions: &Bound<'_, PyAny>,
     rows: HashSet<usize>,
     folder: PathBuf,
@@ -30,8 +30,8 @@ pub(crate) fn write_pages(
 ) -> PyResult<Vec<PathBuf>> {
     let asked = Asked {
         bodies: Bodies {
-            a: &a.get().body,
-            b: &b.get().body,
+            a: body_of(a, "a")?,
+            b: body_of(b, "b")?,
         },
         question: Question::FirstContact,
         config: config(settings, OF_CONTACTS)?,

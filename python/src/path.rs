@@ -1,6 +1,6 @@
 //! Paths through poses.
 
-use crate::arrays::{any_numbers, vector};
+use crate::arrays::{any_numbers, finite};
 use crate::errors::input;
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
@@ -56,9 +56,9 @@ impl PyPath {
                 times.len()
             )));
         }
-        let center = center.map_or(Ok([0.0; 3]), |center| vector(center, "center"))?;
-        let timed = times.iter().zip(&given);
-        let timed = timed.map(|(&time, pose)| Ok((time, pose.pose()?)));
+        let center = center.map_or(Ok([0.0; 3]), |center| finite(center, "center"))?;
+        let timed = times.iter().zip(&given).enumerate();
+        let timed = timed.map(|(k, (&time, pose))| Ok((time, pose.pose(&format!("pose {k}"))?)));
         let poses = Poses::new(timed.collect::<PyResult<_>>()?).map_err(input)?;
         Ok(PyPath {
             poses: poses.about(center).map_err(input)?,

@@ -1,7 +1,7 @@
 //! One query at a time.
 
 use crate::answers;
-use crate::body::PyBody;
+use crate::body::body_of;
 use crate::course::{Course, Moved, Pair};
 use crate::errors::{input, query, unresolved_distance};
 use crate::motion::pose_of;
@@ -65,12 +65,12 @@ fn safe_until<T>(found: &Result<T, Error>) -> Reached {
 }
 
 fn pair<'c>(
-    (a, motion_a): (&'c Bound<'_, PyBody>, Option<&'c Bound<'_, PyAny>>),
-    (b, motion_b): (&'c Bound<'_, PyBody>, Option<&'c Bound<'_, PyAny>>),
+    (a, motion_a): (&'c Bound<'_, PyAny>, Option<&'c Bound<'_, PyAny>>),
+    (b, motion_b): (&'c Bound<'_, PyAny>, Option<&'c Bound<'_, PyAny>>),
 ) -> PyResult<Pair<'c>> {
     Ok(Pair {
-        a: (&a.get().body, Course::of(motion_a, "motion_a")?),
-        b: (&b.get().body, Course::of(motion_b, "motion_b")?),
+        a: (body_of(a, "a")?, Course::of(motion_a, "motion_a")?),
+        b: (body_of(b, "b")?, Course::of(motion_b, "motion_b")?),
     })
 }
 
@@ -100,8 +100,8 @@ fn pair<'c>(
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn first_contact<'py>(
     py: Python<'py>,
-    a: &Bound<'_, PyBody>,
-    b: &Bound<'_, PyBody>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
     duration: Option<f64>,
@@ -127,8 +127,8 @@ pub(crate) fn first_contact<'py>(
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn is_free(
     py: Python<'_>,
-    a: &Bound<'_, PyBody>,
-    b: &Bound<'_, PyBody>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
     duration: Option<f64>,
@@ -151,8 +151,8 @@ pub(crate) fn is_free(
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn closest_approach<'py>(
     py: Python<'py>,
-    a: &Bound<'_, PyBody>,
-    b: &Bound<'_, PyBody>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
     duration: Option<f64>,
@@ -180,8 +180,8 @@ pub(crate) fn closest_approach<'py>(
 #[pyo3(signature = (a, b, pose_a = None, pose_b = None, **settings))]
 pub(crate) fn distance<'py>(
     py: Python<'py>,
-    a: &Bound<'_, PyBody>,
-    b: &Bound<'_, PyBody>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
     pose_a: Option<&Bound<'_, PyAny>>,
     pose_b: Option<&Bound<'_, PyAny>>,
     settings: Option<&Bound<'_, PyDict>>,
@@ -191,7 +191,7 @@ pub(crate) fn distance<'py>(
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
-    let (a, b) = (&a.get().body, &b.get().body);
+    let (a, b) = (body_of(a, "a")?, body_of(b, "b")?);
     measure(py, config(settings, OF_DISTANCES)?, |solver| {
         Ok(solver.distance((a, pose_a), (b, pose_b))?.outcome)
     })

@@ -13,6 +13,9 @@ pub(crate) const OF_CONTACTS: &[&str] = &["tolerance", "margin", "budget", "dead
 /// The settings of a query that measures distances.
 pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
 
+/// What a query about a table takes besides.
+const OF_TABLES: &[&str] = &["threads", "progress", "micros"];
+
 /// The most threads: as many as the command takes.
 const MOST_THREADS: u16 = 1024;
 
@@ -75,7 +78,8 @@ fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
 
 fn unknown(name: &str, known: &[&str]) -> PyErr {
     PyTypeError::new_err(format!(
-        "unexpected keyword argument '{name}'; besides its other arguments, a query takes {}",
-        known.join(", ")
+        "unexpected keyword argument '{name}'; settings are {}, and of a table {}",
+        known.join(", "),
+        OF_TABLES.join(", ")
     ))
 }

@@ -7,7 +7,7 @@ mod numpy_column;
 mod pieces;
 mod results;
 
-use crate::arrays::indices;
+use crate::arrays::row_numbers;
 use crate::errors::input as refuse;
 use crate::polled::polled;
 use arrow_array::cast::AsArray;
@@ -60,10 +60,10 @@ impl PyTable {
         self.column_names()
     }
 
-    /// The rows with these numbers, in that order, as a table.
+    /// The rows with these numbers, in that order, as a table; or those where an array of bool is true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
-        let rows = indices(rows, "rows")?;
+        let rows = row_numbers(rows, all)?;
         if let Some(wrong) = rows.iter().find(|&&row| !(0..all as i64).contains(&row)) {
             return Err(refuse(format!("row {wrong}: the table has {all} rows")));
         }
@@ -113,7 +113,12 @@ impl PyTable {
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         match self.batch.column_by_name(name) {
             Some(column) => numpy_column::to_numpy(py, column),
-            None => Err(PyKeyError::new_err(name.to_owned())),
+            None => {
+                let names = self.column_names().join(", ");
+                Err(PyKeyError::new_err(format!(
+                    "no column {name}; there are {names}"
+                )))
+            }
         }
     }
 

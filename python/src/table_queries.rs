@@ -1,6 +1,6 @@
 //! A question about each row of a table.
 
-use crate::body::PyBody;
+use crate::body::body_of;
 use crate::errors::{input as refuse, interrupted, with_attribute, wrong_type};
 use crate::polled::polled;
 use crate::settings::{self, OF_CONTACTS, OF_DISTANCES, config};
@@ -19,8 +19,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(crate) fn answer_table(
     py: Python<'_>,
     question: &str,
-    a: &Bound<'_, PyBody>,
-    b: &Bound<'_, PyBody>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
     motions: &Bound<'_, PyAny>,
     clearance: Option<f64>,
     threads: Option<i64>,
@@ -31,8 +31,8 @@ pub(crate) fn answer_table(
     let question = self::question(question)?;
     let asked = Asked {
         bodies: Bodies {
-            a: &a.get().body,
-            b: &b.get().body,
+            a: body_of(a, "a")?,
+            b: body_of(b, "b")?,
         },
         config: config(settings, known(question))?,
         question,

@@ -62,14 +62,14 @@ def test_what_is_no_mesh_is_refused(vertices: object, faces: object, message: st
 def test_names_are_checked() -> None:
     with pytest.raises(InputError, match="pieces"):
         Body(CORNERS, FACES, pieces="cubes")  # type: ignore[arg-type]
-    with pytest.raises(InputError):
-        Body.sphere(-1)
-    with pytest.raises(InputError):
-        Body.capsule(float("nan"), 1)
-    with pytest.raises(InputError, match="-1 is no length"):
-        Body.box(1, -1, 1)
-    with pytest.raises(InputError, match="-1 is no length"):
-        Body.capsule(1, -1)
+    for wrong in (-1.0, float("nan"), float("inf")):
+        message = r"length is (-1|NaN|inf), but must"
+        with pytest.raises(InputError, match=message):
+            Body.box(1, wrong, 1)
+        with pytest.raises(InputError, match=message):
+            Body.capsule(1, wrong)
+        with pytest.raises(InputError, match=message):
+            Body.sphere(wrong)
 
 
 def test_files_are_read(tmp_path: Path) -> None:

@@ -413,7 +413,7 @@ def test_results_go_everywhere_without_a_copy() -> None:
     assert pytest.importorskip("duckdb").sql("select count(*) from found").fetchall() == [(50,)]
     assert list(dict(found)) == COLUMNS == list(found) == found.keys()
     assert "time" in found and "times" not in found
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="no column .*; there are id, status"):
         found["times"]
     some = found.take([4, 2, 2])
     assert some["id"].tolist() == ["shot 4", "shot 2", "shot 2"]
@@ -426,6 +426,11 @@ def test_rows_are_taken_by_their_numbers() -> None:
     found = first_contacts(BALL, WALL, shots(50))
     assert found.take([4, 2, 2])["id"].tolist() == ["shot 4", "shot 2", "shot 2"]
     assert len(found.take([])) == 0 and len(found.take(np.arange(50)[::7])) == 8
+    contacts = found["status"] == "contact"
+    assert 0 < contacts.sum() < 50
+    assert found.take(contacts)["id"].tolist() == found.take(np.flatnonzero(contacts))["id"].tolist()
+    with pytest.raises(InputError, match=r"50 bool is needed, not one of shape \[49\]"):
+        found.take(contacts[:49])
     for wrong in (50, -1, 2**62):
         with pytest.raises(InputError, match=f"row {wrong}: the table has 50 rows"):
             found.take([wrong])

@@ -117,7 +117,11 @@ def _teller(progress: Progress) -> tuple[Callable[[int, int | None], object] | N
     if progress is None or progress is False:
         return None, lambda: None
     if progress is True:
-        from tqdm.auto import tqdm
+        try:
+            from tqdm.auto import tqdm
+        except ModuleNotFoundError as error:
+            message = "progress=True needs tqdm: pip install tqdm, or pass a function"
+            raise ModuleNotFoundError(message, name="tqdm") from error
 
         bar = tqdm(total=None, unit=" rows")
         shown: Any = bar
