@@ -11,11 +11,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::schedule::ClosestApproach;
 use rigid_ccd::{Config, Error, Limit, Solver};
+use std::cell::Cell;
 use std::time::Instant;
 
 /// The work of about a tenth of a second. A query with more to do is asked again on a thread of its own, while this one
 /// looks for Ctrl-C.
 const SHORT: u64 = 100_000;
+
+thread_local! {
+    /// The solver of this thread, which keeps its memory from query to query. A panic leaves a new one.
+    static SOLVER: Cell<Solver> = Cell::new(Solver::new());
+}
 
 /// What ended a query, and how far it had come: until what time, or to what distance, nothing touches.
 type Reached = Option<(Limit, f64)>;
@@ -32,7 +38,13 @@ fn ask<T: Send>(
         budget: config.budget.min(SHORT),
         ..config
     };
-    let first = py.detach(|| question(&mut Solver::new().with_config(short)));
+    let first = py.detach(|| {
+        let mut solver = SOLVER.take();
+        solver.set_config(short);
+        let found = question(&mut solver);
+        SOLVER.set(solver);
+        found
+    });
     let until = match reached(&first) {
         Some((Limit::Budget, until)) if config.budget > SHORT => until,
         _ => return Ok(first),
