@@ -2,15 +2,16 @@
 
 use super::batch::{Names, id_field};
 use super::input::Reader;
-use super::pieces::{Pace, Pieces, check};
+use super::pieces::{Pace, Piece, Pieces, check};
 use super::results;
 use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
-use rigid_ccd::batch::{Bodies, Question, Questions, on_threads};
+use rigid_ccd::batch::{Bodies, Found, Question, Questions, on_threads};
+use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow};
-use rigid_ccd::table::motions::{RowProblem, TableError};
+use rigid_ccd::table::motions::{RowError, RowProblem, TableError};
 use rigid_ccd::table::results::ResultRow;
-use rigid_ccd::{Config, Limit, Solver};
+use rigid_ccd::{Answer, Config, InputError, Limit, Solver};
 use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -60,11 +61,7 @@ pub(crate) fn answer(
     let create = || Solver::new().with_config(asked.config).with_stop(stop);
     let found = on_threads(asked.threads, create).map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
-        let courses = piece.courses(&columns);
-        let found: Vec<ResultRow> = courses
-            .take_while(|_| !stop.load(Ordering::Relaxed))
-            .map_while(|row| result(asked, &row, solver))
-            .collect();
+        let found = rows(asked, &piece, &columns, solver, stop);
         done.fetch_add(found.len(), Ordering::Relaxed);
         pace.adapt(piece.rows(), start.elapsed());
         let is_whole = found.len() == piece.rows();
@@ -89,6 +86,25 @@ pub(crate) fn answer(
     })
 }
 
+/// Answers the rows of a piece until the flag is set.
+///
+/// All rows are read before the first is asked about, and results are made after the last: in turn, each of the three
+/// would start with cold caches.
+fn rows(
+    asked: Asked<'_>,
+    piece: &Piece,
+    columns: &Columns,
+    solver: &mut Solver,
+    stop: &AtomicBool,
+) -> Vec<ResultRow> {
+    let rows: Vec<CourseRow> = piece.courses(columns).collect();
+    let told: Vec<Told<'_>> = (rows.iter())
+        .take_while(|_| !stop.load(Ordering::Relaxed))
+        .map_while(|row| tell(asked, row, solver))
+        .collect();
+    told.iter().map(|told| result(asked, told)).collect()
+}
+
 /// Answers some rows of a table, by their numbers, one after another, until the flag is set.
 pub(crate) fn each(
     asked: Asked<'_>,
@@ -105,11 +121,11 @@ pub(crate) fn each(
     for piece in pieces.by_ref() {
         for row in piece.courses(&columns) {
             let is_wanted = wanted.contains(&number) && !stop.load(Ordering::Relaxed);
-            let found = is_wanted
-                .then(|| result(asked, &row, &mut solver))
-                .flatten();
-            if let (Ok((_, course)), Some(found)) = (&row, found) {
-                take(course, &found);
+            if let Ok((_, course)) = &row
+                && is_wanted
+                && let Some(told) = tell(asked, &row, &mut solver)
+            {
+                take(course, &result(asked, &told));
             }
             number += 1;
         }
@@ -121,25 +137,46 @@ fn unreadable(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
 
-/// Answers a row; none where it is stopped.
-fn result(asked: Asked<'_>, row: &CourseRow, solver: &mut Solver) -> Option<ResultRow> {
+/// What a solver tells about a row, or why it is not valid.
+type Told<'r> = Result<Timed<'r>, &'r RowError>;
+
+/// An answer, and what it took.
+struct Timed<'r> {
+    course: &'r Course,
+    answer: Result<Answer<Found>, InputError>,
+    micros: f64,
+}
+
+/// Asks about a row; none where the query is stopped.
+fn tell<'r>(asked: Asked<'_>, row: &'r CourseRow, solver: &mut Solver) -> Option<Told<'r>> {
     let course = match row {
         Ok((_, course)) => course,
-        Err(error) => return Some(ResultRow::error(&error.id, &error.problem)),
+        Err(error) => return Some(Err(error)),
     };
     let start = Instant::now();
-    let answer = match solver.ask(asked.question, asked.bodies, course, &asked.config) {
-        Ok(answer) if answer.outcome.limit() == Some(Limit::Stopped) => return None,
-        Ok(answer) => answer,
-        Err(error) => return Some(ResultRow::error(course.id(), &RowProblem::from(error))),
-    };
+    let answer = solver.ask(asked.question, asked.bodies, course, &asked.config);
     let micros = start.elapsed().as_secs_f64() * 1e6;
-    let row = ResultRow::new(course, &answer, micros, asked.clearance);
-    Some(match asked.micros {
-        Micros::Told => row,
-        Micros::LeftOut => ResultRow {
-            micros: None,
-            ..row
+    match &answer {
+        Ok(answer) if answer.outcome.limit() == Some(Limit::Stopped) => None,
+        _ => Some(Ok(Timed {
+            course,
+            answer,
+            micros,
+        })),
+    }
+}
+
+/// Makes the results of a row.
+fn result(asked: Asked<'_>, told: &Told<'_>) -> ResultRow {
+    let timed = match told {
+        Ok(timed) => timed,
+        Err(error) => return ResultRow::error(&error.id, &error.problem),
+    };
+    match &timed.answer {
+        Ok(answer) => ResultRow {
+            micros: (asked.micros == Micros::Told).then_some(timed.micros),
+            ..ResultRow::new(timed.course, answer, timed.micros, asked.clearance)
         },
-    })
+        Err(error) => ResultRow::error(timed.course.id(), &RowProblem::from(error.clone())),
+    }
 }
