@@ -2,7 +2,8 @@
 
     python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd --loop target/release/examples/rows
 
-The rows are repeated until there are --rows. Each way runs --repeat times, in turn. The times of contact have to be the
+The rows are repeated until there are --rows. Each way runs --repeat times, in turn; seconds are medians, ratios are
+medians of those of neighbouring runs, which the machine's changing speed affects least. The times of contact have to be the
 same bits in all of them.
 """
 
@@ -43,7 +44,7 @@ def main() -> None:
         motions, results, times = (Path(folder) / name for name in ("motions.csv", "results.csv", "times"))
         with open(motions, "w", newline="") as file:
             csv.writer(file).writerows([header, *lines])
-        print(f"{given.rows} rows\nthreads  python s  command s  loop s  python/loop  python/command")
+        print(f"{given.rows} rows\nthreads   python s  command s     loop s  python/loop  python/command")
         for threads in given.threads:
             taken: dict[str, list[float]] = {"python": [], "command": [], "loop": []}
             for _ in range(given.repeat):
@@ -64,12 +65,15 @@ def main() -> None:
                 with open(results, newline="") as file:
                     told = np.array([float(row["time"]) for row in csv.DictReader(file)])
                 assert np.array_equal(bits, told.view(np.uint64)), "other bits than the command's"
-            python, command, loop = (statistics.median(taken[way]) for way in ("python", "command", "loop"))
-            print(
-                f"{threads:7}  {python:8.3f}  {command:9.3f}  {loop:6.3f}  {python / loop:11.3f}  {python / command:14.3f}"
-            )
+            seconds = "  ".join(f"{statistics.median(taken[way]):9.3f}" for way in ("python", "command", "loop"))
+            print(f"{threads:7}  {seconds}  {ratio(taken, 'loop'):11.3f}  {ratio(taken, 'command'):14.3f}")
         counts = dict(zip(*np.unique(found["status"].astype(str), return_counts=True), strict=True))
         print(f"equal bits; {', '.join(f'{count} {status}' for status, count in counts.items())}")
+
+
+def ratio(taken: dict[str, list[float]], other: str) -> float:
+    """How much longer Python took than another way, beside it."""
+    return statistics.median(ours / theirs for ours, theirs in zip(taken["python"], taken[other], strict=True))
 
 
 if __name__ == "__main__":

@@ -184,7 +184,8 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     for id in values.try_iter()? {
         let id = id?;
         let text: Option<String> = id.extract().ok();
-        let number: Option<i64> = match id.is_instance_of::<PyBool>() {
+        // What fails makes an exception, which takes longer than the rest of a row.
+        let number: Option<i64> = match text.is_some() || id.is_instance_of::<PyBool>() {
             true => None,
             false => id.extract().ok(),
         };
