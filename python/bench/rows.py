@@ -2,9 +2,9 @@
 
     python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd --loop target/release/examples/rows
 
-The rows are repeated until there are --rows. Each way runs --repeat times, in turn; seconds are medians, ratios are
-medians of those of neighbouring runs, which the machine's changing speed affects least. The times of contact have to be the
-same bits in all of them.
+The rows are repeated until there are --rows. Each way runs --repeat times, in turn. Seconds are medians. Ratios are
+medians of those of neighbouring runs, which the machine's changing speed affects least. The times of contact have to be
+the same bits in all of them.
 """
 
 import argparse

@@ -55,8 +55,8 @@ pub struct QueryError {
 /// Solvers for many queries side by side, one on each thread. Keep it between calls: it reuses its memory.
 ///
 /// Each thread takes the next query when it has answered one, so that a few slow queries do not hold up the
-/// others. Answers are in the order of the queries. They are the same bits on
-/// any number of threads, unless a [deadline](ccd_core::Config::deadline) ends a query.
+/// others. Answers are in the order of the queries. They are the same bits on any number of threads, unless a
+/// [deadline](ccd_core::Config::deadline) ends a query.
 ///
 /// A panic ends a call: the threads take no more queries, and the panic goes on in the caller.
 ///
@@ -198,7 +198,7 @@ impl<S: Send> ParallelSolver<S> {
     /// `answer` or the iterator panics.
     ///
     /// ```
-    /// use rigid_ccd::{Body, Motion, Outcome, ParallelSolver, Pose, Solver};
+    /// use rigid_ccd::{Body, Motion, ParallelSolver, Pose, Solver};
     /// let ball = Body::ball(0.5)?;
     /// let flies = |speed| Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3]);
     /// let speeds = std::iter::successors(Some(1.0), |speed| Some(2.0 * speed)).take(10);
