@@ -13,8 +13,27 @@ pub(crate) const OF_CONTACTS: &[&str] = &["tolerance", "margin", "budget", "dead
 /// The settings of a query that measures distances.
 pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
 
-/// What a query about a table takes besides.
-const OF_TABLES: &[&str] = &["threads", "progress", "micros"];
+/// The settings of a question about contacts in a table, those of its signature included.
+pub(crate) const CONTACTS_OF_TABLES: &[&str] = &[
+    "tolerance",
+    "margin",
+    "budget",
+    "deadline",
+    "threads",
+    "progress",
+    "micros",
+];
+
+/// The settings of a question about distances in a table, those of its signature included.
+pub(crate) const DISTANCES_OF_TABLES: &[&str] = &[
+    "clearance",
+    "tolerance",
+    "budget",
+    "deadline",
+    "threads",
+    "progress",
+    "micros",
+];
 
 /// The most threads: as many as the command takes.
 const MOST_THREADS: u16 = 1024;
@@ -78,8 +97,7 @@ fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
 
 fn unknown(name: &str, known: &[&str]) -> PyErr {
     PyTypeError::new_err(format!(
-        "unexpected keyword argument '{name}'; settings are {}, and of a table {}",
-        known.join(", "),
-        OF_TABLES.join(", ")
+        "unexpected keyword argument '{name}'; settings are {}",
+        known.join(", ")
     ))
 }

@@ -3,7 +3,7 @@
 use crate::body::body_of;
 use crate::errors::{input as refuse, interrupted, with_attribute, wrong_type};
 use crate::polled::polled;
-use crate::settings::{self, OF_CONTACTS, OF_DISTANCES, config};
+use crate::settings::{self, CONTACTS_OF_TABLES, DISTANCES_OF_TABLES, config};
 use crate::table::answering::{Answered, Asked, Micros, answer};
 use crate::table::{PyTable, input};
 use pyo3::prelude::*;
@@ -87,8 +87,8 @@ fn question(name: &str) -> PyResult<Question> {
 
 fn known(question: Question) -> &'static [&'static str] {
     match question.is_for_a_distance() {
-        true => OF_DISTANCES,
-        false => OF_CONTACTS,
+        true => DISTANCES_OF_TABLES,
+        false => CONTACTS_OF_TABLES,
     }
 }
 

@@ -22,10 +22,12 @@ from rigid_ccd import (
     are_free,
     closest_approaches,
     contact_intervals,
+    distance,
     distances,
     first_contact,
     first_contacts,
 )
+from rigid_ccd._settings import ContactsOfTables, DistancesOfTables, OfContacts, OfDistances
 
 BALL = Body.sphere(0.5)
 WALL = Body.box(0.1, 5, 5)
@@ -342,10 +344,21 @@ def test_bad_settings_are_refused_at_once() -> None:
         with pytest.raises(TypeError, match="progress"):
             first_contacts(BALL, WALL, shots(3), progress=progress)  # type: ignore[arg-type]
     assert len(first_contacts(BALL, WALL, shots(3), deadline=math.inf)) == 3
-    with pytest.raises(TypeError, match="speed"):
-        first_contacts(BALL, WALL, shots(3), speed=1)  # type: ignore[call-arg]
-    with pytest.raises(TypeError, match="clearance"):
-        first_contact(BALL, WALL, clearance=1)  # type: ignore[call-arg]
+
+
+@pytest.mark.parametrize(
+    ("ask", "known"),
+    [
+        (lambda **unknown: first_contact(BALL, WALL, **unknown), OfContacts),
+        (lambda **unknown: distance(BALL, WALL, **unknown), OfDistances),
+        (lambda **unknown: first_contacts(BALL, WALL, shots(3), **unknown), ContactsOfTables),
+        (lambda **unknown: distances(BALL, WALL, shots(3), **unknown), DistancesOfTables),
+    ],
+)
+def test_an_unknown_setting_is_told_the_known_ones(ask: Callable[..., object], known: Any) -> None:
+    with pytest.raises(TypeError, match="unexpected keyword argument 'speed'") as error:
+        ask(speed=1)
+    assert set(str(error.value).partition("settings are ")[2].split(", ")) == known.__optional_keys__
 
 
 def test_tables_without_rows_have_columns() -> None:

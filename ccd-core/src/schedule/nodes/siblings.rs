@@ -139,7 +139,7 @@ impl Siblings {
     }
 
     /// Takes out the pair of least clock, which is `s`.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> Next {
         let advanced = s > self.since;
         let lane = self.free.take_least();
