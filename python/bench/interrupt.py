@@ -20,6 +20,8 @@ from test_tables import knot  # noqa: E402
 
 
 def main() -> None:
+    # A shell's job in the background ignores it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     body = knot(600)
     # It turns a hundred thousand times past another one.
     rows = np.linspace(3.2, 3.4, 1000)

@@ -564,4 +564,6 @@ def test_ctrl_c_ends_a_single_query() -> None:
 
 def interrupt(seconds: float) -> None:
     """Sends Ctrl-C to this process, later."""
+    # A shell's job in the background ignores it, and so do the programs that it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT)).start()
