@@ -4,7 +4,7 @@ use crate::TETRAHEDRON;
 use crate::command::{Run, Scene, parse, stderr};
 
 const MOTIONS: &str = "id,a_px,a_py,a_pz,a_vx,duration\n\
-                       hit,3,-.2,-.3,-4,\nfree,3,-.2,-.3,-4,.1\ninitial,.1,-.2,-.3,0,\n";
+                       hit,3,-.2,-.3,-4,1\nfree,3,-.2,-.3,-4,.1\ninitial,.1,-.2,-.3,0,1\n";
 
 #[test]
 fn brackets_hold_the_exact_first_contact() {

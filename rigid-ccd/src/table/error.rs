@@ -145,12 +145,10 @@ pub enum RowProblem {
         /// The content of the cell.
         value: String,
     },
-    /// A column has a value, and another one that it needs has none.
-    MissingColumn {
-        /// The column with a value.
-        given: String,
-        /// The column without one.
-        missing: String,
+    /// A cell is empty.
+    EmptyCell {
+        /// The column of the cell.
+        column: String,
     },
     /// A quaternion is zero.
     ZeroQuaternion {
@@ -187,8 +185,6 @@ pub enum RowProblem {
         /// The first time of the path.
         first: f64,
     },
-    /// A path has no time in a row.
-    NoTime,
     /// A path has no name, in a table that names them.
     NoId,
     /// A path goes on after rows of other paths.
@@ -212,8 +208,11 @@ impl fmt::Display for RowProblem {
             Self::NotANumber { column, value } => {
                 write!(f, "column {column}: `{value}` is not a finite number")
             }
-            Self::MissingColumn { given, missing } => {
-                write!(f, "column {missing}: no value, but column {given} needs it")
+            Self::EmptyCell { column } => {
+                write!(
+                    f,
+                    "column {column}: no value, and an empty cell has no default"
+                )
             }
             Self::ZeroQuaternion { columns, value } => write!(
                 f,
@@ -244,7 +243,6 @@ impl fmt::Display for RowProblem {
                 Number(*first)
             ),
             Self::NoId => write!(f, "column id: no value; each row of a path needs its name"),
-            Self::NoTime => write!(f, "column t: no value; each row of a path needs its time"),
             Self::PathApart { id } => write!(
                 f,
                 "path `{id}` goes on here after rows of other paths; sort the table by id, then by t"

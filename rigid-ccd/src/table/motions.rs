@@ -57,9 +57,10 @@ impl MotionTable {
 
 /// An iterator over the rows of a table of motions.
 ///
-/// Columns go by name, in any order. Missing columns and empty cells have defaults: at rest at the
-/// identity, for a duration of 1. Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped, but
-/// counted. A quoted cell may hold line ends, and must be closed.
+/// Columns go by name, in any order. Missing columns have defaults: at rest at the identity, for a duration
+/// of 1. An empty cell has none, and is an error of its row; but a row that gives the end pose of a body leaves
+/// its velocities empty, and the other way round. Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped,
+/// but counted. A quoted cell may hold line ends, and must be closed.
 #[derive(Debug)]
 pub struct MotionRows<S> {
     records: S,

@@ -95,7 +95,7 @@ fn every_schedule_and_oracle_gives_the_answer() {
 #[test]
 fn every_status_occurs() {
     let motions = "id,a_pz,a_vz,duration\n\
-                   free,4,-4,0.25\ncontact,4,-4,\ntouching,1.5005,-4,\noverlapping,1,0,\n";
+                   free,4,-4,0.25\ncontact,4,-4,1\ntouching,1.5005,-4,1\noverlapping,1,0,1\n";
     let rows = Run::query(&FALLING_CUBE).stdin(motions).succeeds();
     for row in &rows {
         assert_eq!(row.text("id"), row.text("status"));

@@ -6,15 +6,15 @@ use crate::{DROP, FALLING_CUBE};
 #[test]
 fn bad_rows_keep_their_place_and_are_reported() {
     let motions = "id,a_pz,a_vz,b_qw,b_qx,b_qy,b_qz,b_end_px,b_end_py,b_end_pz,b_wx,duration\n\
-                   good,4,-4,,,,,,,,,\n\
-                   text,4,abc,,,,,,,,,\n\
-                   partial,4,-4,1,0,0,,,,,,\n\
-                   zero,4,-4,0,0,0,0,,,,,\n\
-                   both,4,-4,,,,,1,1,1,0,\n\
-                   infinite,inf,-4,,,,,,,,,\n\
-                   backwards,4,-4,,,,,,,,,-1\n\
+                   good,4,-4,1,0,0,0,,,,0,1\n\
+                   text,4,abc,1,0,0,0,,,,0,1\n\
+                   partial,4,-4,1,0,0,,,,,0,1\n\
+                   zero,4,-4,0,0,0,0,,,,0,1\n\
+                   both,4,-4,1,0,0,0,1,1,1,0,1\n\
+                   infinite,inf,-4,1,0,0,0,,,,0,1\n\
+                   backwards,4,-4,1,0,0,0,,,,0,-1\n\
                    short,4\n\
-                   also good,4,-4,,,,,,,,,\n";
+                   also good,4,-4,1,0,0,0,,,,0,1\n";
     let output = Run::query(&FALLING_CUBE).stdin(motions).output();
     assert_eq!(output.status.code(), Some(2));
     let rows = parse(&output.stdout);
@@ -22,7 +22,10 @@ fn bad_rows_keep_their_place_and_are_reported() {
     for (k, (id, reason)) in [
         ("good", ""),
         ("text", "column a_vz: `abc`"),
-        ("partial", "column b_qz: no value, but column b_qw"),
+        (
+            "partial",
+            "column b_qz: no value, and an empty cell has no default",
+        ),
         ("zero", "columns b_qw b_qx b_qy b_qz: (0 0 0 0)"),
         ("both", "columns b_end_px and b_wx"),
         ("infinite", "column a_pz: `inf`"),

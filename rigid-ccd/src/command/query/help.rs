@@ -14,8 +14,9 @@ See `ccd query --help` for the columns of all tables and the exit codes.";
 /// The end of `ccd query --help`.
 pub(super) const AFTER_LONG_HELP: &str = "\
 Table of motions:
-  Columns go by name, in any order. Every column and every cell is optional. Rows count from 0: in
-  ids, in --rows and in messages. Lines of a file count from 1.
+  Columns go by name, in any order. Every column is optional. An empty cell is an error of its row, but
+  rows with an end pose leave the velocities of that body empty, and the other way round.
+  Rows count from 0: in ids, in --rows and in messages. Lines of a file count from 1.
   id                        name of the row in the results [default: its number]
   a_px a_py a_pz            position of A at the start [default: 0]
   a_qw a_qx a_qy a_qz       orientation of A at the start, a quaternion [default: identity]

@@ -57,7 +57,7 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
         return Err(RowProblem::NoId);
     }
     Ok(Poses {
-        time: row.number(TIME)?.ok_or(RowProblem::NoTime)?,
+        time: row.number(TIME)?.ok_or_else(|| row.empty(TIME))?,
         a: row.start(Side::A)?,
         b: row.start(Side::B)?,
     })
@@ -73,6 +73,12 @@ struct Row<'a, C> {
     cells: C,
 }
 
+/// How a row gives a motion.
+enum Given {
+    EndPose,
+    Velocities,
+}
+
 impl<C: Cells> Row<'_, C> {
     /// Returns the pose at the start.
     fn start(&self, side: Side) -> Result<Pose, RowProblem> {
@@ -86,62 +92,70 @@ impl<C: Cells> Row<'_, C> {
 
     fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
         let start = self.start(side)?;
-        let velocity = self.vector(side, Quantity::Velocity)?;
-        let spin = self.vector(side, Quantity::Spin)?;
         let centre = self.vector(side, Quantity::Centre)?.unwrap_or(DVec3::ZERO);
-        self.check_end_or_velocity(side)?;
-        let end_position = self.full_vector(side, Quantity::EndPosition)?;
-        let end_orientation = self.quaternion(side, Quantity::EndOrientation)?;
-        if end_position.is_none() && end_orientation.is_none() {
-            let (velocity, spin) = (velocity.unwrap_or_default(), spin.unwrap_or_default());
-            return Ok(Motion::about(start, velocity, spin, centre)?);
+        match self.given(side)? {
+            Given::Velocities => {
+                let velocity = self.vector(side, Quantity::Velocity)?.unwrap_or_default();
+                let spin = self.vector(side, Quantity::Spin)?.unwrap_or_default();
+                Ok(Motion::about(start, velocity, spin, centre)?)
+            }
+            Given::EndPose => {
+                let position = self.vector(side, Quantity::EndPosition)?;
+                let orientation = self.quaternion(side, Quantity::EndOrientation)?;
+                let end = Pose::new(
+                    position.unwrap_or(start.translation()),
+                    orientation.unwrap_or(start.rotation()),
+                )?;
+                Ok(Motion::between(start, end, centre, duration)?)
+            }
         }
-        let end = Pose::new(
-            end_position.unwrap_or(start.translation()),
-            end_orientation.unwrap_or(start.rotation()),
-        )?;
-        Ok(Motion::between(start, end, centre, duration)?)
     }
 
-    /// Refuses an end pose together with velocities.
-    fn check_end_or_velocity(&self, side: Side) -> Result<(), RowProblem> {
-        let end = self.first_given(side, Quantity::EndPosition, Quantity::EndOrientation);
-        let velocity = self.first_given(side, Quantity::Velocity, Quantity::Spin);
-        match (end, velocity) {
+    /// Tells how the row gives a motion: the cells of the other way are empty.
+    fn given(&self, side: Side) -> Result<Given, RowProblem> {
+        let end = [Quantity::EndPosition, Quantity::EndOrientation];
+        let velocities = [Quantity::Velocity, Quantity::Spin];
+        let is_given = |cell| self.cells.is_given(cell);
+        match (
+            self.column_where(side, end, is_given),
+            self.column_where(side, velocities, is_given),
+        ) {
             (Some(end), Some(velocity)) => Err(RowProblem::EndPoseAndVelocity { end, velocity }),
-            _ => Ok(()),
+            (Some(_), None) => Ok(Given::EndPose),
+            (None, Some(_)) => Ok(Given::Velocities),
+            // In a table that has the columns, an empty cell is told when it is read.
+            (None, None) => match self.column_where(side, end, |_| true) {
+                Some(_) => Ok(Given::EndPose),
+                None => Ok(Given::Velocities),
+            },
         }
     }
 
-    fn first_given(&self, side: Side, first: Quantity, second: Quantity) -> Option<String> {
-        self.columns
-            .slots(side, first)
-            .chain(self.columns.slots(side, second))
-            .find(|&slot| {
-                self.columns
-                    .index(slot)
-                    .is_some_and(|cell| self.cells.is_given(cell))
-            })
-            .map(|slot| self.columns.name(slot).to_owned())
+    /// Returns the first column of two quantities whose cell is as wanted.
+    fn column_where(
+        &self,
+        side: Side,
+        quantities: [Quantity; 2],
+        wanted: impl Fn(usize) -> bool,
+    ) -> Option<String> {
+        let slots = quantities.into_iter();
+        let mut slots = slots.flat_map(|quantity| self.columns.slots(side, quantity));
+        let found = slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted));
+        found.map(|slot| self.columns.name(slot).to_owned())
     }
 
-    /// Returns a vector whose missing components are 0; none when all are missing.
+    /// Returns a vector, with 0 for columns that the table does not have; none where it has none of them.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
         let parts = self.numbers::<3>(self.columns.slots(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
 
-    /// Returns a vector with all components or none: 0 is no natural default for an end position.
-    fn full_vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
-        let parts = self.all_or_none::<3>(self.columns.slots(side, quantity))?;
-        Ok(parts.map(DVec3::from))
-    }
-
-    /// Returns a quaternion that is not normalised yet, but can be; all four components or none.
+    /// Returns a quaternion that is not normalised yet, but can be; none where the table has no columns for it.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
         let slots = self.columns.slots(side, quantity);
-        let Some([w, x, y, z]) = self.all_or_none(slots.clone())? else {
+        // A table has all four columns, or none.
+        let [Some(w), Some(x), Some(y), Some(z)] = self.numbers(slots.clone())? else {
             return Ok(None);
         };
         let quaternion = DQuat::from_xyzw(x, y, z, w);
@@ -157,23 +171,6 @@ impl<C: Cells> Row<'_, C> {
         }
     }
 
-    fn all_or_none<const N: usize>(
-        &self,
-        slots: Range<usize>,
-    ) -> Result<Option<[f64; N]>, RowProblem> {
-        let parts = self.numbers(slots.clone())?;
-        let Some(given) = parts.iter().position(Option::is_some) else {
-            return Ok(None);
-        };
-        if let Some(missing) = parts.iter().position(Option::is_none) {
-            return Err(RowProblem::MissingColumn {
-                given: self.columns.name(slots.start + given).to_owned(),
-                missing: self.columns.name(slots.start + missing).to_owned(),
-            });
-        }
-        Ok(Some(parts.map(Option::unwrap_or_default)))
-    }
-
     fn numbers<const N: usize>(&self, slots: Range<usize>) -> Result<[Option<f64>; N], RowProblem> {
         let mut out = [None; N];
         for (number, slot) in out.iter_mut().zip(slots) {
@@ -182,14 +179,25 @@ impl<C: Cells> Row<'_, C> {
         Ok(out)
     }
 
+    /// Returns a number; none for a column that the table does not have.
+    ///
+    /// An empty cell is an error: writers of tables leave one for a NaN, and 0 would be another motion.
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {
         let Some(cell) = self.columns.index(slot) else {
             return Ok(None);
         };
-        let found = self.cells.number(cell);
-        found.map_err(|value| RowProblem::NotANumber {
-            column: self.columns.name(slot).to_owned(),
-            value,
-        })
+        match self.cells.number(cell) {
+            Ok(Some(number)) => Ok(Some(number)),
+            Ok(None) => Err(self.empty(slot)),
+            Err(value) => Err(RowProblem::NotANumber {
+                column: self.columns.name(slot).to_owned(),
+                value,
+            }),
+        }
+    }
+
+    fn empty(&self, slot: usize) -> RowProblem {
+        let column = self.columns.name(slot).to_owned();
+        RowProblem::EmptyCell { column }
     }
 }

@@ -109,11 +109,36 @@ fn an_end_pose_is_reached_at_the_end_of_the_duration() {
 }
 
 #[test]
-fn empty_cells_have_defaults() {
+fn a_row_leaves_the_velocities_or_the_end_pose_empty() {
     let table = read("a_vx,a_end_px,a_end_py,a_end_pz\n1,,,\n,1,2,3\n");
     assert_eq!(table.errors, []);
     assert_eq!(table.rows[0].1.a.velocity(), DVec3::X);
     assert_eq!(table.rows[1].1.a.velocity(), DVec3::new(1.0, 2.0, 3.0));
+}
+
+/// Others write a number that is missing as an empty cell.
+#[test]
+fn other_empty_cells_are_errors() {
+    for (text, column) in [
+        ("id,a_px\n0,\n", "a_px"),
+        ("a_px,b_py\n1,\n", "b_py"),
+        ("a_vx,a_vy\n1,\n", "a_vy"),
+        ("a_vx,b_wz\n1,\n", "b_wz"),
+        ("id,a_cx\n0,\n", "a_cx"),
+        ("id,duration\n0,\n", "duration"),
+        ("a_qw,a_qx,a_qy,a_qz\n1,0,0,\n", "a_qz"),
+        ("a_qw,a_qx,a_qy,a_qz\n,,,\n", "a_qw"),
+        ("b_end_px,b_end_py,b_end_pz\n,1,\n", "b_end_px"),
+        ("b_end_px,b_end_py,b_end_pz\n,,\n", "b_end_px"),
+        ("a_vx,a_end_px,a_end_py,a_end_pz\n,,,\n", "a_end_px"),
+    ] {
+        let column = column.to_owned();
+        assert_eq!(
+            only_problem(text),
+            RowProblem::EmptyCell { column },
+            "{text}"
+        );
+    }
 }
 
 #[test]
@@ -126,24 +151,6 @@ fn numbers_must_be_finite() {
         };
         assert_eq!(problem, expected);
     }
-}
-
-#[test]
-fn a_quaternion_needs_all_four() {
-    let problem = only_problem("a_qw,a_qx,a_qy,a_qz\n1,0,0,\n");
-    let expected = RowProblem::MissingColumn {
-        given: "a_qw".into(),
-        missing: "a_qz".into(),
-    };
-    assert_eq!(problem, expected);
-}
-
-#[test]
-fn an_end_position_needs_all_three() {
-    assert!(matches!(
-        only_problem("b_end_px,b_end_py,b_end_pz\n,1,\n"),
-        RowProblem::MissingColumn { missing, .. } if missing == "b_end_px"
-    ));
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn rows_of_an_id_are_one_path() {
          0,one,0,7\n\
          2,one,4,7\n\
          4,one,0,7\n\
-         0,two,1,\n",
+         0,two,1,0\n",
     );
     let [one, two] = &read[..] else {
         panic!("two paths, not {read:?}")
