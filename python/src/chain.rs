@@ -340,6 +340,15 @@ impl PyLink {
 impl PyLink {
     /// Refuses positions that the chain cannot have.
     fn checked(self) -> PyResult<Self> {
+        let joints = self.chain.get().chain.joints().len();
+        for (what, positions) in [("start", &self.start), ("end", &self.end)] {
+            if positions.len() != joints {
+                let given = positions.len();
+                return Err(input(format!(
+                    "{what}: {given} positions, but the chain has {joints} joints, fixed ones included"
+                )));
+            }
+        }
         self.link()?;
         Ok(self)
     }

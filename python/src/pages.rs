@@ -41,7 +41,7 @@ pub(crate) fn write_pages(
     };
     let reader = input::open(motions)?;
     let work = |stop: &Arc<_>| write(asked, reader, &rows, &folder, stop);
-    let (written, seen) = polled(py, work, |_| Ok(()));
+    let (written, seen) = polled(py, work, |_| Ok(()))?;
     seen?;
     Ok(written?)
 }

@@ -78,6 +78,9 @@ impl PyPath {
 
     /// The pose at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+        if time.is_nan() {
+            return Err(input("time: NaN is no time"));
+        }
         Ok(matrix_of(py, &self.poses.pose(time).map_err(input)?))
     }
 

@@ -1,11 +1,12 @@
 //! Long work without the GIL, which Ctrl-C ends.
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::thread;
+use std::thread::{self, Builder};
 use std::time::Duration;
 
 /// The time between two looks at signals: a tenth of what a person notices.
@@ -14,17 +15,17 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Does work on a thread of its own, without the GIL, and returns its result.
 ///
 /// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
-/// soon; it comes back beside the result.
+/// soon; it comes back beside the result. Without a thread to spare there is an exception alone.
 pub(crate) fn polled<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
     mut look: impl FnMut(Python<'_>) -> PyResult<()> + Send,
-) -> (T, PyResult<()>) {
+) -> PyResult<(T, PyResult<()>)> {
     let stop = Arc::new(AtomicBool::new(false));
     py.detach(|| {
         thread::scope(|scope| {
             let (sender, receiver) = mpsc::channel::<()>();
-            let worker = scope.spawn({
+            let worker = Builder::new().spawn_scoped(scope, {
                 let stop = &stop;
                 move || {
                     // Dropped at the end of the work, even by a panic.
@@ -32,6 +33,9 @@ pub(crate) fn polled<T: Send>(
                     work(stop)
                 }
             });
+            let worker = worker.map_err(|error| {
+                PyRuntimeError::new_err(format!("no thread can be started: {error}"))
+            })?;
             let mut seen = Ok(());
             while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(LOOK) {
                 if seen.is_ok() {
@@ -40,7 +44,7 @@ pub(crate) fn polled<T: Send>(
                 }
             }
             let result = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
-            (result, seen)
+            Ok((result, seen))
         })
     })
 }

@@ -60,7 +60,7 @@ fn ask<T: Send>(
         py,
         |stop| question(&mut Solver::new().with_config(whole).with_stop(stop)),
         |_| Ok(()),
-    );
+    )?;
     seen?;
     // With little time left, the first answer may have come farther.
     Ok(match reached(&found) {
@@ -94,7 +94,8 @@ fn pair<'c>(
 ///     a, b: the bodies.
 ///     motion_a, motion_b: a Motion, a Path, or a link of a Chain; None rests at the world's origin.
 ///     duration: the end, in the motions' unit of time; by default that of a path or a link, else 1.
-///     tolerance: a contact is reported at a distance of at most margin + tolerance; 0.001 by default.
+///     tolerance: a contact is reported at a distance of at most margin + tolerance, in your unit of length; 0.001 by
+///         default.
 ///     margin: a distance to keep; 0 by default.
 ///     budget: the work after which a query is given up; a million takes about a second.
 ///     deadline: seconds after which a query is given up.
@@ -134,7 +135,8 @@ pub(crate) fn first_contact<'py>(
 
 /// Returns whether two moving bodies stay apart, by more than the margin.
 ///
-/// True is proven. Arguments and exceptions are those of `first_contact`.
+/// True is proven. False may also mean that they come within margin + tolerance. Arguments and exceptions are those of
+/// `first_contact`.
 #[pyfunction]
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn is_free(

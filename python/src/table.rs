@@ -15,9 +15,9 @@ use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
 use arrow_ipc::reader::StreamReader;
 use arrow_ipc::writer::StreamWriter;
 use arrow_schema::Field;
-use pyo3::exceptions::PyKeyError;
+use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyCapsule, PyList, PyTuple, PyType};
+use pyo3::types::{PyBytes, PyCapsule, PyDict, PyList, PyTuple, PyType};
 use pyo3_arrow::ffi::{
     ArrayIterator, to_array_pycapsules, to_schema_pycapsule, to_stream_pycapsule,
 };
@@ -43,7 +43,7 @@ impl PyTable {
         if reader.schema().fields().is_empty() {
             return Err(refuse("table: there is no column"));
         }
-        let (found, seen) = polled(py, |stop| batch::whole(reader, stop), |_| Ok(()));
+        let (found, seen) = polled(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
         seen?;
         let batch = found.map_err(|error| refuse(format!("table: {error}")))?;
         Ok(PyTable { batch })
@@ -120,6 +120,18 @@ impl PyTable {
                 )))
             }
         }
+    }
+
+    /// NumPy would make an array of the names, and `pandas.DataFrame` a frame of them.
+    #[pyo3(signature = (*_args, **_how))]
+    fn __array__(
+        &self,
+        _args: &Bound<'_, PyTuple>,
+        _how: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<()> {
+        Err(PyTypeError::new_err(
+            "a Table is no array; take a column, as table['time'], or pandas.DataFrame.from_arrow(table)",
+        ))
     }
 
     fn __repr__(&self) -> String {

@@ -62,7 +62,7 @@ pub(crate) fn answer_table(
         }
     };
     let work = |stop: &_| answer(asked, reader, stop, &done);
-    let (found, seen) = polled(py, work, &mut tell);
+    let (found, seen) = polled(py, work, &mut tell)?;
     let Answered { results, fault } = found.map_err(|error| table_error(&error))?;
     let table = PyTable { batch: results };
     match (seen.and_then(|()| tell(py)), fault) {

@@ -19,7 +19,9 @@ from rigid_ccd import (
     Interrupted,
     Motion,
     Table,
+    TableQuery,
     are_free,
+    audit,
     closest_approaches,
     contact_intervals,
     distance,
@@ -148,30 +150,99 @@ def test_a_pandas_frame_may_be_filtered() -> None:
         first_contacts(BALL, WALL, frame.rename_axis("shot"))
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32", "float16"])
-def test_no_nan_of_pandas_passes_for_a_default(dtype: str) -> None:
-    pandas = pytest.importorskip("pandas")
-    frame = pandas.DataFrame({"id": [1.5, None], "a_px": [-3.0, -3.0], "a_vx": [4.0, math.nan]})
-    found = first_contacts(BALL, WALL, frame.astype({"a_vx": dtype}))
+def a_frame(columns: Any) -> Any:
+    """A frame of a class made from that of pandas."""
+
+    class Frame(as_pandas({}).__class__):  # type: ignore[misc]
+        pass
+
+    return Frame(columns)
+
+
+@pytest.mark.parametrize("dtype", ["float64", "float32", "float16", "Float64", "double[pyarrow]", "object"])
+@pytest.mark.parametrize("kind", [as_pandas, a_frame])
+def test_no_missing_cell_of_pandas_passes_for_a_default(dtype: str, kind: Callable[[Any], Any]) -> None:
+    frame = kind({"id": [1.5, None], "a_px": [-3.0, -3.0], "a_vx": [4.0, math.nan]})
+    frame = frame.astype({"a_vx": dtype})
+    found = first_contacts(BALL, WALL, frame)
     assert found["status"].tolist() == ["contact", "error"]
-    assert found["reason"][1] == "column a_vx: `NaN` is not a finite number"
+    assert found["reason"][1].startswith("column a_vx: ")
     assert as_pyarrow(found)["id"].to_pylist() == [1.5, None]
+    assert not audit(BALL, WALL, frame).is_clean
+    query = TableQuery(BALL, WALL)(frame)
+    assert query["status"].tolist() == ["contact", "error"]
 
 
-@pytest.mark.parametrize("cells", [[4, math.nan], [4, None], [math.nan, math.nan]])
-def test_objects_of_pandas_with_missing_cells_are_refused(cells: list[Any]) -> None:
-    pandas = pytest.importorskip("pandas")
-    frame = pandas.DataFrame({"a_px": [-3.0, -3.0], "a_vx": pandas.Series(cells, dtype=object)})
-    with pytest.raises(InputError, match="column a_vx: "):
-        first_contacts(BALL, WALL, frame)
+def test_rows_of_a_frame_give_velocities_or_an_end_pose() -> None:
+    nan = math.nan
+    frame = as_pandas(
+        {"a_px": [-3.0] * 4, "a_vx": [4, nan, nan, 4], "a_end_px": [nan, 1, nan, 1]}
+        | {f"a_end_p{axis}": [nan, 0, nan, 0] for axis in "yz"}
+    )
+    found = first_contacts(BALL, WALL, frame)
+    assert found["status"].tolist() == ["contact", "contact", "error", "error"]
+    assert "no value" in found["reason"][2] and "either" in found["reason"][3]
 
 
-@pytest.mark.parametrize("dtype", ["Float64", "double[pyarrow]"])
-def test_what_pandas_says_is_missing_is_a_default(dtype: str) -> None:
-    pandas = pytest.importorskip("pandas")
-    cells = pandas.array([4.0, None], dtype=dtype)
-    found = first_contacts(BALL, WALL, pandas.DataFrame({"a_px": [-3.0, -3.0], "a_vx": cells}))
-    assert found["status"].tolist() == ["contact", "free"]
+def test_rows_of_a_path_need_names_that_can_be_told_apart() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    poses = {"t": [0.0, 1.0], "a_px": [-3.0, 3.0]}
+    found = first_contacts(BALL, WALL, pyarrow.table({"id": pyarrow.nulls(2), **poses}))
+    assert set(found["status"]) == {"error"}
+    for ids in (
+        pyarrow.array([["a, b"], ["a", "b"]]),
+        pyarrow.array([{"a": None}, {"a": ""}]),
+        pyarrow.RunEndEncodedArray.from_arrays([2], pyarrow.array([None], pyarrow.string())),
+        pyarrow.array([(1, 2, 3), (1, 2, 3)], pyarrow.month_day_nano_interval()),
+    ):
+        with pytest.raises(InputError, match="column id: text, numbers or times are needed"):
+            first_contacts(BALL, WALL, pyarrow.table({"id": ids, **poses}))
+
+
+def test_a_batch_that_does_not_fit_its_stream_ends_it() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    good = pyarrow.record_batch({"a_px": [-3.0] * 4, "a_vx": [4.0] * 4})
+    bad = pyarrow.record_batch({"a_px": [1.0]})
+    reader = pyarrow.RecordBatchReader.from_batches(good.schema, iter([good, bad]))
+    with pytest.raises(InputError, match="does not fit the schema") as error:
+        first_contacts(BALL, WALL, reader)
+    assert error.value.results["status"].tolist() == ["contact"] * 4
+
+
+def test_chunks_may_have_dictionaries_of_their_own() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    of = pyarrow.dictionary(pyarrow.int8(), pyarrow.string())
+    chunks = [pyarrow.array([f"{k} {row}" for row in range(100)]).cast(of) for k in range(2)]
+    ids = pyarrow.chunked_array(chunks)
+    table = pyarrow.table({"id": ids, "a_px": [-3.0] * 200, "a_vx": [1.0] * 200})
+    assert audit(BALL, WALL, table).is_clean
+    assert len(TableQuery(BALL, WALL)(table)) == 200
+    of_paths = pyarrow.table({"id": ids, "t": [0.0] * 200, "a_px": [-3.0] * 200})
+    assert as_pyarrow(first_contacts(BALL, WALL, of_paths))["id"].to_pylist() == ids.to_pylist()
+
+
+def test_decimals_are_the_nearest_numbers() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    decimal = pytest.importorskip("decimal")
+    random = np.random.default_rng(5)
+    texts = [f"{speed:.17f}" for speed in random.uniform(3, 4, 300)]
+    speeds = pyarrow.array([decimal.Decimal(text) for text in texts], pyarrow.decimal128(38, 17))
+    expected = {"a_px": [-3.0] * 300, "a_vx": [float(text) for text in texts]}
+    found = first_contacts(BALL, WALL, pyarrow.table({**expected, "a_vx": speeds}), micros=False)
+    same(found, first_contacts(BALL, WALL, expected, micros=False))
+
+
+def test_a_table_is_no_array() -> None:
+    found = first_contacts(BALL, WALL, shots(3))
+    for make in (np.asarray, pytest.importorskip("pandas").DataFrame):
+        with pytest.raises(TypeError, match="from_arrow"):
+            make(found)
+
+
+def test_an_index_of_pandas_is_named_as_such() -> None:
+    frame = as_pandas(shots(3)).iloc[[2, 0, 1]]
+    with pytest.raises(InputError, match="index=False"):
+        first_contacts(BALL, WALL, pytest.importorskip("pyarrow").Table.from_pandas(frame))
 
 
 def test_ids_come_back_as_they_are() -> None:
@@ -268,11 +339,11 @@ def test_bad_rows_are_rows() -> None:
     assert reasons[0] is None
 
 
-def test_empty_cells_have_defaults() -> None:
-    table = as_pyarrow({"a_px": [-3.0, -3.0], "a_vx": [4.0, None], "duration": [None, 2.0]})
+def test_null_cells_are_errors() -> None:
+    table = as_pyarrow({"a_px": [-3.0, -3.0, -3.0], "a_vx": [4.0, 4.0, None], "duration": [2.0, None, 2.0]})
     found = first_contacts(BALL, WALL, table)
-    assert found["status"].tolist() == ["contact", "free"]
-    assert found["time"][1] == 2
+    assert found["status"].tolist() == ["contact", "error", "error"]
+    assert [reason.split(":")[0] for reason in found["reason"][1:]] == ["column duration", "column a_vx"]
 
 
 @pytest.mark.parametrize(
@@ -306,7 +377,7 @@ def test_arrow_columns_of_other_types_are_refused() -> None:
         with pytest.raises(InputError, match="column a_px: numbers are needed"):
             first_contacts(BALL, WALL, pyarrow.table({"a_px": column}))
     nothing = pyarrow.table({"a_px": pyarrow.nulls(2), "a_vx": [9.0, 1.0]})
-    assert first_contacts(BALL, WALL, nothing)["status"].tolist() == ["overlapping"] * 2
+    assert first_contacts(BALL, WALL, nothing)["status"].tolist() == ["error"] * 2
 
 
 def test_what_is_no_table_is_refused() -> None:

@@ -19,7 +19,6 @@ from rigid_ccd import TableQuery
 def answer(a: Path, b: Path, motions: Path, results: Path) -> None:
     """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
     results.mkdir(parents=True)  # Dask would mix the files with those of a former run
-    # In Arrow's types an empty cell is a default and NaN an error. In pandas' own types NaN is an empty cell.
     frame = dask.dataframe.read_parquet(motions.resolve(), dtype_backend="pyarrow", split_row_groups=True)
     # A row group may have a million rows. A thread takes a partition at a time.
     parts = 8 * sum(get_client().nthreads().values())

@@ -134,7 +134,9 @@ def _unpickle(body: bytes) -> Body:
 
 
 def _library(motions: Any) -> str:
-    return type(motions).__module__.partition(".")[0]
+    """Returns the library of a table: of one of a class made from another, that of the other."""
+    modules = [of.__module__.partition(".")[0] for of in type(motions).__mro__]
+    return next((name for name in modules if name in ("pyarrow", "pandas", "polars")), modules[0])
 
 
 def _like(motions: Any, results: Table) -> Any:
@@ -158,7 +160,7 @@ def _frame(motions: Any, results: Table) -> Any:
     text = "str" if int(sys.modules["pandas"].__version__.partition(".")[0]) >= 3 else "string"
     types = {name: text for name in ("status", "feature_a", "feature_b", "reason")}
     types |= {name: "Int64" for name in ("iterations", "oracle_calls")}
-    frame = type(motions)(dict(results)).astype(types)
+    frame = sys.modules["pandas"].DataFrame(dict(results)).astype(types)
     ids = motions["id"] if "id" in motions else motions.index.get_level_values("id").to_series()
     # The results of paths are fewer than their rows.
     frame["id"] = ids.array if len(ids) == len(frame) else frame["id"].astype(ids.dtype)

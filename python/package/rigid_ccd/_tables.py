@@ -22,8 +22,9 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         a, b: the bodies.
         motions: anything that speaks the Arrow PyCapsule protocol (a table or a stream of pyarrow, polars, pandas 3,
             duckdb), or a dict of arrays. Columns of float64 are not copied; do not write to them meanwhile. They go by
-            name, in any order, and have defaults; so have null cells. NaN is an error of its
-            row, as is a missing cell of NumPy's types in pandas. Its index is dropped unless it has a name:
+            name, in any order, and have defaults. A null cell or NaN is an error of its row, but a row with an end pose
+            may have nulls for the velocities of that body, and the other way round. The index of a pandas frame is
+            dropped unless it has a name:
             id: the name of the row, of any type; it comes back as it is, a dictionary as its values. Without it, rows
                 are numbered from 0.
             a_px a_py a_pz: the position of A at the start (0).

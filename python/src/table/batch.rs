@@ -1,12 +1,12 @@
 //! Rows of Arrow columns, as the library reads them.
 
-use super::input::{ID, Reader};
+use super::input::{ID, Reader, TIME};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
 use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array, Int64Array, RecordBatch};
 use arrow_cast::cast;
 use arrow_cast::display::{ArrayFormatter, FormatOptions};
-use arrow_schema::{ArrowError, DataType, Field, Schema};
+use arrow_schema::{ArrowError, DataType, Field, Fields, Schema, SchemaRef};
 use arrow_select::concat::concat_batches;
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::motions::{RowPosition, RowProblem, TableError};
@@ -60,15 +60,19 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
         .collect()
 }
 
-/// Refuses columns that have no numbers.
+/// Refuses columns that have no numbers, and names of paths whose texts might be the same.
 pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
-    for field in schema.fields().iter().filter(|field| field.name() != ID) {
-        if !is_numeric(field.data_type()) {
-            return Err(format!(
-                "column {}: numbers are needed, not {}",
-                field.name(),
-                field.data_type()
-            ));
+    let has_paths = schema.field_with_name(TIME).is_ok();
+    for field in schema.fields() {
+        let kind = unpacked(field.data_type());
+        let (fits, needed) = match field.name() == ID {
+            true if has_paths => (is_name(kind), "text, numbers or times"),
+            true => (true, ""),
+            false => (is_numeric(kind), "numbers"),
+        };
+        if !fits {
+            let (name, kind) = (field.name(), field.data_type());
+            return Err(format!("column {name}: {needed} are needed, not {kind}"));
         }
     }
     Ok(())
@@ -94,7 +98,14 @@ fn unpacked(kind: &DataType) -> &DataType {
 }
 
 fn is_numeric(kind: &DataType) -> bool {
-    *unpacked(kind) == DataType::Null || unpacked(kind).is_numeric()
+    kind.is_null() || kind.is_numeric()
+}
+
+fn is_name(kind: &DataType) -> bool {
+    let is_bytes = kind.is_binary() || matches!(kind, DataType::FixedSizeBinary(_));
+    let is_time = kind.is_temporal() && !matches!(kind, DataType::Interval(_));
+    let is_simple = kind.is_null() || kind.is_numeric() || *kind == DataType::Boolean;
+    is_simple || kind.is_string() || is_bytes || is_time
 }
 
 fn unreadable(error: ArrowError) -> TableError {
@@ -149,7 +160,15 @@ impl Numbers {
             }
             _ => None,
         };
-        let values = cast(column, &DataType::Float64).map_err(unreadable)?;
+        let values = match column.data_type().is_decimal() {
+            // As text, to the nearest number; the cast alone divides rounded numbers.
+            true => cast(
+                &cast(column, &DataType::Utf8).map_err(unreadable)?,
+                &DataType::Float64,
+            ),
+            false => cast(column, &DataType::Float64),
+        };
+        let values = values.map_err(unreadable)?;
         Ok(Numbers {
             values: values.as_primitive::<Float64Type>().clone(),
             inexact,
@@ -179,7 +198,8 @@ impl Record for Row {
 
     fn text(&self, _: usize) -> Option<String> {
         let id = self.batch.id.as_ref()?;
-        if self.batch.names == Names::LeftOut || id.is_null(self.at) {
+        let is_null = id.is_null(self.at) || id.data_type().is_null();
+        if self.batch.names == Names::LeftOut || is_null {
             return None;
         }
         let options = FormatOptions::default();
@@ -240,10 +260,29 @@ impl Batches {
 
 /// Reads a whole table as one batch, until the flag is set.
 pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, ArrowError> {
-    let schema = reader.schema();
-    let go_on = |_: &Result<RecordBatch, _>| !stop.load(Ordering::Relaxed);
-    let batches: Vec<RecordBatch> = reader.take_while(go_on).collect::<Result<_, _>>()?;
+    let fields = reader.schema().fields().clone();
+    let fields = fields.iter().map(|field| {
+        let kind = unpacked(field.data_type()).clone();
+        Arc::new(field.as_ref().clone().with_data_type(kind))
+    });
+    let schema = Arc::new(Schema::new(fields.collect::<Fields>()));
+    let mut batches = Vec::new();
+    for batch in reader.take_while(|_| !stop.load(Ordering::Relaxed)) {
+        batches.push(unpacked_batch(&batch?, &schema)?);
+    }
     concat_batches(&schema, &batches)
+}
+
+/// Makes values of dictionaries: those of several batches may be too many for the type of their keys.
+fn unpacked_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
+    let columns = schema.fields().iter().zip(batch.columns());
+    let columns = columns.map(
+        |(field, column)| match column.data_type() == field.data_type() {
+            true => Ok(Arc::clone(column)),
+            false => cast(column, field.data_type()),
+        },
+    );
+    RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 
 /// The rows of a batch one by one, as paths are read.

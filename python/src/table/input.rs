@@ -2,20 +2,16 @@
 
 use crate::arrays::{kind, plain};
 use crate::errors::{caused, input, wrong_type};
-use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
 use arrow_array::{
-    Array, ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader,
-    StringArray,
+    Array, ArrayRef, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray,
 };
-use arrow_cast::cast;
-use arrow_schema::{ArrowError, DataType, Field, Schema};
-use numpy::PyArrayDescr;
+use arrow_schema::{ArrowError, Field, Schema};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyMapping, PyString};
 use pyo3_arrow::buffer::AnyBufferProtocol;
 use pyo3_arrow::{PyRecordBatch, PyRecordBatchReader};
-use std::collections::HashSet;
+use std::iter::from_fn;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 /// A table, batch by batch.
@@ -28,15 +24,11 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     if motions.hasattr("__arrow_c_stream__")? {
         let read = |table: &Bound<'_, PyAny>| {
             let reader = table.extract::<PyRecordBatchReader>();
-            reader
-                .and_then(PyRecordBatchReader::into_reader)
-                .map_err(failed)
+            let reader = reader.and_then(PyRecordBatchReader::into_reader);
+            reader.map(guarded).map_err(failed)
         };
         return match is_frame_of_pandas(motions)? {
-            true => {
-                let frame = without_index(motions)?;
-                Ok(with_nans(read(&frame)?, numpy_columns(&frame)?))
-            }
+            true => read(&without_index(motions)?),
             false => read(motions),
         };
     }
@@ -56,10 +48,29 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
+/// Ends a stream with an error where a batch does not fit its schema: the reader panics.
+fn guarded(mut reader: Reader) -> Reader {
+    let schema = reader.schema();
+    let next = move || {
+        let batch = catch_unwind(AssertUnwindSafe(|| reader.next()));
+        batch.unwrap_or_else(|_| {
+            let text = "a batch does not fit the schema of its stream".to_owned();
+            Some(Err(ArrowError::SchemaError(text)))
+        })
+    };
+    Box::new(RecordBatchIterator::new(from_fn(next), schema))
+}
+
+/// Whether a table is a frame of pandas, or of a class made from it.
 fn is_frame_of_pandas(motions: &Bound<'_, PyAny>) -> PyResult<bool> {
-    let class = motions.get_type();
-    let module: String = class.getattr("__module__")?.extract()?;
-    Ok(module.split('.').next() == Some("pandas") && class.name()? == "DataFrame")
+    for class in motions.get_type().mro() {
+        let module: String = class.getattr("__module__")?.extract()?;
+        let name: String = class.getattr("__name__")?.extract()?;
+        if module.split('.').next() == Some("pandas") && name == "DataFrame" {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Drops the index of a frame of pandas, which would be a column, unless it has a name.
@@ -69,47 +80,6 @@ fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     let how = PyDict::new(frame.py());
     how.set_item("drop", names.iter().all(|name| name.is_none()))?;
     frame.call_method("reset_index", (), Some(&how))
-}
-
-/// Returns the names of a frame's columns of NumPy's types; others are of Arrow, or have a mask.
-fn numpy_columns(frame: &Bound<'_, PyAny>) -> PyResult<HashSet<String>> {
-    let mut names = HashSet::new();
-    for column in frame.getattr("dtypes")?.call_method0("items")?.try_iter()? {
-        let (name, dtype): (Bound<'_, PyAny>, Bound<'_, PyAny>) = column?.extract()?;
-        if dtype.cast::<PyArrayDescr>().is_ok() {
-            names.insert(name.str()?.to_string());
-        }
-    }
-    Ok(names)
-}
-
-/// Makes NaN again of nulls in these columns: pandas hands over NaN as null, and no NaN may pass for a default.
-fn with_nans(reader: Reader, names: HashSet<String>) -> Reader {
-    let schema = reader.schema();
-    let batches = reader.map(move |batch| {
-        let batch = batch?;
-        let (schema, mut columns, _) = batch.into_parts();
-        for (field, column) in schema.fields().iter().zip(&mut columns) {
-            if field.name() != ID && names.contains(field.name()) && column.logical_null_count() > 0
-            {
-                *column = with_nan(field.name(), column)?;
-            }
-        }
-        RecordBatch::try_new(schema, columns)
-    });
-    Box::new(RecordBatchIterator::new(batches, schema))
-}
-
-fn with_nan(name: &str, column: &ArrayRef) -> Result<ArrayRef, ArrowError> {
-    let of = column.data_type();
-    if !of.is_floating() {
-        let text = format!("column {name}: a cell of its objects is missing; make it float64");
-        return Err(ArrowError::SchemaError(text));
-    }
-    let cells = cast(column, &DataType::Float64)?;
-    let cells = cells.as_primitive::<Float64Type>().iter();
-    let cells = Float64Array::from_iter_values(cells.map(|cell| cell.unwrap_or(f64::NAN)));
-    cast(&cells, of)
 }
 
 /// Returns the number of answers that there will be, where the table knows it beforehand: as many as rows, unless they
@@ -127,7 +97,7 @@ pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize>
 /// The column of the names of rows.
 pub(crate) const ID: &str = "id";
 /// The column of times that a table of paths has.
-const TIME: &str = "t";
+pub(crate) const TIME: &str = "t";
 
 fn one(batch: RecordBatch) -> Reader {
     let schema = batch.schema();

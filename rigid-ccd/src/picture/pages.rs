@@ -65,7 +65,9 @@ impl<'a> Pages<'a> {
         let view = self.painter.view(course, row)?;
         let name = self.name(&row.id);
         let path = self.folder.join(name);
-        self.painter.page(&self.title, vec![view]).write(&path)?;
+        // Tabs of a browser show how a title begins.
+        let title = format!("{} ({}): {}", row.id, row.status.name(), self.title);
+        self.painter.page(&title, vec![view]).write(&path)?;
         Ok(path)
     }
 

@@ -238,6 +238,10 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
             header: only.clone(),
         };
     }
+    if foreign::is_index_of_pandas(column) {
+        let column = column.to_owned();
+        return TableError::IndexOfPandas { column };
+    }
     let lower = column.to_ascii_lowercase();
     let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
     let names = form.names();

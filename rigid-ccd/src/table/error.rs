@@ -62,6 +62,15 @@ pub enum TableError {
         /// The known column with the most similar name.
         nearest: Option<String>,
     },
+    /// A column has no name, as the index of a frame of pandas.
+    #[error(
+        "header: column `{column}` has no name; an index of pandas is written so: write the table with index=False, \
+         or drop the column"
+    )]
+    IndexOfPandas {
+        /// The name that stands for none.
+        column: String,
+    },
     /// A column appears twice.
     #[error("header: column `{column}` appears twice")]
     RepeatedColumn {

@@ -31,6 +31,11 @@ pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
         .or_else(|| bytes.contains(&0).then_some("binary"))
 }
 
+/// Returns whether a column is the index of a frame of pandas: in Parquet it has such a name, in CSV none.
+pub(super) fn is_index_of_pandas(column: &str) -> bool {
+    column.is_empty() || column.starts_with("__index_level_")
+}
+
 /// Returns the separator of a header without commas.
 pub(super) fn separator(header: &str) -> Option<char> {
     [';', '\t', '|']

@@ -142,6 +142,18 @@ fn other_empty_cells_are_errors() {
 }
 
 #[test]
+fn the_index_of_pandas_is_named_as_such() {
+    for header in [",a_px\n0,1\n", "a_px,__index_level_0__\n1,0\n"] {
+        let error = MotionTable::read(header.as_bytes()).unwrap_err();
+        assert!(
+            matches!(&error, TableError::IndexOfPandas { .. }),
+            "{error}"
+        );
+        assert!(error.to_string().contains("index=False"));
+    }
+}
+
+#[test]
 fn numbers_must_be_finite() {
     for bad in ["abc", "NaN", "inf", "1,5", "1e999", "0x10"] {
         let problem = only_problem(&format!("id,b_wz\n1,\"{bad}\"\n"));
