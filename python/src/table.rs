@@ -2,6 +2,7 @@
 
 pub(crate) mod answering;
 mod batch;
+mod capsule;
 pub(crate) mod input;
 mod numpy_column;
 mod pieces;

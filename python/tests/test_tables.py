@@ -209,6 +209,30 @@ def test_a_batch_that_does_not_fit_its_stream_ends_it() -> None:
     assert error.value.results["status"].tolist() == ["contact"] * 4
 
 
+def test_a_released_array_is_refused() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    batch = pyarrow.record_batch({"a_px": np.full(20_000, -3.0), "a_vx": np.full(20_000, 4.0)})
+
+    class Used:
+        def __arrow_c_array__(self, _schema: object = None) -> Any:
+            capsules = batch.__arrow_c_array__()
+            pyarrow.RecordBatch._import_from_c_capsule(*capsules)
+            return capsules
+
+    class Kept:
+        capsules = batch.__arrow_c_array__()
+
+        def __arrow_c_array__(self, _schema: object = None) -> Any:
+            return self.capsules
+
+    with pytest.raises(InputError, match="already released"):
+        first_contacts(BALL, WALL, Used())
+    kept = Kept()
+    assert len(first_contacts(BALL, WALL, kept)) == 20_000
+    with pytest.raises(InputError, match="already released"):
+        first_contacts(BALL, WALL, kept)
+
+
 def test_chunks_may_have_dictionaries_of_their_own() -> None:
     pyarrow = pytest.importorskip("pyarrow")
     of = pyarrow.dictionary(pyarrow.int8(), pyarrow.string())

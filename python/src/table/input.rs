@@ -1,5 +1,6 @@
 //! Tables of motions, as Python has them.
 
+use super::capsule;
 use crate::arrays::{kind, plain};
 use crate::errors::{caused, input, wrong_type};
 use arrow_array::{
@@ -8,8 +9,8 @@ use arrow_array::{
 use arrow_schema::{ArrowError, Field, Schema};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyMapping, PyString};
+use pyo3_arrow::PyRecordBatchReader;
 use pyo3_arrow::buffer::AnyBufferProtocol;
-use pyo3_arrow::{PyRecordBatch, PyRecordBatchReader};
 use std::iter::from_fn;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -33,10 +34,7 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
         };
     }
     if motions.hasattr("__arrow_c_array__")? {
-        return Ok(one(motions
-            .extract::<PyRecordBatch>()
-            .map_err(failed)?
-            .into_inner()));
+        return Ok(one(capsule::batch(motions).map_err(failed)?));
     }
     match motions.cast::<PyMapping>() {
         Ok(columns) => Ok(one(of_arrays(columns)?)),
