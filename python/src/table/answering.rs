@@ -56,10 +56,11 @@ pub(crate) fn answer(
     let columns = check(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable)?);
-    let (pace, source) = (Pace::new(), (reader, columns.form()));
-    let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &pace, stop)?;
     let create = || Solver::new().with_config(asked.config).with_stop(stop);
-    let found = on_threads(asked.threads, create).map_iter(pieces.by_ref(), |solver, piece| {
+    let mut solver = on_threads(asked.threads, create);
+    let (pace, source) = (Pace::new(solver.threads()), (reader, columns.form()));
+    let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &pace, stop)?;
+    let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = rows(asked, &piece, &columns, solver, stop);
         done.fetch_add(found.len(), Ordering::Relaxed);
@@ -114,7 +115,7 @@ pub(crate) fn each(
     mut take: impl FnMut(&Course, &ResultRow),
 ) -> Result<(), TableError> {
     let columns = check(&reader)?;
-    let (pace, source) = (Pace::new(), (reader, columns.form()));
+    let (pace, source) = (Pace::new(1), (reader, columns.form()));
     let mut pieces = Pieces::of(source, asked.question, Names::Read, &pace, stop)?;
     let mut solver = Solver::new().with_config(asked.config).with_stop(stop);
     let mut number = 0;

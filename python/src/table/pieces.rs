@@ -40,29 +40,41 @@ enum Source {
 
 /// The number of rows that one thread answers in one go.
 ///
-/// Results of many rows are made into columns faster, but at the end of a table threads wait for each other.
-pub(crate) struct Pace(AtomicUsize);
+/// Many rows in one go keep caches warm: with a quarter of them, a table of bunnies takes 1.5 % more time. Towards the
+/// end of a batch pieces get smaller, so that no thread waits long for the others.
+pub(crate) struct Pace {
+    rows: AtomicUsize,
+    threads: usize,
+}
 
 /// The time that a piece should take.
-const PIECE: Duration = Duration::from_millis(5);
+const PIECE: Duration = Duration::from_millis(20);
 
 /// The most rows of a piece.
 const MOST_ROWS: usize = 512;
 
 impl Pace {
     /// Starts with one row.
-    pub(crate) fn new() -> Self {
-        Pace(AtomicUsize::new(1))
+    pub(crate) fn new(threads: usize) -> Self {
+        let rows = AtomicUsize::new(1);
+        Pace { rows, threads }
+    }
+
+    /// Returns how many of the rows that are left the next piece takes.
+    fn take_of(&self, left: usize) -> usize {
+        let share = left.div_ceil(2 * self.threads);
+        self.rows.load(Ordering::Relaxed).min(share)
     }
 
     /// Adapts the pieces that follow to the time that one has taken.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
-        let rows = match taken {
-            _ if taken < PIECE / 2 => 2 * rows,
-            _ if taken > 2 * PIECE => rows / 2,
-            _ => rows,
-        };
-        self.0.store(rows.clamp(1, MOST_ROWS), Ordering::Relaxed);
+        // A small piece at the end of a batch says nothing against larger ones.
+        if taken < PIECE / 2 {
+            self.rows
+                .fetch_max(MOST_ROWS.min(2 * rows), Ordering::Relaxed);
+        } else if taken > 2 * PIECE {
+            self.rows.store((rows / 2).max(1), Ordering::Relaxed);
+        }
     }
 }
 
@@ -112,7 +124,7 @@ impl Iterator for Pieces<'_> {
         if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
             return None;
         }
-        let piece = self.source.next(self.pace.0.load(Ordering::Relaxed));
+        let piece = self.source.next(self.pace);
         piece.unwrap_or_else(|fault| {
             self.fault = Some(fault);
             None
@@ -121,8 +133,8 @@ impl Iterator for Pieces<'_> {
 }
 
 impl Source {
-    /// Returns a piece of up to `most` rows, at least one unless a batch has none.
-    fn next(&mut self, most: usize) -> Result<Option<Piece>, TableError> {
+    /// Returns a piece of at least one row, unless a batch has none.
+    fn next(&mut self, pace: &Pace) -> Result<Option<Piece>, TableError> {
         match self {
             Source::Motions { batches, rest } => {
                 let (batch, rows) = match rest.take() {
@@ -135,7 +147,7 @@ impl Source {
                         None => return Ok(None),
                     },
                 };
-                let end = (rows.start + most).min(rows.end);
+                let end = rows.start + pace.take_of(rows.len());
                 *rest = Some((Arc::clone(&batch), end..rows.end));
                 Ok(Some(Piece::Motions(batch, rows.start..end)))
             }
