@@ -166,11 +166,20 @@ def test_no_missing_cell_of_pandas_passes_for_a_default(dtype: str, kind: Callab
     frame = frame.astype({"a_vx": dtype})
     found = first_contacts(BALL, WALL, frame)
     assert found["status"].tolist() == ["contact", "error"]
-    assert found["reason"][1].startswith("column a_vx: ")
+    assert found["reason"][1] == "column a_vx: no value, and an empty cell has no default"
     assert as_pyarrow(found)["id"].to_pylist() == [1.5, None]
     assert not audit(BALL, WALL, frame).is_clean
     query = TableQuery(BALL, WALL)(frame)
     assert query["status"].tolist() == ["contact", "error"]
+
+
+@pytest.mark.parametrize("cells", [[4, math.nan], [4, None], [math.nan, math.nan]])
+def test_missing_cells_of_objects_of_pandas_are_errors(cells: list[Any]) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"a_px": [-3.0, -3.0], "a_vx": pandas.Series(cells, dtype=object)})
+    found = first_contacts(BALL, WALL, frame)
+    assert found["status"].tolist() == ["contact" if cell == 4 else "error" for cell in cells]
+    assert found["reason"][1].startswith("column a_vx: ")
 
 
 def test_rows_of_a_frame_give_velocities_or_an_end_pose() -> None:
@@ -439,6 +448,10 @@ def test_bad_settings_are_refused_at_once() -> None:
         with pytest.raises(TypeError, match="progress"):
             first_contacts(BALL, WALL, shots(3), progress=progress)  # type: ignore[arg-type]
     assert len(first_contacts(BALL, WALL, shots(3), deadline=math.inf)) == 3
+    with pytest.raises(TypeError, match="speed"):
+        first_contacts(BALL, WALL, shots(3), speed=1)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="clearance"):
+        first_contact(BALL, WALL, clearance=1)  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize(

@@ -96,7 +96,11 @@ fn a_table_without_a_header_is_reported() {
 fn help_explains_row_numbers_and_half_turns() {
     let output = Run::bare(&["query", "--help"]).stdin("").output();
     let text = String::from_utf8(output.stdout).unwrap();
-    for words in ["An empty cell is an error", "Two rotations by half a turn"] {
+    for words in [
+        "Rows count from 0",
+        "An empty cell is an error",
+        "Two rotations by half a turn",
+    ] {
         assert!(text.contains(words), "{words}");
     }
 }

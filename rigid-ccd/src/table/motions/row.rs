@@ -117,31 +117,33 @@ impl<C: Cells> Row<'_, C> {
         let velocities = [Quantity::Velocity, Quantity::Spin];
         let is_given = |cell| self.cells.is_given(cell);
         match (
-            self.column_where(side, end, is_given),
-            self.column_where(side, velocities, is_given),
+            self.slot_where(side, end, is_given),
+            self.slot_where(side, velocities, is_given),
         ) {
-            (Some(end), Some(velocity)) => Err(RowProblem::EndPoseAndVelocity { end, velocity }),
+            (Some(end), Some(velocity)) => Err(RowProblem::EndPoseAndVelocity {
+                end: self.columns.name(end).to_owned(),
+                velocity: self.columns.name(velocity).to_owned(),
+            }),
             (Some(_), None) => Ok(Given::EndPose),
             (None, Some(_)) => Ok(Given::Velocities),
             // In a table that has the columns, an empty cell is told when it is read.
-            (None, None) => match self.column_where(side, end, |_| true) {
+            (None, None) => match self.slot_where(side, end, |_| true) {
                 Some(_) => Ok(Given::EndPose),
                 None => Ok(Given::Velocities),
             },
         }
     }
 
-    /// Returns the first column of two quantities whose cell is as wanted.
-    fn column_where(
+    /// Returns the slot of the first column of two quantities whose cell is as wanted.
+    fn slot_where(
         &self,
         side: Side,
         quantities: [Quantity; 2],
         wanted: impl Fn(usize) -> bool,
-    ) -> Option<String> {
+    ) -> Option<usize> {
         let slots = quantities.into_iter();
         let mut slots = slots.flat_map(|quantity| self.columns.slots(side, quantity));
-        let found = slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted));
-        found.map(|slot| self.columns.name(slot).to_owned())
+        slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
     }
 
     /// Returns a vector, with 0 for columns that the table does not have; none where it has none of them.
