@@ -12,7 +12,6 @@ use crate::motion::path::Path;
 use crate::tolerance::{self, NODE_GAP};
 use fearless_simd::Level;
 use glam::DVec3;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -64,7 +63,8 @@ pub struct Problem<'a> {
     pub(crate) start: StartPolicy,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
-    pub(crate) stop: Option<Arc<AtomicBool>>,
+    /// Set by another thread that wants no answer any more.
+    pub(crate) stop: Option<&'a AtomicBool>,
     /// Bounds the rounding of any distance computed in f64: [`tolerance::distance_rounding`].
     pub(crate) rounding: f64,
     /// The vector instructions to use.
@@ -179,18 +179,18 @@ impl<'a> Problem<'a> {
     /// The flag is read as often as the clock is for a [deadline](Config::deadline).
     ///
     /// ```
-    /// use std::sync::{Arc, atomic::AtomicBool};
+    /// use std::sync::atomic::AtomicBool;
     /// # use ccd_core::{Body, Config, Motion, Problem};
     /// # let ball = Body::ball(0.5)?;
     /// # let [a, b] = [(&ball, Motion::STILL); 2];
-    /// let stop = Arc::new(AtomicBool::new(false));
+    /// let stop = AtomicBool::new(false);
     /// let problem = Problem::new(a, b, 1.0, &Config::default())?.stopped_by(&stop);
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     #[must_use]
-    pub fn stopped_by(self, stop: &Arc<AtomicBool>) -> Self {
+    pub fn stopped_by(self, stop: &'a AtomicBool) -> Self {
         Problem {
-            stop: Some(Arc::clone(stop)),
+            stop: Some(stop),
             ..self
         }
     }

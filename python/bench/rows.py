@@ -2,9 +2,10 @@
 
     python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd --loop target/release/examples/rows
 
-The rows are repeated until there are --rows. Each way runs --repeat times, in turn. Seconds are medians. Ratios are
-medians of those of neighbouring runs, which the machine's changing speed affects least. The times of contact have to be
-the same bits in all of them.
+The rows are repeated until there are --rows. Each way runs --repeat times, in turn, each time in a process of its own:
+where the bodies lie in memory changes a process's speed by 1 to 2 %. Seconds are medians. Ratios are medians of those of
+neighbouring runs, which the machine's changing speed affects least. The times of contact have to be the same bits in
+all of them.
 """
 
 import argparse
@@ -13,6 +14,8 @@ import statistics
 import subprocess
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +35,6 @@ def main() -> None:
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
     given = parser.parse_args()
 
-    a, b = rigid_ccd.Body.from_file(given.a), rigid_ccd.Body.from_file(given.b)
     with open(given.motions, newline="") as file:
         header, *lines = csv.reader(file)
     lines = [lines[k % len(lines)] for k in range(given.rows)]
@@ -40,7 +42,8 @@ def main() -> None:
         name: np.array([line[k] for line in lines]).astype("str" if name == "id" else "float64")
         for k, name in enumerate(header)
     }
-    with tempfile.TemporaryDirectory() as folder:
+    alone = ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1)
+    with tempfile.TemporaryDirectory() as folder, alone:
         motions, results, times = (Path(folder) / name for name in ("motions.csv", "results.csv", "times"))
         with open(motions, "w", newline="") as file:
             csv.writer(file).writerows([header, *lines])
@@ -48,10 +51,8 @@ def main() -> None:
         for threads in given.threads:
             taken: dict[str, list[float]] = {"python": [], "command": [], "loop": []}
             for _ in range(given.repeat):
-                begin = time.perf_counter()
-                found = rigid_ccd.first_contacts(a, b, columns, threads=threads)
-                taken["python"].append(time.perf_counter() - begin)
-                bits = found["time"].view(np.uint64)
+                seconds, bits, status = alone.submit(answer, given.a, given.b, columns, threads).result()
+                taken["python"].append(seconds)
 
                 arguments = [given.loop, given.a, given.b, motions, threads, given.rows, times]
                 said = subprocess.run([*map(str, arguments)], check=True, capture_output=True, text=True).stdout
@@ -65,10 +66,19 @@ def main() -> None:
                 with open(results, newline="") as file:
                     told = np.array([float(row["time"]) for row in csv.DictReader(file)])
                 assert np.array_equal(bits, told.view(np.uint64)), "other bits than the command's"
-            seconds = "  ".join(f"{statistics.median(taken[way]):9.3f}" for way in ("python", "command", "loop"))
-            print(f"{threads:7}  {seconds}  {ratio(taken, 'loop'):11.3f}  {ratio(taken, 'command'):14.3f}")
-        counts = dict(zip(*np.unique(found["status"].astype(str), return_counts=True), strict=True))
+            medians = "  ".join(f"{statistics.median(taken[way]):9.3f}" for way in ("python", "command", "loop"))
+            print(f"{threads:7}  {medians}  {ratio(taken, 'loop'):11.3f}  {ratio(taken, 'command'):14.3f}")
+        counts = dict(zip(*np.unique(status, return_counts=True), strict=True))
         print(f"equal bits; {', '.join(f'{count} {status}' for status, count in counts.items())}")
+
+
+def answer(a: str, b: str, columns: dict[str, np.ndarray], threads: int) -> tuple[float, np.ndarray, np.ndarray]:
+    """Returns the seconds that a table takes, the bits of the times of contact, and the statuses."""
+    bodies = rigid_ccd.Body.from_file(a), rigid_ccd.Body.from_file(b)
+    begin = time.perf_counter()
+    found = rigid_ccd.first_contacts(*bodies, columns, threads=threads)
+    seconds = time.perf_counter() - begin
+    return seconds, found["time"].view(np.uint64), found["status"].astype(str)
 
 
 def ratio(taken: dict[str, list[float]], other: str) -> float:

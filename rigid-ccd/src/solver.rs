@@ -1,11 +1,13 @@
 //! Queries, one or many.
 
 mod questions;
+mod settings;
 
 use crate::{Error, Hit};
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
 use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving, Problem};
 use ccd_distance_gjk::Direct;
+use settings::Settings;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -57,8 +59,7 @@ pub struct Solver<O: DistanceOracle = Direct> {
     schedule: BestFirst<O>,
     depth_first: DepthFirst<O>,
     oracle: O,
-    config: Config,
-    stop: Option<Arc<AtomicBool>>,
+    settings: Settings,
 }
 
 impl Solver {
@@ -81,19 +82,19 @@ impl<O: DistanceOracle> Solver<O> {
             schedule: BestFirst::default(),
             depth_first: DepthFirst::default(),
             oracle,
-            config: Config::default(),
-            stop: None,
+            settings: Settings::default(),
         }
     }
 
     /// Sets tolerance, margin, start policy, budget and deadline.
-    pub fn with_config(self, config: Config) -> Self {
-        Solver { config, ..self }
+    pub fn with_config(mut self, config: Config) -> Self {
+        self.set_config(config);
+        self
     }
 
     /// Changes tolerance, margin, start policy, budget and deadline of the queries that follow.
     pub fn set_config(&mut self, config: Config) {
-        self.config = config;
+        self.settings.config = config;
     }
 
     /// Lets other threads stop queries: once the flag is set, each ends soon, unresolved, with a certified
@@ -106,11 +107,9 @@ impl<O: DistanceOracle> Solver<O> {
     /// let solver = Solver::new().with_stop(&stop);
     /// ```
     #[must_use]
-    pub fn with_stop(self, stop: &Arc<AtomicBool>) -> Self {
-        Solver {
-            stop: Some(Arc::clone(stop)),
-            ..self
-        }
+    pub fn with_stop(mut self, stop: &Arc<AtomicBool>) -> Self {
+        self.settings.stop = Some(Arc::clone(stop));
+        self
     }
 
     /// Finds the first contact of two moving bodies, as the function [`first_contact`] does.
@@ -149,8 +148,8 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Moving<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let problem = self.problem(a, b, duration)?;
-        Ok(self.solve(&problem))
+        let problem = self.settings.problem(a, b, duration)?;
+        Ok(self.schedule.solve(&problem, &mut self.oracle))
     }
 
     pub(crate) fn solve(&mut self, problem: &Problem<'_>) -> Answer {

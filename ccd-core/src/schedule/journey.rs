@@ -19,7 +19,6 @@ use crate::limits::MAX_DURATION;
 use crate::motion::trajectory::Trajectory;
 use crate::problem::{check, check_config};
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 pub use interval::{ContactInterval, Touch};
@@ -70,7 +69,7 @@ pub struct Journey<'a> {
     b: Travelling<'a>,
     duration: f64,
     config: Config,
-    stop: Option<Arc<AtomicBool>>,
+    stop: Option<&'a AtomicBool>,
 }
 
 impl<'a> Journey<'a> {
@@ -103,9 +102,9 @@ impl<'a> Journey<'a> {
 
     /// Lets other threads stop the query, as [`Problem::stopped_by`](crate::Problem::stopped_by) does.
     #[must_use]
-    pub fn stopped_by(self, stop: &Arc<AtomicBool>) -> Self {
+    pub fn stopped_by(self, stop: &'a AtomicBool) -> Self {
         Journey {
-            stop: Some(Arc::clone(stop)),
+            stop: Some(stop),
             ..self
         }
     }

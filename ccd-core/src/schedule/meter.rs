@@ -4,8 +4,7 @@ use super::memory::{Kept, Memory};
 use crate::outcome::{Limit, Stats};
 use crate::problem::Problem;
 use crate::tolerance::WORK_BETWEEN_LOOKS;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// Counts the work of a query, and ends the query at its limit.
@@ -13,11 +12,8 @@ use std::time::Instant;
 pub(crate) struct Meter {
     pub(crate) stats: Stats,
     pub(crate) kept: Kept,
-    budget: u64,
     /// None if there is no deadline; then no clock is read.
     end: Option<Instant>,
-    /// Set by another thread that wants no answer any more.
-    stop: Option<Arc<AtomicBool>>,
     /// The work at which clock and flag are read next; never if there are none.
     next_look: u64,
 }
@@ -28,17 +24,14 @@ impl Meter {
         // A deadline that no clock can represent counts as none.
         let end = |deadline| Instant::now().checked_add(deadline);
         let end = problem.deadline.and_then(end);
-        let stop = problem.stop.clone();
         Meter {
             stats: Stats::default(),
             kept: None,
-            budget: problem.budget,
-            next_look: match end.is_some() || stop.is_some() {
+            next_look: match end.is_some() || problem.stop.is_some() {
                 true => 0,
                 false => u64::MAX,
             },
             end,
-            stop,
         }
     }
 
@@ -49,23 +42,26 @@ impl Meter {
 
     /// Counts a pair that is about to be visited.
     #[inline]
-    pub(crate) fn visit(&mut self) -> Result<(), Limit> {
+    pub(crate) fn visit(&mut self, problem: &Problem<'_>) -> Result<(), Limit> {
         self.stats.iterations += 1;
         let work = self.stats.work();
-        if work > self.budget {
+        if work > problem.budget {
             return Err(Limit::Budget);
         }
         match work >= self.next_look {
-            true => self.look(work),
+            true => self.look(problem, work),
             false => Ok(()),
         }
     }
 
     #[cold]
-    fn look(&mut self, work: u64) -> Result<(), Limit> {
+    fn look(&mut self, problem: &Problem<'_>, work: u64) -> Result<(), Limit> {
         self.next_look = work.saturating_add(WORK_BETWEEN_LOOKS);
         // What the other thread did before is no matter of this one.
-        if (self.stop.as_ref()).is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+        if problem
+            .stop
+            .is_some_and(|stop| stop.load(Ordering::Relaxed))
+        {
             return Err(Limit::Stopped);
         }
         match self.end.is_some_and(|end| Instant::now() >= end) {

@@ -105,7 +105,7 @@ impl<'p> Nearest<'p> {
     fn run<O: DistanceOracle>(&mut self, oracle: &mut O, meter: &mut Meter) -> ControlFlow<Stop> {
         let mut next = Some(Next::roots(self.problem));
         while let Some(pair) = next {
-            if let Err(limit) = meter.visit() {
+            if let Err(limit) = meter.visit(self.problem) {
                 return ControlFlow::Break(Stop::Limit(limit));
             }
             match pair {

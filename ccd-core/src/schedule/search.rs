@@ -139,7 +139,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             return ControlFlow::Break(question.done(problem));
         };
         question.arrive(problem, s)?;
-        if let Err(limit) = meter.visit() {
+        if let Err(limit) = meter.visit(problem) {
             return ControlFlow::Break(question.stopped(problem, s, limit));
         }
         let (next, rest) = match item {

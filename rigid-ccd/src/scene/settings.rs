@@ -30,7 +30,7 @@ impl Settings {
 
     /// Poses the problem of two bodies that are to keep that much more than the margin.
     pub(super) fn problem<'a>(
-        &self,
+        &'a self,
         [a, b]: [Moving<'a>; 2],
         clock: &Clock,
         more: f64,

@@ -3,9 +3,7 @@
 use super::Solver;
 use crate::{Error, Hit};
 use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
-use ccd_core::{
-    Answer, Body, DistanceOracle, InputError, Journey, Motion, Moving, Pose, Problem, Travelling,
-};
+use ccd_core::{Answer, Body, DistanceOracle, InputError, Motion, Moving, Pose, Travelling};
 
 impl<O: DistanceOracle> Solver<O> {
     /// Returns whether two moving bodies stay apart, by more than the margin.
@@ -45,7 +43,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Moving<'b>>,
         duration: f64,
     ) -> Result<Answer<AnyContact>, InputError> {
-        let problem = self.problem(a, b, duration)?;
+        let problem = self.settings.problem(a, b, duration)?;
         Ok(self.depth_first.any_contact(&problem, &mut self.oracle))
     }
 
@@ -76,7 +74,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Moving<'b>>,
         duration: f64,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        let problem = self.problem(a, b, duration)?;
+        let problem = self.settings.problem(a, b, duration)?;
         Ok(self
             .depth_first
             .closest_approach(&problem, &mut self.oracle))
@@ -143,7 +141,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Travelling<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let journey = self.journey(a, b, duration)?;
+        let journey = self.settings.journey(a, b, duration)?;
         (self.schedule).first_contact_along(&journey, &mut self.oracle)
     }
 
@@ -170,7 +168,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Travelling<'b>>,
         duration: f64,
     ) -> Result<Answer<AnyContact>, InputError> {
-        let journey = self.journey(a, b, duration)?;
+        let journey = self.settings.journey(a, b, duration)?;
         (self.depth_first).any_contact_along(&journey, &mut self.oracle)
     }
 
@@ -184,7 +182,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Travelling<'b>>,
         duration: f64,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        let journey = self.journey(a, b, duration)?;
+        let journey = self.settings.journey(a, b, duration)?;
         (self.depth_first).closest_approach_along(&journey, &mut self.oracle)
     }
 
@@ -212,34 +210,8 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Travelling<'b>>,
         duration: f64,
     ) -> Result<Answer<ContactInterval>, InputError> {
-        let journey = self.journey(a, b, duration)?;
+        let journey = self.settings.journey(a, b, duration)?;
         (self.schedule).contact_interval_along(&journey, &mut self.oracle)
-    }
-
-    pub(super) fn problem<'b>(
-        &self,
-        a: impl Into<Moving<'b>>,
-        b: impl Into<Moving<'b>>,
-        duration: f64,
-    ) -> Result<Problem<'b>, InputError> {
-        let problem = Problem::new(a, b, duration, &self.config)?;
-        Ok(match &self.stop {
-            Some(stop) => problem.stopped_by(stop),
-            None => problem,
-        })
-    }
-
-    fn journey<'b>(
-        &self,
-        a: impl Into<Travelling<'b>>,
-        b: impl Into<Travelling<'b>>,
-        duration: f64,
-    ) -> Result<Journey<'b>, InputError> {
-        let journey = Journey::new(a, b, duration, &self.config)?;
-        Ok(match &self.stop {
-            Some(stop) => journey.stopped_by(stop),
-            None => journey,
-        })
     }
 }
 

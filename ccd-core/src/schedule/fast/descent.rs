@@ -95,7 +95,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        if let Err(reason) = self.meter.visit() {
+        if let Err(reason) = self.meter.visit(self.problem) {
             return ControlFlow::Break(Outcome::Unresolved {
                 safe_until: self.problem.time(snapshot.clock),
                 reason,

@@ -136,7 +136,7 @@ impl Leg {
             self.span.length(),
             &config,
         )?;
-        Ok(match &journey.stop {
+        Ok(match journey.stop {
             Some(stop) => problem.stopped_by(stop),
             None => problem,
         })

@@ -59,10 +59,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Returns the settings with what is left of budget and deadline.
     fn config(&self) -> Result<Config, Limit> {
         let Journey { config, stop, .. } = self.journey;
-        if stop
-            .as_ref()
-            .is_some_and(|stop| stop.load(Ordering::Relaxed))
-        {
+        if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
         }
         let budget = config.budget.checked_sub(self.stats.work());
