@@ -5,7 +5,7 @@ mod settings;
 
 use crate::{Error, Hit};
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
-use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving, Problem};
+use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving};
 use ccd_distance_gjk::Direct;
 use settings::Settings;
 use std::sync::Arc;
@@ -152,7 +152,8 @@ impl<O: DistanceOracle> Solver<O> {
         Ok(self.schedule.solve(&problem, &mut self.oracle))
     }
 
-    pub(crate) fn solve(&mut self, problem: &Problem<'_>) -> Answer {
+    #[cfg(feature = "command")]
+    pub(crate) fn solve(&mut self, problem: &ccd_core::Problem<'_>) -> Answer {
         self.schedule.solve(problem, &mut self.oracle)
     }
 }

@@ -36,7 +36,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// Returns any contact of two moving bodies: perhaps not the first one.
     ///
     /// # Errors
-    /// The errors of [`Problem::new`]: a duration or a motion out of range.
+    /// The errors of [`Problem::new`](crate::Problem::new): a duration or a motion out of range.
     pub fn any_contact<'b>(
         &mut self,
         a: impl Into<Moving<'b>>,
@@ -56,7 +56,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// The bodies are never nearer than the lower bound, and at that time at most the upper bound apart.
     ///
     /// # Errors
-    /// The errors of [`Problem::new`]: a duration or a motion out of range.
+    /// The errors of [`Problem::new`](crate::Problem::new): a duration or a motion out of range.
     ///
     /// ```
     /// use rigid_ccd::schedule::Clearance;
@@ -83,7 +83,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// Brackets the distance of two bodies at rest, as narrowly as f64 allows, with the nearest pieces.
     ///
     /// # Errors
-    /// The errors of [`Problem::new`]: a pose out of range.
+    /// The errors of [`Problem::new`](crate::Problem::new): a pose out of range.
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose, Solver};
@@ -134,7 +134,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// for motions.
     ///
     /// # Errors
-    /// Those of [`Journey::new`], and those of the trajectories.
+    /// Those of [`Journey::new`](crate::Journey::new), and those of the trajectories.
     pub fn answer_along<'b>(
         &mut self,
         a: impl Into<Travelling<'b>>,
@@ -161,7 +161,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// Returns any contact of two bodies on [trajectories](crate::trajectory): perhaps not the first one.
     ///
     /// # Errors
-    /// Those of [`Journey::new`], and those of the trajectories.
+    /// Those of [`Journey::new`](crate::Journey::new), and those of the trajectories.
     pub fn any_contact_along<'b>(
         &mut self,
         a: impl Into<Travelling<'b>>,
@@ -175,7 +175,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// Brackets the least distance of two bodies on [trajectories](crate::trajectory).
     ///
     /// # Errors
-    /// Those of [`Journey::new`], and those of the trajectories.
+    /// Those of [`Journey::new`](crate::Journey::new), and those of the trajectories.
     pub fn closest_approach_along<'b>(
         &mut self,
         a: impl Into<Travelling<'b>>,
@@ -192,7 +192,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// They do not touch before the first time nor after the last.
     ///
     /// # Errors
-    /// Those of [`Journey::new`], and those of the trajectories.
+    /// Those of [`Journey::new`](crate::Journey::new), and those of the trajectories.
     ///
     /// ```
     /// use rigid_ccd::schedule::ContactInterval;
