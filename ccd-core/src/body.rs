@@ -12,6 +12,7 @@ pub(crate) mod piece;
 pub(crate) mod pieces;
 pub(crate) mod polytope;
 mod primitive;
+pub(crate) mod round;
 pub(crate) mod shell;
 mod side_table;
 pub(crate) mod support;

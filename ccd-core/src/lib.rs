@@ -117,6 +117,7 @@ pub use body::hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullT
 pub use body::piece::Piece;
 pub use body::pieces::Pieces;
 pub use body::polytope::{Face, Facet, Origin, Polytope};
+pub use body::round::{Enclosure, Round};
 pub use body::support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};
 pub use body::{Body, Volume};
 pub use config::{Config, Instructions, StartPolicy};

@@ -31,3 +31,10 @@ pub const MAX_DURATION: f64 = 1e50;
 /// The largest turn of one motion, in radians. Beyond it the rounding of the angle alone moves a
 /// point by 1e-10 of its arm.
 pub const MAX_TURN: f64 = 1e6;
+
+/// The share of the radius by which polytopes about cylinders and cones may exceed them by default: 144 corners about
+/// the circle, and contacts early by a quarter of a thousandth of the radius.
+pub const EXCESS_SHARE: f64 = 1.0 / 4096.0;
+
+/// The most corners of a polygon about a circle: it exceeds the circle by 2e-8 of its radius.
+pub const MOST_CORNERS: f64 = 16384.0;

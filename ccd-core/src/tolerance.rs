@@ -482,6 +482,16 @@ pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 
     64.0 * U64 * ((a + b) + b * tilt.abs()) * (arm + radius)
 }
 
+/// The factor on the corners of a polygon about a circle that makes up for their rounding.
+///
+/// In units of `u`: a corner's angle is off by 9 (a product with 2π, rounded twice), which brings an edge nearer by
+/// 6.4 at most; sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a cosine,
+/// by 4. That is 13.4, for which 16 are taken.
+pub(crate) const ABOUT: f64 = 1.0 + 16.0 * U64;
+
+/// The least positive number: what a product rounds by where it underflows.
+pub(crate) const LEAST_F64: f64 = f64::from_bits(1);
+
 /// The most triangles of a node that choose the frame of its box; it then holds all of them.
 ///
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer

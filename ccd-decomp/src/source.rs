@@ -9,9 +9,9 @@ use crate::mesh::unit::Unit;
 use crate::prepare::error::PrepareError;
 use crate::prepare::model::{Model, Prepared};
 use crate::prepare::{Detail, body_from_mesh};
-use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
+use ccd_core::{Body, Round};
 use error::{BodyError, SourceError};
 use mesh_source::MeshSource;
 use std::path::{Path, PathBuf};
@@ -48,6 +48,24 @@ pub enum BodySource {
         radius: f64,
         /// Half the length of the segment along z that it surrounds.
         half_height: f64,
+    },
+    /// `cylinder:r,h` or `cylinder:r,h,excess`, see [`Body::cylinder`] and [`Round::enclosed`].
+    Cylinder {
+        /// Its radius.
+        radius: f64,
+        /// Half its length along z.
+        half_height: f64,
+        /// How far its polytope may exceed it; none for the [usual](Round::usual_excess).
+        excess: Option<f64>,
+    },
+    /// `cone:r,h` or `cone:r,h,excess`, see [`Body::cone`] and [`Round::enclosed`].
+    Cone {
+        /// The radius of its base.
+        radius: f64,
+        /// Half its length along z; the apex is up.
+        half_height: f64,
+        /// How far its polytope may exceed it; none for the [usual](Round::usual_excess).
+        excess: Option<f64>,
     },
     /// The path of a file that ends in `.ccd`: a [stored](crate::Model::save) body.
     Stored(PathBuf),
@@ -99,6 +117,16 @@ impl BodySource {
                 radius,
                 half_height,
             } => Prepared::primitive(Body::capsule(radius, half_height)?),
+            BodySource::Cylinder {
+                radius,
+                half_height,
+                excess,
+            } => Prepared::round(&Round::cylinder(radius, half_height)?, excess)?,
+            BodySource::Cone {
+                radius,
+                half_height,
+                excess,
+            } => Prepared::round(&Round::cone(radius, half_height)?, excess)?,
             BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
             BodySource::Mesh(ref file) => {
                 let (file, part) = (file.clone(), None);
@@ -118,11 +146,9 @@ impl BodySource {
     /// [`BodyError::Mesh`] when a glTF cannot be read far enough to know.
     pub fn files(&self) -> Result<Vec<PathBuf>, BodyError> {
         Ok(match self {
-            BodySource::Box { .. } | BodySource::Sphere { .. } | BodySource::Capsule { .. } => {
-                Vec::new()
-            }
             BodySource::Stored(path) => vec![path.clone()],
             BodySource::Mesh(file) | BodySource::Part { file, .. } => files_of(file)?,
+            _ => Vec::new(),
         })
     }
 }
@@ -176,6 +202,20 @@ impl FromStr for BodySource {
                     half_height,
                 })
             }
+            Some(("cylinder", given)) => {
+                round("cylinder", given).map(|(radius, half_height, excess)| BodySource::Cylinder {
+                    radius,
+                    half_height,
+                    excess,
+                })
+            }
+            Some(("cone", given)) => {
+                round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
+                    radius,
+                    half_height,
+                    excess,
+                })
+            }
             // A single letter is a drive.
             Some((shape, _)) if shape.len() > 1 && shape.chars().all(char::is_alphanumeric) => {
                 Err(SourceError::UnknownShape {
@@ -191,6 +231,16 @@ impl FromStr for BodySource {
             }),
         }
     }
+}
+
+/// Returns a radius, half a height and an excess.
+fn round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
+    if given.matches(',').count() == 2 {
+        let [radius, half_height, excess] = lengths(shape, given)?;
+        return Ok((radius, half_height, Some(excess)));
+    }
+    let [radius, half_height] = lengths(shape, given)?;
+    Ok((radius, half_height, None))
 }
 
 fn lengths<const N: usize>(shape: &'static str, given: &str) -> Result<[f64; N], SourceError> {

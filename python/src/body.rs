@@ -8,11 +8,11 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
     Detail, MeshSource, Model, STORED_EXTENSION, StoreFault, TriangleMesh, Unit, prepare,
 };
-use rigid_ccd::{Body, Volume};
+use rigid_ccd::{Body, Round, Volume};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// A rigid body: a mesh, a box, a ball or a capsule.
+/// A rigid body: a mesh, a box, a ball, a capsule, a cylinder or a cone.
 ///
 /// A mesh is a solid when it is closed and consistently oriented. Otherwise it is a surface. A body inside a solid
 /// overlaps it; a body inside a surface does not.
@@ -35,11 +35,16 @@ pub(crate) struct PyBody {
     #[pyo3(get)]
     /// What was found about the mesh, in words.
     report: String,
+    #[pyo3(get)]
+    /// How far the body may exceed what it was made of: contacts may be early by that, never late. 0 for exact bodies.
+    sticks_out: f64,
 }
 
 /// What a body can be made of again: by pickle, in another process.
 enum Made {
     Shape(Shape),
+    /// By the name of the method.
+    Round(&'static str, RoundSizes),
     Mesh(Box<Model>),
 }
 
@@ -50,6 +55,9 @@ enum Shape {
     Sphere(f64),
     Capsule(f64, f64),
 }
+
+/// Radius, half height and allowed excess of a cylinder or a cone.
+type RoundSizes = (f64, f64, Option<f64>);
 
 /// Takes a body that Python passes.
 pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
@@ -162,6 +170,42 @@ impl PyBody {
         PyBody::simple(Shape::Capsule(radius, half_height), report)
     }
 
+    /// Makes a cylinder along z, a polytope about it: `sticks_out` tells by how much it exceeds the cylinder.
+    ///
+    /// Args:
+    ///     radius: its radius.
+    ///     half_height: half its length.
+    ///     excess: how far the polytope may exceed it, at least 2.1e-8 of the radius; None for 1/4096 of the radius.
+    #[classmethod]
+    #[pyo3(signature = (radius, half_height, excess = None))]
+    fn cylinder(
+        _class: &Bound<'_, PyType>,
+        radius: f64,
+        half_height: f64,
+        excess: Option<f64>,
+    ) -> PyResult<Self> {
+        let round = Round::cylinder(radius, half_height).map_err(input)?;
+        PyBody::round("cylinder", &round, (radius, half_height, excess))
+    }
+
+    /// Makes a cone along z, whose apex is up: a polytope about it, as of `Body.cylinder`.
+    ///
+    /// Args:
+    ///     radius: the radius of its base.
+    ///     half_height: half its length.
+    ///     excess: as of `Body.cylinder`.
+    #[classmethod]
+    #[pyo3(signature = (radius, half_height, excess = None))]
+    fn cone(
+        _class: &Bound<'_, PyType>,
+        radius: f64,
+        half_height: f64,
+        excess: Option<f64>,
+    ) -> PyResult<Self> {
+        let round = Round::cone(radius, half_height).map_err(input)?;
+        PyBody::round("cone", &round, (radius, half_height, excess))
+    }
+
     /// Whether the body fills what it bounds.
     #[getter]
     fn is_solid(&self) -> bool {
@@ -200,6 +244,7 @@ impl PyBody {
             Made::Shape(Shape::Capsule(radius, half_height)) => {
                 (make("capsule")?, PyTuple::new(py, [*radius, *half_height])?)
             }
+            Made::Round(name, sizes) => (make(name)?, sizes.into_pyobject(py)?),
             Made::Mesh(model) => {
                 let mut bytes = Vec::new();
                 py.detach(|| model.write(&mut bytes)).map_err(input)?;
@@ -229,6 +274,7 @@ impl PyBody {
         Ok(PyBody {
             body: model.body().map_err(input)?,
             report: model.report.to_string(),
+            sticks_out: model.report.sticks_out,
             made: Made::Mesh(Box::new(model)),
         })
     }
@@ -248,13 +294,37 @@ impl PyBody {
             )));
         }
         let (body, made) = (body.map_err(input)?, Made::Shape(shape));
-        Ok(PyBody { body, made, report })
+        Ok(PyBody {
+            body,
+            made,
+            report,
+            sticks_out: 0.0,
+        })
+    }
+
+    fn round(name: &'static str, round: &Round, sizes: RoundSizes) -> PyResult<Self> {
+        let (radius, half_height, excess) = sizes;
+        let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()));
+        let enclosure = enclosure.map_err(input)?;
+        let sticks_out = enclosure.excess();
+        Ok(PyBody {
+            body: enclosure.body().map_err(input)?,
+            made: Made::Round(name, sizes),
+            report: format!(
+                "{name} of radius {radius} and half height {half_height}, sticking out by up to {sticks_out:.3e}"
+            ),
+            sticks_out,
+        })
     }
 
     fn model(&self) -> PyResult<Cow<'_, Model>> {
         match &self.made {
             Made::Mesh(model) => Ok(Cow::Borrowed(model)),
-            Made::Shape(_) => Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?)),
+            Made::Shape(_) | Made::Round(..) => {
+                let mut model = Model::of_body(&self.body).map_err(input)?;
+                model.report.sticks_out = self.sticks_out;
+                Ok(Cow::Owned(model))
+            }
         }
     }
 }

@@ -1,6 +1,8 @@
 """Bodies, from arrays, files and trimesh."""
 
 import os
+import pickle
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -70,6 +72,24 @@ def test_names_are_checked() -> None:
             Body.capsule(1, wrong)
         with pytest.raises(InputError, match=message):
             Body.sphere(wrong)
+
+
+@pytest.mark.parametrize("make", [Body.cylinder, Body.cone])
+def test_round_bodies_tell_how_far_they_stick_out(make: Callable[..., Body], tmp_path: Path) -> None:
+    usual, fine = make(2, 1), make(2, 1, excess=1e-5)
+    assert 0 < usual.sticks_out <= 2 / 4096
+    assert 0 < fine.sticks_out <= 1e-5
+    assert usual.is_solid and "sticking out" in repr(usual)
+    for again in (pickle.loads(pickle.dumps(fine)), saved(fine, tmp_path / "fine.ccd")):
+        assert again.sticks_out == fine.sticks_out
+    for radius, half_height, excess in ((-1, 1, None), (1, float("nan"), None), (1, 1, 1e-9), (1, 1, float("nan"))):
+        with pytest.raises(InputError, match="radius|half height|excess"):
+            make(radius, half_height, excess)
+
+
+def saved(body: Body, path: Path) -> Body:
+    body.save(path)
+    return Body.from_file(path)
 
 
 def test_files_are_read(tmp_path: Path) -> None:

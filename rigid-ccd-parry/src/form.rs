@@ -1,13 +1,13 @@
 //! The geometry of a shape in double precision: all that a body is made of.
 
 use crate::closed::open_edge;
-use crate::enclosure::{Enclosure, Round};
 use crate::order::{greater, length};
 use crate::tolerance::PLACED;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Body, Combination, Facet, Feature, InputError, Origin, Piece, Pieces, Polytope, Pose, Volume,
+    Body, Combination, Enclosure, Facet, Feature, InputError, Origin, Piece, Pieces, Polytope,
+    Pose, Round, Volume,
 };
 use std::borrow::Cow;
 
@@ -67,16 +67,25 @@ impl Form {
         let Some((round, radius, excess)) = &self.round else {
             return Ok(Cow::Borrowed(self));
         };
-        let about = Enclosure::of(round, *excess)?;
-        // Of a flat one nothing is gained.
-        let bulky = *radius == 0.0 && round.radius > 0.0 && round.half_height > 0.0;
-        let mut form = Form {
-            excess: about.excess,
-            surface: bulky.then(|| about.triangles()),
-            ..Form::EMPTY
+        let about = enclosed(round, *excess)?;
+        let (triangles, numbers) = about.triangles();
+        let has_surface = *radius == 0.0 && !triangles.is_empty();
+        let turned = |point: &DVec3| DVec3::new(point.y, point.z, point.x);
+        let polytope = Polytope {
+            // The engine's are along z, parry's along y.
+            points: about.polytope().points.iter().map(turned).collect(),
+            radius: *radius,
+            ..about.polytope().clone()
         };
-        form.push_hull(about.points, *radius, &about.loops);
-        Ok(Cow::Owned(form))
+        Ok(Cow::Owned(Form {
+            parts: vec![Part {
+                polytope,
+                number: 0,
+            }],
+            excess: about.excess(),
+            surface: has_surface.then_some((triangles, numbers)),
+            ..Form::EMPTY
+        }))
     }
 
     /// Adds the hull of points, grown by a radius.
@@ -347,6 +356,27 @@ impl Form {
             Some(number) => ShapeError::Piece { number, error },
             None => ShapeError::Body(error),
         }
+    }
+}
+
+/// Returns a polytope about a cylinder or a cone.
+fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
+    let asked = match excess {
+        Excess::Fine => round.usual_excess(),
+        Excess::Length(length) => length,
+        Excess::Refuse => return Err(ShapeError::Round),
+    };
+    // Written so that NaN is refused.
+    if !(asked >= 0.0) {
+        return Err(ShapeError::Size {
+            what: "excess",
+            value: asked,
+        });
+    }
+    let least = round.least_excess();
+    match asked < least {
+        true => Err(ShapeError::Excess { asked, least }),
+        false => round.enclosed(asked).map_err(ShapeError::Body),
     }
 }
 

@@ -87,7 +87,6 @@
 
 mod cast;
 mod closed;
-mod enclosure;
 mod error;
 mod form;
 mod half_space;

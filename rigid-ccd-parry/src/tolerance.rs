@@ -33,19 +33,6 @@ pub(crate) const PLACED: f64 = 64.0 * U64;
 /// sums that bound it.
 pub(crate) const GRID: f64 = 4.0 * U64;
 
-/// The factor on the corners of a polygon about a circle that makes up for their rounding.
-///
-/// In units of `u`: sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a
-/// cosine, by 4. That is 7, as is an edge's distance from the middle, for which 16 are taken.
-pub(crate) const ABOUT: f64 = 1.0 + 16.0 * U64;
-
-/// The share of a radius that a cylinder or a cone sticks out of its polytope by default: 288 points, and contacts
-/// early by a quarter of a thousandth of the radius.
-pub(crate) const EXCESS: f64 = 1.0 / 4096.0;
-
-/// The most corners of a polygon about a circle: it exceeds the circle by 2e-8 of its radius.
-pub(crate) const MOST_CORNERS: f64 = 16384.0;
-
 /// Bounds how far corners of a box that stands in for a half-space are from its plane, relative to their distances, and
 /// the rounding of heights, relative to what they are sums of.
 ///

@@ -26,7 +26,7 @@
 //! | answer many one after another | [`Solver`] |
 //! | move many bodies, and find who touches whom first, or at all | `Scene` |
 //! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
-//! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], `load` for a file |
+//! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], `load` for a file |
 //! | make a body of each part of a file, or convert units | `load_parts`, `load_in`, `mesh::MeshFile` |
 //! | make a body from vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
@@ -89,11 +89,11 @@ pub mod trajectory;
 pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
-    Answer, Body, Claim, Combination, Config, Contact, ContactsError, DistanceOracle, Effort, Face,
-    Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode, InputError, Instructions,
-    Journey, Limit, Motion, Moving, OrElse, Origin, Outcome, Overlap, Piece, PiecePair, Pieces,
-    Polytope, Pose, Problem, Schedule, Separation, StartPolicy, Stats, SweptBox, Travelling,
-    Volume,
+    Answer, Body, Claim, Combination, Config, Contact, ContactsError, DistanceOracle, Effort,
+    Enclosure, Face, Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode,
+    InputError, Instructions, Journey, Limit, Motion, Moving, OrElse, Origin, Outcome, Overlap,
+    Piece, PiecePair, Pieces, Polytope, Pose, Problem, Round, Schedule, Separation, StartPolicy,
+    Stats, SweptBox, Travelling, Volume,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]

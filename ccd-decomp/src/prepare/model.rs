@@ -5,7 +5,7 @@ use super::report::{PiecesKind, Report, Why};
 use crate::mesh::unit::Unit;
 use crate::tree::hierarchy::build_hierarchy;
 use crate::tree::hull_tree::build_hull_tree;
-use ccd_core::{Body, Hierarchy, HullTree, Pieces, Volume};
+use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, Round, Volume};
 
 /// A body before its tree is built. A `.ccd` file stores it.
 #[derive(Clone, Debug)]
@@ -107,5 +107,13 @@ impl Prepared {
             body,
             unit: None,
         }
+    }
+
+    /// Makes the body of a cylinder or a cone, which its polytope exceeds by at most a length.
+    pub(crate) fn round(round: &Round, excess: Option<f64>) -> Result<Self, InputError> {
+        let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()))?;
+        let mut prepared = Prepared::primitive(enclosure.body()?);
+        prepared.report.sticks_out = enclosure.excess();
+        Ok(prepared)
     }
 }

@@ -14,7 +14,7 @@ pub struct Report {
     pub kind: PiecesKind,
     /// Why its pieces are of that kind.
     pub why: Why,
-    /// The number of triangles of its mesh; 0 for a box, sphere or capsule.
+    /// The number of triangles of its mesh; 0 for shapes.
     pub triangles: usize,
     /// The number of its pieces.
     pub pieces: usize,
@@ -25,15 +25,15 @@ pub struct Report {
     /// The radius that was added to the pieces so that they certainly cover the mesh, in its unit of length; 0
     /// for all exact kinds.
     pub inflated_by: f64,
-    /// A bound on how far the pieces reach beyond the solid, or beyond the surface of an open mesh, in the
-    /// mesh's unit of length. Contacts may be reported early by as much. 0 for all exact kinds.
+    /// A bound on how far the pieces reach beyond the solid, or beyond the surface of an open mesh, in its unit of
+    /// length. Contacts may be reported early by as much. 0 for all exact kinds.
     pub sticks_out: f64,
     /// The number of hulls of approximate pieces that the library got wrong, and that were computed exactly
     /// instead. 0 for all other kinds, whose hulls are exact from the start.
     pub rebuilt_hulls: usize,
     /// True if a point inside the body counts as touching it, which is so when its mesh is closed.
     pub volume: Volume,
-    /// The edges of the mesh, which show why it is solid or not; none for a box, sphere or capsule.
+    /// The edges of the mesh, which show why it is solid or not; none for shapes.
     pub topology: Option<Topology>,
     /// The faults of the mesh that were repaired.
     pub repairs: Repairs,
@@ -42,7 +42,7 @@ pub struct Report {
 /// The kind of a body's pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PiecesKind {
-    /// The body is a box, sphere or capsule: exact.
+    /// The body is a box, sphere or capsule: exact; or a polytope about a cylinder or a cone.
     Primitive,
     /// The pieces are the triangles of the mesh: exact.
     Triangles,
@@ -105,10 +105,9 @@ impl Report {
     /// Returns whether the pieces cover the solid's surface, and nothing outside the solid.
     pub fn is_exact(&self) -> bool {
         match self.kind {
-            PiecesKind::Primitive
-            | PiecesKind::Triangles
-            | PiecesKind::Patches
-            | PiecesKind::Hull => true,
+            // A polytope about a cylinder or a cone sticks out of it.
+            PiecesKind::Primitive => self.sticks_out == 0.0,
+            PiecesKind::Triangles | PiecesKind::Patches | PiecesKind::Hull => true,
             PiecesKind::Vhacd => false,
         }
     }

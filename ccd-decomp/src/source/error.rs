@@ -82,4 +82,4 @@ pub enum SourceError {
 }
 
 const EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \
-                        half height), a file such as part.obj, or a part of one such as scene.glb#lid";
+                        half height), cylinder:0.2,1 or cone:0.2,1 (the same), a file such as part.obj, or a part of one such as scene.glb#lid";

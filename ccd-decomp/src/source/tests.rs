@@ -1,6 +1,6 @@
 use super::error::{BodyError, SourceError};
 use super::{BodySource, parse_body};
-use crate::{Detail, MeshFault};
+use crate::{Detail, MeshFault, Prepared};
 use ccd_core::Volume;
 use ccd_core::glam::dvec3;
 use rstest::rstest;
@@ -9,6 +9,8 @@ use rstest::rstest;
 #[case("box:1,2,3", BodySource::Box { half_extents: dvec3(1.0, 2.0, 3.0) })]
 #[case(" sphere:0.5 ", BodySource::Sphere { radius: 0.5 })]
 #[case("capsule: 1e-1 , 2", BodySource::Capsule { radius: 0.1, half_height: 2.0 })]
+#[case("cylinder:1,2", BodySource::Cylinder { radius: 1.0, half_height: 2.0, excess: None })]
+#[case("cone:1,2,1e-3", BodySource::Cone { radius: 1.0, half_height: 2.0, excess: Some(1e-3) })]
 #[case("dir/part.stl", BodySource::Mesh("dir/part.stl".into()))]
 #[case(r"C:\part.stl", BodySource::Mesh(r"C:\part.stl".into()))]
 #[case("./box:1.obj", BodySource::Mesh("./box:1.obj".into()))]
@@ -23,6 +25,8 @@ fn descriptions_of_bodies(#[case] text: &str, #[case] expected: BodySource) {
 #[case("sphere:", SourceError::BadLength { shape: "sphere", length: String::new() })]
 #[case("sphere:-1", SourceError::BadLength { shape: "sphere", length: "-1".into() })]
 #[case("capsule:1,nan", SourceError::BadLength { shape: "capsule", length: "nan".into() })]
+#[case("cylinder:1", SourceError::WrongCount { shape: "cylinder", expected: 2, given: 1 })]
+#[case("cone:1,2,3,4", SourceError::WrongCount { shape: "cone", expected: 2, given: 4 })]
 #[case("box:1,2,inf", SourceError::BadLength { shape: "box", length: "inf".into() })]
 fn bad_descriptions_show_examples(#[case] text: &str, #[case] expected: SourceError) {
     let error = text.parse::<BodySource>().unwrap_err();
@@ -66,10 +70,32 @@ fn primitives_are_single_solid_pieces() {
     }
 }
 
+/// What a polytope exceeds its shape by is told, and is no more than was asked for.
+#[rstest]
+#[case("cylinder:2,1", 2.0 / 4096.0)]
+#[case("cone:2,1,1e-5", 1e-5)]
+fn round_shapes_tell_their_excess(#[case] text: &str, #[case] most: f64) {
+    let Prepared { body, report, .. } = parse_body(text, Detail::Auto).unwrap();
+    assert!((0.5 * most..=most).contains(&report.sticks_out), "{report}");
+    assert!(!report.is_exact() && report.to_string().contains("sticking out by up to"));
+    assert_eq!((body.pieces().len(), body.volume()), (1, Volume::Solid));
+    let error = parse_body(&format!("{text},-1"), Detail::Auto);
+    assert!(matches!(error, Err(BodyError::Source(_))));
+}
+
+#[test]
+fn too_small_an_excess_is_refused() {
+    let error = parse_body("cylinder:1,1,1e-9", Detail::Auto).unwrap_err();
+    assert!(
+        error.to_string().starts_with("excess is 1e-9, but must be"),
+        "{error}"
+    );
+}
+
 #[test]
 fn faults_reach_the_caller_typed() {
     assert!(matches!(
-        parse_body("cone:1", Detail::Auto),
+        parse_body("torus:1", Detail::Auto),
         Err(BodyError::Source(SourceError::UnknownShape { .. }))
     ));
     assert!(matches!(

@@ -6,7 +6,6 @@ use super::library::shape::{
     Compound, ConvexPolyhedron, Cuboid, HalfSpace as ParryHalfSpace, HeightField, Polyline, Shape,
     TriMeshFlags, TypedShape, Voxels,
 };
-use crate::enclosure::{Kind, Round};
 use crate::form::Form;
 use crate::half_space::HalfSpace;
 use crate::limits::{DEEPEST, FARTHEST_VOXEL};
@@ -14,6 +13,7 @@ use crate::order::{greater, length};
 use crate::tolerance::GRID;
 use crate::{Meshes, Prepared, Settings, ShapeError};
 use ccd_core::glam::DVec3;
+use ccd_core::{InputError, Round};
 
 /// Makes the body of a shape, for casts and all other questions of [`rigid_ccd::Solver`].
 ///
@@ -100,29 +100,24 @@ fn nested(shape: &dyn Shape, settings: &Settings, depth: usize) -> Result<Form, 
 
 /// Returns the geometry of a cylinder or a cone.
 fn round(shape: &TypedShape<'_>, settings: &Settings) -> Result<Form, ShapeError> {
-    let (kind, half_height, radius, grown) = match shape {
-        TypedShape::Cylinder(s) => (Kind::Cylinder, s.half_height, s.radius, 0.0),
-        TypedShape::Cone(s) => (Kind::Cone, s.half_height, s.radius, 0.0),
+    type Made = fn(f64, f64) -> Result<Round, InputError>;
+    let (made, half_height, radius, grown): (Made, _, _, _) = match shape {
+        TypedShape::Cylinder(s) => (Round::cylinder, s.half_height, s.radius, 0.0),
+        TypedShape::Cone(s) => (Round::cone, s.half_height, s.radius, 0.0),
         TypedShape::RoundCylinder(s) => {
             let inner = &s.inner_shape;
-            (
-                Kind::Cylinder,
-                inner.half_height,
-                inner.radius,
-                s.border_radius,
-            )
+            let (height, radius) = (inner.half_height, inner.radius);
+            (Round::cylinder, height, radius, s.border_radius)
         }
         TypedShape::RoundCone(s) => {
             let inner = &s.inner_shape;
-            (Kind::Cone, inner.half_height, inner.radius, s.border_radius)
+            let (height, radius) = (inner.half_height, inner.radius);
+            (Round::cone, height, radius, s.border_radius)
         }
         _ => return Err(ShapeError::Custom),
     };
-    let round = Round {
-        kind,
-        half_height: size("half height", half_height)?,
-        radius: size("radius", radius)?,
-    };
+    let half_height = size("half height", half_height)?;
+    let round = made(size("radius", radius)?, half_height).map_err(ShapeError::Body)?;
     Ok(Form::of_round(round, border(grown)?, settings.excess))
 }
 

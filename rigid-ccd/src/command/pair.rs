@@ -19,8 +19,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 pub(super) struct BodiesArgs {
     /// Body A: a mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply, .off), a part of one by its name or number
-    /// (scene.glb#lid), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R or
-    /// capsule:R,HALF_HEIGHT
+    /// (scene.glb#lid), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R,
+    /// capsule:R,HALF_HEIGHT, cylinder:R,HALF_HEIGHT or cone:R,HALF_HEIGHT
     #[arg(long, value_name = "BODY")]
     pub(super) a: String,
     /// Body B, in the same forms as body A; a file given for both is loaded once
@@ -168,9 +168,7 @@ fn files(source: &BodySource) -> Vec<PathBuf> {
     source.files().unwrap_or_else(|_| match source {
         BodySource::Mesh(path) | BodySource::Stored(path) => vec![path.clone()],
         BodySource::Part { file, .. } => vec![file.clone()],
-        BodySource::Box { .. } | BodySource::Sphere { .. } | BodySource::Capsule { .. } => {
-            Vec::new()
-        }
+        _ => Vec::new(),
     })
 }
 

@@ -2,6 +2,7 @@ use super::super::library::math::Vector;
 use super::super::library::shape::{Ball, HeightFieldCellStatus, SharedShape, TriMesh};
 use super::super::library::utils::Array2;
 use super::*;
+use crate::Excess;
 
 fn prepared(shape: &dyn Shape) -> Prepared {
     body(shape, &Settings::default()).expect("served")
@@ -103,4 +104,43 @@ fn what_is_refused_says_why() {
         refused(&mesh),
         ShapeError::Piece { number: 0, .. }
     ));
+}
+
+#[test]
+fn cylinders_and_cones_are_along_y_and_exceed_their_shapes_by_what_is_told() {
+    use super::super::library::shape::{Cone, Cylinder};
+    let within = |excess| Settings {
+        excess,
+        ..Settings::default()
+    };
+    for excess in [Excess::Fine, Excess::Length(1e-3)] {
+        let (cylinder, cone) = (Cylinder::new(0.5, 0.25), Cone::new(0.5, 0.25));
+        for shape in [&cylinder as &dyn Shape, &cone] {
+            let made = body(shape, &within(excess)).expect("served");
+            assert!((1e-6..=1e-3).contains(&made.excess()));
+            let points = made.body().pieces().points();
+            let [mut base, mut top] = [0.0, 0.0];
+            for point in points {
+                let aside = point.x.hypot(point.z);
+                assert_eq!(point.y.abs(), 0.5);
+                let widest = if point.y < 0.0 { &mut base } else { &mut top };
+                *widest = greater(*widest, aside);
+            }
+            let rim = 0.25..=0.25 + made.excess();
+            assert!(rim.contains(&base));
+            // The apex is up, as parry's.
+            assert!(rim.contains(&top) || (top == 0.0 && shape.as_cone().is_some()));
+        }
+    }
+    let cylinder = Cylinder::new(1.0, 2.0);
+    let refused = |excess| body(&cylinder, &within(excess)).expect_err("refused");
+    let ShapeError::Excess { least, .. } = refused(Excess::Length(1e-8)) else {
+        panic!("too fine");
+    };
+    assert!(least < 1e-7 && body(&cylinder, &within(Excess::Length(least))).is_ok());
+    assert!(matches!(
+        refused(Excess::Length(-1.0)),
+        ShapeError::Size { what: "excess", .. }
+    ));
+    assert_eq!(refused(Excess::Refuse), ShapeError::Round);
 }

@@ -134,3 +134,44 @@ fn a_body_that_has_come_to_rest_is_asked_about_at_once() {
     let hit = Solver::new().first_contact_along((&a, &twice), (&b, &stands), 2.0);
     assert_eq!(hit.unwrap(), None);
 }
+
+/// A ball flies at a cylinder and a cone from all sides: they are touched no later than the true shapes are, and
+/// earlier by no more than the excess and the tolerance.
+#[test]
+fn round_bodies_are_touched_when_the_true_shapes_are() {
+    let (radius, half_height, ball_radius) = (1.5, 2.0, 0.25);
+    let ball = ball(ball_radius);
+    let config = Config {
+        tolerance: 1e-9,
+        ..Config::default()
+    };
+    let mut solver = Solver::new().with_config(config);
+    // The slant of the cone, and the part of it that is across the axis.
+    let slant = f64::hypot(2.0 * half_height, radius);
+    let across = 2.0 * half_height / slant;
+    for k in 0..60 {
+        let (sine, cosine) = (0.1047 * f64::from(k)).sin_cos();
+        let height = 0.1 * f64::from(k % 7);
+        let start = Pose::at([8.0 * cosine, 8.0 * sine, height]).unwrap();
+        let flies = Motion::new(start, [-cosine, -sine, 0.0], [0.0; 3]).unwrap();
+        let of_cone = (ball_radius * slant + radius * (half_height - height)) / (2.0 * half_height);
+        for (body, reach, share) in [
+            (
+                Body::cylinder(radius, half_height),
+                radius + ball_radius,
+                1.0,
+            ),
+            (Body::cone(radius, half_height), of_cone, across),
+        ] {
+            let body = body.unwrap();
+            let hit = solver.first_contact((&ball, flies), (&body, Motion::STILL), 10.0);
+            let time = hit.unwrap().expect("it flies at it").time;
+            let early = (8.0 - reach) - time;
+            let most = (radius / 4096.0 + 1e-9) / share;
+            assert!(
+                (-1e-14..=most).contains(&early),
+                "{k}: early by {early:e} of {most:e}"
+            );
+        }
+    }
+}

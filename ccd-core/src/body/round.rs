@@ -1,0 +1,277 @@
+//! Cylinders and cones, as convex polytopes about them.
+
+use super::pieces::Pieces;
+use super::polytope::{Facet, Origin, Polytope};
+use super::{Body, Volume};
+use crate::error::InputError;
+use crate::limits::{EXCESS_SHARE, MAX_COORDINATE, MOST_CORNERS};
+use crate::math::order::{greater, lesser};
+use crate::tolerance::{ABOUT, LEAST_F64};
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// A cylinder or a cone about the origin, along z.
+///
+/// A circle is no hull of points: a body is a polytope about the shape, an [`Enclosure`].
+///
+/// ```
+/// use ccd_core::Round;
+/// let wheel = Round::cylinder(0.5, 0.1)?;
+/// let fine = wheel.enclosed(1e-6)?;
+/// assert!(fine.excess() <= 1e-6 && fine.polytope().points.len() > 3000);
+/// let coarse = wheel.enclosed(wheel.usual_excess())?;
+/// assert_eq!(coarse.polytope().points.len(), 288);
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Round {
+    kind: Kind,
+    radius: f64,
+    half_height: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Cylinder,
+    Cone,
+}
+
+/// A convex polytope about a [`Round`] shape.
+///
+/// # Guarantee
+/// It holds the shape, in exact arithmetic on the stored numbers. None of its points is farther from the shape than the
+/// [excess](Enclosure::excess): contacts may be early by that, and never late. It touches the shape in the planes of its
+/// flat ends, and along four lines in the planes x = 0 and y = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Enclosure {
+    polytope: Polytope,
+    excess: f64,
+    is_flat: bool,
+}
+
+impl Round {
+    /// A cylinder, from `−half_height` to `half_height` along z.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
+    pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
+        Round::new(Kind::Cylinder, radius, half_height)
+    }
+
+    /// A cone. Its base is at `−half_height` along z, its apex at `half_height`.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
+    pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
+        Round::new(Kind::Cone, radius, half_height)
+    }
+
+    fn new(kind: Kind, radius: f64, half_height: f64) -> Result<Self, InputError> {
+        for (what, value) in [("radius", radius), ("half height", half_height)] {
+            // Written so that NaN is refused.
+            if !(0.0..=MAX_COORDINATE).contains(&value) {
+                let allowed = "from 0 to 1e12";
+                return Err(InputError::OutOfRange {
+                    what,
+                    value,
+                    allowed,
+                });
+            }
+        }
+        Ok(Round {
+            kind,
+            radius,
+            half_height,
+        })
+    }
+
+    /// The excess of [`Body::cylinder`] and [`Body::cone`]: [`EXCESS_SHARE`] of the radius.
+    pub fn usual_excess(&self) -> f64 {
+        EXCESS_SHARE * self.radius
+    }
+
+    /// The least excess that is accepted: a little more than 2e-8 of the radius, with [`MOST_CORNERS`].
+    pub fn least_excess(&self) -> f64 {
+        1.01 * self.radius * (1.0 / (PI / MOST_CORNERS).cos() - 1.0)
+    }
+
+    /// Returns a polytope about it that exceeds it by at most a length.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for an excess less than the [least](Round::least_excess), or a radius whose polytope
+    /// reaches beyond [`MAX_COORDINATE`].
+    pub fn enclosed(&self, excess: f64) -> Result<Enclosure, InputError> {
+        let ring = Ring::about(self.radius, excess)?;
+        let z = self.half_height;
+        let count = ring.corners.len() as u32;
+        let level = |z: f64| ring.corners.iter().map(move |[x, y]| DVec3::new(*x, *y, z));
+        let base: Vec<u32> = (0..count).rev().collect();
+        let sides = (0..count).map(|k| (k, (k + 1) % count));
+        let (points, loops): (Vec<DVec3>, Vec<Vec<u32>>) = match self.kind {
+            Kind::Cylinder => {
+                let top = (count..2 * count).collect();
+                let sides = sides.map(|(k, next)| vec![k, next, count + next, count + k]);
+                let loops = [base, top].into_iter().chain(sides);
+                (level(-z).chain(level(z)).collect(), loops.collect())
+            }
+            Kind::Cone => {
+                let sides = sides.map(|(k, next)| vec![k, next, count]);
+                let points = level(-z).chain([z * DVec3::Z]);
+                (points.collect(), [base].into_iter().chain(sides).collect())
+            }
+        };
+        let facet = |(id, corners)| Facet {
+            origin: Origin::Face(id),
+            corners,
+        };
+        Ok(Enclosure {
+            polytope: Polytope {
+                points,
+                facets: (0..).zip(loops).map(facet).collect(),
+                ..Polytope::default()
+            },
+            excess: ring.excess,
+            is_flat: self.radius == 0.0 || z == 0.0,
+        })
+    }
+}
+
+impl Enclosure {
+    /// The polytope. Its facets are its exact boundary, and plane: those that are no triangles have all corners at one
+    /// height, or in pairs above each other.
+    ///
+    /// The base is facet 0, the other end of a cylinder facet 1; the sides follow, counterclockwise about z.
+    pub fn polytope(&self) -> &Polytope {
+        &self.polytope
+    }
+
+    /// The largest distance of its points from the shape.
+    pub fn excess(&self) -> f64 {
+        self.excess
+    }
+
+    /// Returns the body, solid. One that is not flat has [triangles](Body::with_surface), too.
+    ///
+    /// # Errors
+    /// Those of [`Body::polytope`].
+    pub fn body(&self) -> Result<Body, InputError> {
+        let body = Body::polytope(self.polytope.clone())?;
+        let (triangles, numbers) = self.triangles();
+        if triangles.is_empty() {
+            return Ok(body);
+        }
+        let pieces = Pieces::triangles(&self.polytope.points, &triangles, &numbers)?;
+        body.with_surface(Body::new(&pieces, Volume::Solid)?)
+    }
+
+    /// Returns the facets as triangles, each with the number of its facet; none of a flat one, which gains nothing by
+    /// them.
+    pub fn triangles(&self) -> (Vec<[u32; 3]>, Vec<u32>) {
+        let facets = (0..).zip(&self.polytope.facets);
+        let fans = facets.flat_map(|(number, Facet { corners, .. })| {
+            let fan = 1..corners.len().saturating_sub(1);
+            fan.map(move |k| ([corners[0], corners[k], corners[k + 1]], number))
+        });
+        match self.is_flat {
+            true => Default::default(),
+            false => fans.unzip(),
+        }
+    }
+}
+
+/// The corners of a regular polygon about a circle, counterclockwise.
+///
+/// Their number is a multiple of four, and the middles of edges are on the axes, where the polygon touches the circle.
+struct Ring {
+    corners: Vec<[f64; 2]>,
+    /// The largest distance of its points from the disc.
+    excess: f64,
+}
+
+impl Ring {
+    fn about(radius: f64, excess: f64) -> Result<Self, InputError> {
+        if radius == 0.0 {
+            return Ok(Ring {
+                corners: vec![[0.0; 2]; 4],
+                excess: 0.0,
+            });
+        }
+        let count = corners(radius, excess)?;
+        let step = TAU / count;
+        // Of the corners; the edges are `radius` from the middle.
+        let reach = radius / (0.5 * step).cos() * ABOUT + 4.0 * LEAST_F64;
+        if !(reach <= MAX_COORDINATE) {
+            return Err(InputError::OutOfRange {
+                what: "radius",
+                value: radius,
+                allowed: "less than 1e12, with the excess",
+            });
+        }
+        let corner = |k: usize| {
+            let (sine, cosine) = ((k as f64 + 0.5) * step).sin_cos();
+            [reach * cosine, reach * sine]
+        };
+        Ok(Ring {
+            corners: (0..count as usize).map(corner).collect(),
+            excess: greater(0.0, reach * ABOUT - radius),
+        })
+    }
+}
+
+/// Returns the number of corners of a polygon that exceeds a circle by no more than is asked.
+fn corners(radius: f64, asked: f64) -> Result<f64, InputError> {
+    // A corner is at `radius / cos(π/n)`. The share of the excess is clamped where angles lose no digits; what the
+    // rounding of the corners adds is taken off.
+    let share = lesser(asked / radius - 4.0 * (ABOUT - 1.0), 1.0);
+    let half_angle = (share * (2.0 + share)).sqrt().atan();
+    let count = 4.0 * greater(1.0, (PI / half_angle / 4.0).ceil());
+    // Written so that NaN is refused.
+    match asked >= 0.0 && share > 0.0 && count <= MOST_CORNERS {
+        true => Ok(count),
+        false => Err(InputError::OutOfRange {
+            what: "excess",
+            value: asked,
+            allowed: "at least 2.1e-8 of the radius",
+        }),
+    }
+}
+
+impl Body {
+    /// A cylinder about the origin, from `−half_height` to `half_height` along z: a polytope about it, which exceeds it
+    /// by at most [`EXCESS_SHARE`] of the radius. [`Round::enclosed`] makes finer ones.
+    ///
+    /// # Guarantee
+    /// That of [`Enclosure`]: contacts may be early by the excess, and never late.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`].
+    ///
+    /// ```
+    /// use ccd_core::Body;
+    /// let wheel = Body::cylinder(0.5, 0.1)?;
+    /// assert!(wheel.span() > 0.5 && wheel.span() < 0.52);
+    /// assert!(Body::cylinder(-0.5, 0.1).is_err());
+    /// # Ok::<(), ccd_core::InputError>(())
+    /// ```
+    pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
+        Round::cylinder(radius, half_height)?.usual_body()
+    }
+
+    /// A cone about the origin, whose base is at `−half_height` along z, and whose apex at `half_height`: a polytope
+    /// about it, as of [`Body::cylinder`].
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`].
+    pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
+        Round::cone(radius, half_height)?.usual_body()
+    }
+}
+
+impl Round {
+    fn usual_body(&self) -> Result<Body, InputError> {
+        self.enclosed(self.usual_excess())?.body()
+    }
+}
+
+#[cfg(test)]
+mod tests;
