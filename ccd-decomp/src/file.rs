@@ -15,6 +15,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The extension of a stored body's file.
 pub const STORED_EXTENSION: &str = "ccd";
 
+/// Returns whether a file holds a stored body, by its extension.
+pub(crate) fn is_stored(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    extension.eq_ignore_ascii_case(STORED_EXTENSION)
+}
+
 /// The stored parts of a model, in this order. A hull tree is stored without its pieces, which are there
 /// already. A change to any of these types, or to their order, needs another version of the format.
 type Stored = (

@@ -93,6 +93,7 @@ pub use file::error::{StoreError, StoreFault};
 pub use file::obj::{write_obj, write_obj_pieces};
 pub use hull::HullError;
 pub use mesh::TriangleMesh;
+pub use mesh::adjustments::{Adjustments, Axis, UnknownAdjustment};
 pub use mesh::affine::AffineMap;
 pub use mesh::error::{MeshError, MeshFault};
 pub use mesh::format::Format;

@@ -1,5 +1,6 @@
 //! Triangle meshes: read, checked and repaired.
 
+pub(crate) mod adjustments;
 pub(crate) mod affine;
 mod combine;
 #[cfg_attr(

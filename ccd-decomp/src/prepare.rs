@@ -13,6 +13,7 @@ use crate::pieces::patches::{Order, decompose};
 use crate::pieces::vhacd::approximate;
 use crate::solid::bounding_solid;
 use crate::solid::topology::Topology;
+use ccd_core::Volume;
 use error::PrepareError;
 use model::{Model, Prepared};
 use parts::{Choice, Parts, PieceTree};
@@ -28,6 +29,9 @@ pub enum Detail {
     Auto,
     /// Makes one piece of every triangle: exact for any mesh or soup.
     Triangles,
+    /// Makes one piece of every triangle, and fills nothing: a closed mesh is a hollow surface, and what is inside it
+    /// touches nothing.
+    Surface,
     /// Makes convex patches of the surface: exact, for meshes that bound a solid.
     Patches(Order),
     /// Makes one piece of the solid itself: exact, for convex ones.
@@ -81,7 +85,7 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
 ///
 /// # Guarantee
 /// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it
-/// bounds. The body is solid exactly when the mesh is closed, neighbouring faces are oriented alike, and it is
+/// bounds. Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented alike, and it is
 /// [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside out are
 /// turned round, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
 ///
@@ -106,7 +110,7 @@ impl Detail {
     /// Returns whether a model of this kind may hold the triangles of the mesh.
     fn may_need_triangles(self) -> bool {
         match self {
-            Detail::Auto | Detail::Triangles | Detail::Hull => true,
+            Detail::Auto | Detail::Triangles | Detail::Surface | Detail::Hull => true,
             Detail::Patches(_) | Detail::Vhacd { .. } => false,
         }
     }
@@ -121,7 +125,7 @@ impl Choice {
         let mesh = turned.as_ref().unwrap_or(mesh);
         let (parts, why) = match detail {
             Detail::Auto => choose::choose(mesh, &topology, edges),
-            Detail::Triangles => (Parts::Triangles, Why::Asked),
+            Detail::Triangles | Detail::Surface => (Parts::Triangles, Why::Asked),
             Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
             Detail::Hull => {
                 let polytope = as_polytope(&bounding_solid(mesh)?)?;
@@ -132,7 +136,12 @@ impl Choice {
                 (Parts::Vhacd(approximation), Why::Asked)
             }
         };
+        let volume = match topology.is_solid() && detail != Detail::Surface {
+            true => Volume::Solid,
+            false => Volume::Surface,
+        };
         Ok(Choice {
+            volume,
             parts,
             why,
             topology,

@@ -3,7 +3,8 @@
 pub(crate) mod error;
 pub(crate) mod mesh_source;
 
-use crate::file::STORED_EXTENSION;
+use crate::file::is_stored;
+use crate::mesh::adjustments::Adjustments;
 use crate::mesh::mesh_file::files_of;
 use crate::mesh::unit::Unit;
 use crate::prepare::error::PrepareError;
@@ -23,12 +24,12 @@ use std::str::FromStr;
 /// ```
 /// use ccd_decomp::BodySource;
 /// assert_eq!("sphere:0.5".parse(), Ok(BodySource::Sphere { radius: 0.5 }));
-/// assert_eq!("part.obj".parse(), Ok(BodySource::Mesh("part.obj".into())));
 /// assert_eq!("part.ccd".parse(), Ok(BodySource::Stored("part.ccd".into())));
-/// let lid = BodySource::Part { file: "scene.glb".into(), part: "lid".into() };
-/// assert_eq!("scene.glb#lid".parse(), Ok(lid));
+/// let lid = "scene.glb#lid@mm".parse()?;
+/// assert_eq!("scene.glb#lid@mm".parse(), Ok(BodySource::Mesh(lid)));
 /// let error = "ball:0.5".parse::<BodySource>().unwrap_err();
 /// assert!(error.to_string().contains("sphere:0.5"));
+/// # Ok::<(), ccd_decomp::UnknownAdjustment>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodySource {
@@ -69,15 +70,8 @@ pub enum BodySource {
     },
     /// The path of a file that ends in `.ccd`: a [stored](crate::Model::save) body.
     Stored(PathBuf),
-    /// `FILE#PART`: one part of a mesh file, by its name or number, see [`MeshSource`].
-    Part {
-        /// The path of the file.
-        file: PathBuf,
-        /// The name or number of the part.
-        part: String,
-    },
-    /// The path of a mesh file: anything else. All its parts are one body.
-    Mesh(PathBuf),
+    /// A mesh file, or a part of one, with adjustments: anything else. All parts of a file are one body.
+    Mesh(MeshSource),
 }
 
 /// Makes the body that a text describes.
@@ -96,7 +90,7 @@ impl BodySource {
     /// [`BodyError::Mesh`] and [`BodyError::Store`] when the file cannot be read, [`BodyError::InFile`] when its
     /// content cannot be made into a body, [`BodyError::Input`] when a length is out of range.
     pub fn load(&self, detail: Detail) -> Result<Prepared, BodyError> {
-        self.load_with(None, detail)
+        self.load_adjusted(&Adjustments::NONE, detail)
     }
 
     /// Makes the body, as [`BodySource::load`] does, with coordinates in a unit. Those of a mesh file that states
@@ -106,10 +100,19 @@ impl BodySource {
     /// # Errors
     /// Those of [`BodySource::load`].
     pub fn load_in(&self, unit: Unit, detail: Detail) -> Result<Prepared, BodyError> {
-        self.load_with(Some(unit), detail)
+        self.load_adjusted(&Adjustments::NONE.converted_to(unit), detail)
     }
 
-    fn load_with(&self, unit: Option<Unit>, detail: Detail) -> Result<Prepared, BodyError> {
+    /// Makes the body, as [`BodySource::load`] does, with adjustments of mesh files beside those of the description.
+    /// Shapes stay as they are.
+    ///
+    /// # Errors
+    /// Those of [`BodySource::load`]; [`SourceError::Prepared`] for a stored body that would have to be made anew.
+    pub fn load_adjusted(
+        &self,
+        adjustments: &Adjustments,
+        detail: Detail,
+    ) -> Result<Prepared, BodyError> {
         let prepared = match *self {
             BodySource::Box { half_extents } => Prepared::primitive(Body::cuboid(half_extents)?),
             BodySource::Sphere { radius } => Prepared::primitive(Body::ball(radius)?),
@@ -127,16 +130,22 @@ impl BodySource {
                 half_height,
                 excess,
             } => Prepared::round(&Round::cone(radius, half_height)?, excess)?,
-            BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
-            BodySource::Mesh(ref file) => {
-                let (file, part) = (file.clone(), None);
-                return load_mesh(&MeshSource { file, part }, unit, detail);
+            BodySource::Stored(ref path) if adjustments.need_mesh() => {
+                return Err(SourceError::Prepared { file: path.clone() }.into());
             }
-            BodySource::Part { ref file, ref part } => {
-                let (file, part) = (file.clone(), Some(part.clone()));
-                return load_mesh(&MeshSource { file, part }, unit, detail);
+            BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
+            BodySource::Mesh(ref source) => {
+                let adjustments = source.adjustments.and(adjustments)?;
+                return load_mesh(
+                    &MeshSource {
+                        adjustments,
+                        ..source.clone()
+                    },
+                    detail,
+                );
             }
         };
+        let unit = adjustments.wanted();
         Ok(Prepared { unit, ..prepared })
     }
 
@@ -147,19 +156,16 @@ impl BodySource {
     pub fn files(&self) -> Result<Vec<PathBuf>, BodyError> {
         Ok(match self {
             BodySource::Stored(path) => vec![path.clone()],
-            BodySource::Mesh(file) | BodySource::Part { file, .. } => files_of(file)?,
+            BodySource::Mesh(source) => files_of(&source.file)?,
             _ => Vec::new(),
         })
     }
 }
 
-fn load_mesh(
-    source: &MeshSource,
-    unit: Option<Unit>,
-    detail: Detail,
-) -> Result<Prepared, BodyError> {
-    let (mesh, unit) = source.read(unit)?;
-    let prepared = in_file(source.to_string().as_ref(), body_from_mesh(&mesh, detail))?;
+fn load_mesh(source: &MeshSource, detail: Detail) -> Result<Prepared, BodyError> {
+    let (mesh, unit) = source.read()?;
+    let made = body_from_mesh(&mesh, source.detail(detail));
+    let prepared = in_file(source.to_string().as_ref(), made)?;
     Ok(Prepared { unit, ..prepared })
 }
 
@@ -173,10 +179,9 @@ fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError
 impl BodySource {
     /// The description of a file, by its extension: a stored body, or a mesh.
     pub fn of_file(path: PathBuf) -> Self {
-        let extension = path.extension().unwrap_or_default();
-        match extension.eq_ignore_ascii_case(STORED_EXTENSION) {
+        match is_stored(&path) {
             true => BodySource::Stored(path),
-            false => BodySource::Mesh(path),
+            false => BodySource::Mesh(path.into()),
         }
     }
 }
@@ -222,13 +227,16 @@ impl FromStr for BodySource {
                     shape: shape.into(),
                 })
             }
-            _ => Ok(match MeshSource::from(text) {
-                MeshSource {
-                    file,
-                    part: Some(part),
-                } => BodySource::Part { file, part },
-                MeshSource { file, part: None } => BodySource::of_file(file),
-            }),
+            _ => {
+                let source: MeshSource = text.parse()?;
+                match is_stored(&source.file) && source.part.is_none() {
+                    true if source.adjustments == Adjustments::NONE => {
+                        Ok(BodySource::Stored(source.file))
+                    }
+                    true => Err(SourceError::Prepared { file: source.file }),
+                    false => Ok(BodySource::Mesh(source)),
+                }
+            }
         }
     }
 }

@@ -6,7 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
-    Detail, MeshSource, Model, STORED_EXTENSION, StoreFault, TriangleMesh, Unit, prepare,
+    Adjustments, Axis, Detail, MeshSource, Model, STORED_EXTENSION, SourceError, StoreFault, TriangleMesh,
+    Unit, prepare,
 };
 use rigid_ccd::{Body, Round, Volume};
 use std::borrow::Cow;
@@ -21,6 +22,7 @@ use std::path::{Path, PathBuf};
 ///     vertices: array of shape (n, 3), in any unit of length.
 ///     faces: array of shape (m, 3), integers from 0.
 ///     pieces: the convex pieces to make: "auto", "triangles", "patches" or "hull".
+///     surface: whether a closed mesh is a hollow surface, too.
 ///
 /// Raises:
 ///     InputError: the mesh is no mesh; the message names the element.
@@ -71,15 +73,20 @@ pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&
 #[pymethods]
 impl PyBody {
     #[new]
-    #[pyo3(signature = (vertices, faces, *, pieces = "auto"))]
-    fn new(vertices: &Bound<'_, PyAny>, faces: &Bound<'_, PyAny>, pieces: &str) -> PyResult<Self> {
+    #[pyo3(signature = (vertices, faces, *, pieces = "auto", surface = false))]
+    fn new(
+        vertices: &Bound<'_, PyAny>,
+        faces: &Bound<'_, PyAny>,
+        pieces: &str,
+        surface: bool,
+    ) -> PyResult<Self> {
         let py = vertices.py();
         let points: Vec<DVec3> = rows::<3>(vertices, "vertices")?
             .into_iter()
             .map(DVec3::from)
             .collect();
         let faces = triangles(faces)?;
-        let detail = detail(pieces)?;
+        let detail = detail(pieces, surface)?;
         py.detach(|| {
             let mesh = TriangleMesh::new(points, &faces).map_err(input)?;
             PyBody::of(prepare(&mesh, detail).map_err(input)?)
@@ -91,23 +98,48 @@ impl PyBody {
     /// Args:
     ///     path: the file.
     ///     part: the name or the number of a part of a scene; None for all of it.
-    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files that state their unit (glTF, 3MF) to it.
+    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files whose unit is known to it: of glTF and 3MF, or by
+    ///         `file_unit`.
     ///     pieces: as of `Body`.
+    ///     file_unit: the unit of the file's numbers, whatever the file says.
+    ///     scale: a factor on all coordinates.
+    ///     mirror: "x", "y" or "z" changes the signs of that coordinate, and turns the triangles round.
+    ///     surface: as of `Body`.
     ///
     /// Raises:
     ///     InputError: the file is no mesh; OSError is raised for one that cannot be read.
     #[classmethod]
-    #[pyo3(signature = (path, *, part = None, unit = None, pieces = "auto"))]
+    #[pyo3(signature = (
+        path, *, part = None, unit = None, pieces = "auto", file_unit = None, scale = None, mirror = None, surface = false
+    ))]
+    // Python's keyword arguments.
+    #[allow(clippy::too_many_arguments)]
     fn from_file(
         class: &Bound<'_, PyType>,
         path: PathBuf,
         part: Option<String>,
         unit: Option<&str>,
         pieces: &str,
+        file_unit: Option<&str>,
+        scale: Option<f64>,
+        mirror: Option<&str>,
+        surface: bool,
     ) -> PyResult<Self> {
-        let detail = detail(pieces)?;
-        let unit = unit.map(str::parse::<Unit>).transpose();
-        let unit = unit.map_err(|error| input(format!("unit: {error}")))?;
+        let detail = detail(pieces, surface)?;
+        let mut adjustments = Adjustments::NONE;
+        if let Some(unit) = named_unit("file_unit", file_unit)? {
+            adjustments = adjustments.stated_in(unit);
+        }
+        if let Some(scale) = scale {
+            adjustments = adjustments.scaled(scale).map_err(input)?;
+        }
+        if let Some(axis) = mirror {
+            adjustments = adjustments.mirrored(named_axis(axis)?);
+        }
+        let as_prepared = adjustments == Adjustments::NONE && !surface;
+        if let Some(unit) = named_unit("unit", unit)? {
+            adjustments = adjustments.converted_to(unit);
+        }
         class.py().detach(|| {
             // A file that cannot be read is an OSError. A pipe would be waited for, and is none.
             let there = std::fs::metadata(&path).map_err(|error| of_file(&error, &path))?;
@@ -116,10 +148,18 @@ impl PyBody {
             }
             std::fs::File::open(&path).map_err(|error| of_file(&error, &path))?;
             let model = match is_stored(&path) && part.is_none() {
-                true => Model::load(&path).map_err(input)?,
+                true if as_prepared => Model::load(&path).map_err(input)?,
+                true => {
+                    let error = SourceError::Prepared { file: path };
+                    return Err(input(error));
+                }
                 false => {
-                    let source = MeshSource { file: path, part };
-                    let (mesh, _) = source.read(unit).map_err(input)?;
+                    let source = MeshSource {
+                        file: path,
+                        part,
+                        adjustments,
+                    };
+                    let (mesh, _) = source.read().map_err(input)?;
                     prepare(&mesh, detail).map_err(|error| input(format!("{source}: {error}")))?
                 }
             };
@@ -129,11 +169,12 @@ impl PyBody {
 
     /// Takes a mesh of trimesh, or whatever has `vertices` and `faces`.
     #[classmethod]
-    #[pyo3(signature = (mesh, *, pieces = "auto"))]
+    #[pyo3(signature = (mesh, *, pieces = "auto", surface = false))]
     fn from_trimesh(
         _class: &Bound<'_, PyType>,
         mesh: &Bound<'_, PyAny>,
         pieces: &str,
+        surface: bool,
     ) -> PyResult<Self> {
         let part = |name: &str| match mesh.getattr_opt(name)? {
             Some(values) => Ok(values),
@@ -146,7 +187,7 @@ impl PyBody {
                 mesh,
             )),
         };
-        PyBody::new(&part("vertices")?, &part("faces")?, pieces)
+        PyBody::new(&part("vertices")?, &part("faces")?, pieces, surface)
     }
 
     /// Makes a box about its origin, by its half extents along x, y and z.
@@ -335,8 +376,28 @@ fn is_stored(path: &Path) -> bool {
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
 }
 
-fn detail(name: &str) -> PyResult<Detail> {
+fn named_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
+    let unit = name.map(str::parse::<Unit>).transpose();
+    unit.map_err(|error| input(format!("{argument}: {error}")))
+}
+
+fn named_axis(name: &str) -> PyResult<Axis> {
     match name {
+        "x" => Ok(Axis::X),
+        "y" => Ok(Axis::Y),
+        "z" => Ok(Axis::Z),
+        _ => Err(InputError::new_err(format!(
+            "mirror: {name:?} is none of \"x\", \"y\", \"z\""
+        ))),
+    }
+}
+
+fn detail(name: &str, surface: bool) -> PyResult<Detail> {
+    match name {
+        "auto" | "triangles" if surface => Ok(Detail::Surface),
+        "patches" | "hull" if surface => Err(InputError::new_err(format!(
+            "surface: {name} fill a solid; a hollow surface has pieces=\"triangles\""
+        ))),
         "auto" => Ok(Detail::Auto),
         "triangles" => Ok(Detail::Triangles),
         "patches" => Ok(Detail::Patches(Default::default())),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rigid_ccd import Body, InputError
+from rigid_ccd import Body, InputError, Motion, closest_approach
 
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 # Outward.
@@ -111,6 +111,34 @@ def test_files_are_read(tmp_path: Path) -> None:
     path.write_text("v 1 2\n")
     with pytest.raises(InputError):
         Body.from_file(path)
+
+
+def test_files_are_adjusted(tmp_path: Path) -> None:
+    path = tmp_path / "cube.obj"
+    lines = ["v " + " ".join(map(str, v + 2)) for v in CORNERS] + ["f " + " ".join(map(str, f + 1)) for f in FACES]
+    path.write_text("\n".join(lines))
+
+    def gap(body: Body, at: list[float]) -> float:
+        # The cube is from 1 to 3, a ball of radius 1 beside it.
+        return closest_approach(body, Body.sphere(1), None, Motion(at), tolerance=1e-9).upper
+
+    assert gap(Body.from_file(path), [10, 2, 2]) == pytest.approx(6)
+    mirrored = Body.from_file(path, mirror="x")
+    assert gap(mirrored, [-10, 2, 2]) == pytest.approx(6)
+    assert mirrored.is_solid
+    assert gap(Body.from_file(path, file_unit="mm", unit="cm", scale=5), [10, 1, 1]) == pytest.approx(7.5)
+    hollow = Body.from_file(path, surface=True)
+    assert not hollow.is_solid and hollow.pieces == 12
+    assert not Body(CORNERS, FACES, surface=True).is_solid
+    for wrong in ({"scale": 0}, {"scale": float("nan")}, {"mirror": "w"}, {"file_unit": "mile"}):
+        with pytest.raises(InputError, match=next(iter(wrong))):
+            Body.from_file(path, **wrong)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="surface"):
+        Body(CORNERS, FACES, pieces="hull", surface=True)
+    stored = saved(hollow, tmp_path / "cube.ccd")
+    assert not stored.is_solid
+    with pytest.raises(InputError, match="a prepared body"):
+        Body.from_file(tmp_path / "cube.ccd", scale=2)
 
 
 def test_meshes_of_trimesh_are_taken() -> None:

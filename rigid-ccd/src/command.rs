@@ -9,13 +9,13 @@ mod completions;
 mod decompose;
 mod files;
 mod man;
+mod meshes;
 mod numbers;
 mod pair;
 mod pieces;
 mod progress;
 mod query;
 mod size;
-mod unit;
 mod view;
 
 pub use bad_rows::BadRows;

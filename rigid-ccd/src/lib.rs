@@ -106,7 +106,7 @@ pub use ccd_distance_vmarch::Vmarch;
 pub use error::Error;
 pub use hit::{Hit, HitKind};
 #[cfg(feature = "meshes")]
-pub use load::{load, load_in, load_parts};
+pub use load::{load, load_adjusted, load_in, load_parts};
 pub use parallel::{ParallelSolver, QueryError, first_contacts};
 #[cfg(feature = "scenes")]
 pub use scene::{Groups, Impact, PairError, Scene, Stop};

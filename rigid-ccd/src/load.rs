@@ -1,7 +1,9 @@
 //! Bodies from files.
 
 use ccd_core::Body;
-use ccd_decomp::{BodyError, BodySource, Detail, MeshFile, NamedMesh, Unit, body_from_mesh};
+use ccd_decomp::{
+    Adjustments, BodyError, BodySource, Detail, MeshFile, NamedMesh, Unit, body_from_mesh,
+};
 use std::path::Path;
 
 /// Loads a body from a mesh file (OBJ, STL, PLY, OFF; glTF and 3MF with the features `gltf` and `3mf`) or a prepared
@@ -39,6 +41,25 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
 pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
     let source = BodySource::of_file(path.as_ref().into());
     Ok(source.load_in(unit, Detail::Auto)?.body)
+}
+
+/// Loads a body as [`load`] does, with adjustments of its mesh: the unit of its numbers where the file states none or a
+/// wrong one, a factor, a mirror, a closed mesh as a hollow surface.
+///
+/// # Errors
+/// Those of [`load`]. A prepared body is refused: it stays as it is.
+///
+/// ```
+/// use rigid_ccd::{load_adjusted, mesh::{Adjustments, Axis}};
+/// let half = Adjustments::default().scaled(0.5)?.mirrored(Axis::X);
+/// let part = load_adjusted("examples/bracket.obj", &half)?;
+/// # let whole = rigid_ccd::load("examples/bracket.obj")?;
+/// # assert!((part.span() / whole.span() - 0.5).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Result<Body, BodyError> {
+    let source = BodySource::of_file(path.as_ref().into());
+    Ok(source.load_adjusted(adjustments, Detail::Auto)?.body)
 }
 
 /// Loads a body from each part of a mesh file, with its name or, without one, its number from 0: the nodes with meshes

@@ -91,6 +91,24 @@ impl MeshFile {
         self.unit
     }
 
+    /// Takes the coordinates to be in a unit, whatever the file says.
+    ///
+    /// ```
+    /// use ccd_decomp::{Format, MeshFile, Unit};
+    /// let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    /// let file = MeshFile::from_reader(Format::Obj, text.as_bytes())?;
+    /// let mesh = file.stated_in(Unit::Inch).in_unit(Unit::Millimetre).into_mesh()?;
+    /// assert_eq!(mesh.vertices()[1].x, 25.4);
+    /// # Ok::<(), ccd_decomp::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn stated_in(mut self, unit: Unit) -> Self {
+        self.content.unit = Some(unit);
+        self.conversion = Conversion::NONE;
+        self.unit = Some(unit);
+        self
+    }
+
     /// Converts the coordinates to a unit. Those of a file without a unit are taken to be in it already.
     ///
     /// # Guarantee

@@ -20,6 +20,7 @@ pub(super) enum Parts {
 
 /// The pieces that were chosen for a mesh, and what was found on the way.
 pub(super) struct Choice {
+    pub(super) volume: Volume,
     pub(super) parts: Parts,
     pub(super) why: Why,
     pub(super) topology: Topology,
@@ -40,10 +41,7 @@ impl Choice {
         mesh: &TriangleMesh,
         triangles: Option<PieceTree>,
     ) -> Result<Model, PrepareError> {
-        let volume = match self.topology.is_solid() {
-            true => Volume::Solid,
-            false => Volume::Surface,
-        };
+        let volume = self.volume;
         let mut report = Report::new(self.parts.kind(), self.why, volume);
         let triangles = || match (triangles, &self.turned) {
             (Some(triangles), None) => Ok(triangles),

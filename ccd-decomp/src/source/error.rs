@@ -1,6 +1,7 @@
 //! Errors of describing and loading bodies.
 
 use crate::file::error::StoreError;
+use crate::mesh::adjustments::UnknownAdjustment;
 use crate::mesh::error::MeshError;
 use crate::prepare::error::PrepareError;
 use ccd_core::InputError;
@@ -59,6 +60,15 @@ pub enum SourceError {
         /// The number given.
         given: usize,
     },
+    /// What follows the file means nothing.
+    #[error(transparent)]
+    Adjustment(#[from] UnknownAdjustment),
+    /// A stored body stays as it was prepared.
+    #[error("{}: {PREPARED}", .file.display())]
+    Prepared {
+        /// The file.
+        file: PathBuf,
+    },
     /// A length is beyond the largest coordinate.
     #[error(
         "{length:?} is too large a length of {shape:?}: lengths are from 0 to {MAX_COORDINATE:e}; use a larger unit of length"
@@ -81,5 +91,9 @@ pub enum SourceError {
     },
 }
 
+const PREPARED: &str = "a prepared body has its unit, size and pieces already; use the mesh it was made from, or \
+                        prepare it with the adjustments";
+
 const EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \
-                        half height), cylinder:0.2,1 or cone:0.2,1 (the same), a file such as part.obj, or a part of one such as scene.glb#lid";
+                        half height), cylinder:0.2,1 or cone:0.2,1 (the same), a file such as part.obj, a part \
+                        of one such as scene.glb#lid, or a file with adjustments such as part.stl@mm";

@@ -1,41 +1,52 @@
 //! Meshes, and parts of them, as they are named on a command line.
 
+use crate::file::is_stored;
 use crate::mesh::TriangleMesh;
+use crate::mesh::adjustments::{Adjustments, UnknownAdjustment};
 use crate::mesh::error::MeshError;
 use crate::mesh::format::Format;
 use crate::mesh::mesh_file::MeshFile;
 use crate::mesh::unit::Unit;
+use crate::prepare::Detail;
 use std::ffi::OsString;
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
-/// A mesh file, or a part of one: `FILE` or `FILE#PART`.
+/// A mesh file, or a part of one, with adjustments: `FILE`, `FILE#PART`, `FILE@mm`, `FILE#PART@scale=0.5@mirror=x`.
 ///
-/// The part is what follows the first `#` after an extension of a mesh. A file that has the whole text as its name is
-/// that file.
+/// The part is what follows the first `#` after an extension of a mesh, the adjustments what follows `@` there. Of a part,
+/// only words that are adjustments are none of its name. A file that has the whole text as its name is that file.
 ///
 /// ```
 /// use ccd_decomp::MeshSource;
-/// let lid = MeshSource::from("plate.3mf#lid.stl");
+/// let lid: MeshSource = "plate.3mf#lid.stl@mirror=x".parse()?;
 /// assert_eq!((lid.file.to_str(), lid.part.as_deref()), (Some("plate.3mf"), Some("lid.stl")));
-/// assert_eq!(MeshSource::from("part#2.stl").part, None);
+/// assert_eq!(lid.to_string(), "plate.3mf#lid.stl@mirror=x");
+/// assert_eq!("part#2.stl".parse::<MeshSource>()?.part, None);
+/// # Ok::<(), ccd_decomp::UnknownAdjustment>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MeshSource {
     /// The path of the file.
     pub file: PathBuf,
     /// The name of the part or its number, from 0; none for all parts together.
     pub part: Option<String>,
+    /// What is changed about the mesh.
+    pub adjustments: Adjustments,
 }
 
 impl MeshSource {
-    /// Reads the mesh; converted to a unit, if one is given. Returns the unit of its coordinates too, if it is known.
+    /// Reads the mesh, with its adjustments. Returns the unit of its coordinates too, if it is known.
     ///
     /// # Errors
     /// [`MeshError`], which names the file.
-    pub fn read(&self, unit: Option<Unit>) -> Result<(TriangleMesh, Option<Unit>), MeshError> {
+    pub fn read(&self) -> Result<(TriangleMesh, Option<Unit>), MeshError> {
         let mut file = MeshFile::read(&self.file)?;
-        if let Some(unit) = unit {
+        if let Some(unit) = self.adjustments.stated() {
+            file = file.stated_in(unit);
+        }
+        if let Some(unit) = self.adjustments.wanted() {
             file = file.in_unit(unit);
         }
         let unit = file.unit();
@@ -43,45 +54,107 @@ impl MeshSource {
             Some(part) => file.part(part)?,
             None => file.into_mesh()?,
         };
-        Ok((mesh, unit))
+        match self.adjustments.map() {
+            Some(map) => {
+                let mapped = mesh.transformed(map);
+                Ok((
+                    mapped.map_err(|error| error.fault.in_file(&self.file))?,
+                    unit,
+                ))
+            }
+            None => Ok((mesh, unit)),
+        }
     }
-}
 
-impl From<&str> for MeshSource {
-    fn from(text: &str) -> Self {
-        let is_mesh = |(at, _): &(usize, &str)| Format::from_path(&text[..*at]).is_ok();
-        let split = text.match_indices('#').find(is_mesh);
-        match split.filter(|_| !Path::new(text).is_file()) {
-            Some((at, _)) => MeshSource {
-                file: text[..at].into(),
-                part: Some(text[at + 1..].into()),
-            },
-            None => MeshSource {
-                file: text.into(),
-                part: None,
-            },
+    /// Returns the kind of pieces, where another one is asked for: a mesh that is to be hollow has its own.
+    pub fn detail(&self, asked: Detail) -> Detail {
+        match self.adjustments.is_hollow() {
+            true => Detail::Surface,
+            false => asked,
+        }
+    }
+
+    fn whole(file: impl Into<PathBuf>) -> Self {
+        MeshSource {
+            file: file.into(),
+            part: None,
+            adjustments: Adjustments::NONE,
         }
     }
 }
 
+/// The place in a text at which the name of a file ends, and what follows it.
+fn split(text: &str) -> Option<(&str, char, &str)> {
+    let mut ends = text.match_indices(['#', '@']);
+    let (at, mark) = ends.find(|&(at, mark)| {
+        let file = Path::new(&text[..at]);
+        // A folder may end like a mesh.
+        let is_folder = mark == "@" && text[at..].contains(['/', '\\']);
+        let is_stored = mark == "@" && is_stored(file);
+        !is_folder && (is_stored || Format::from_path(file).is_ok())
+    })?;
+    Some((&text[..at], mark.chars().next()?, &text[at + 1..]))
+}
+
+impl FromStr for MeshSource {
+    type Err = UnknownAdjustment;
+
+    fn from_str(text: &str) -> Result<Self, UnknownAdjustment> {
+        let Some((file, mark, rest)) = split(text).filter(|_| !Path::new(text).is_file()) else {
+            return Ok(MeshSource::whole(text));
+        };
+        if mark == '@' {
+            let words = rest.split('@');
+            return Ok(MeshSource {
+                adjustments: words
+                    .clone()
+                    .try_fold(Adjustments::NONE, Adjustments::with_word)?,
+                ..MeshSource::whole(file)
+            });
+        }
+        let (mut part, mut words) = (rest, Vec::new());
+        while let Some((before, word)) = part.rsplit_once('@')
+            && Adjustments::NONE.with_word(word).is_ok()
+        {
+            part = before;
+            words.push(word);
+        }
+        Ok(MeshSource {
+            part: Some(part.into()),
+            adjustments: words
+                .into_iter()
+                .rev()
+                .try_fold(Adjustments::NONE, Adjustments::with_word)?,
+            ..MeshSource::whole(file)
+        })
+    }
+}
+
+/// A path: all of a file, as it is.
+impl From<PathBuf> for MeshSource {
+    fn from(file: PathBuf) -> Self {
+        MeshSource::whole(file)
+    }
+}
+
 /// A path that is no text names no part.
-impl From<OsString> for MeshSource {
-    fn from(text: OsString) -> Self {
+impl TryFrom<OsString> for MeshSource {
+    type Error = UnknownAdjustment;
+
+    fn try_from(text: OsString) -> Result<Self, UnknownAdjustment> {
         match text.to_str() {
-            Some(text) => text.into(),
-            None => MeshSource {
-                file: text.into(),
-                part: None,
-            },
+            Some(text) => text.parse(),
+            None => Ok(MeshSource::whole(text)),
         }
     }
 }
 
 impl fmt::Display for MeshSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.part {
-            Some(part) => write!(f, "{}#{part}", self.file.display()),
-            None => write!(f, "{}", self.file.display()),
+        write!(f, "{}", self.file.display())?;
+        if let Some(part) = &self.part {
+            write!(f, "#{part}")?;
         }
+        write!(f, "{}", self.adjustments)
     }
 }

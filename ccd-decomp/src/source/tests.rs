@@ -1,9 +1,10 @@
 use super::error::{BodyError, SourceError};
 use super::{BodySource, parse_body};
-use crate::{Detail, MeshFault, Prepared};
+use crate::{Adjustments, Axis, Detail, MeshFault, MeshSource, Prepared, Unit};
 use ccd_core::Volume;
 use ccd_core::glam::dvec3;
 use rstest::rstest;
+use std::path::PathBuf;
 
 #[rstest]
 #[case("box:1,2,3", BodySource::Box { half_extents: dvec3(1.0, 2.0, 3.0) })]
@@ -11,11 +12,153 @@ use rstest::rstest;
 #[case("capsule: 1e-1 , 2", BodySource::Capsule { radius: 0.1, half_height: 2.0 })]
 #[case("cylinder:1,2", BodySource::Cylinder { radius: 1.0, half_height: 2.0, excess: None })]
 #[case("cone:1,2,1e-3", BodySource::Cone { radius: 1.0, half_height: 2.0, excess: Some(1e-3) })]
-#[case("dir/part.stl", BodySource::Mesh("dir/part.stl".into()))]
-#[case(r"C:\part.stl", BodySource::Mesh(r"C:\part.stl".into()))]
-#[case("./box:1.obj", BodySource::Mesh("./box:1.obj".into()))]
+#[case("dir/part.ccd", BodySource::Stored("dir/part.ccd".into()))]
+#[case("dir/part.stl", mesh("dir/part.stl", None, ""))]
+#[case(r"C:\part.stl", mesh(r"C:\part.stl", None, ""))]
+#[case(r"C:\part.stl@mm", mesh(r"C:\part.stl", None, "@mm"))]
+#[case("./box:1.obj", mesh("./box:1.obj", None, ""))]
+#[case("part.stl@in@scale=0.5", mesh("part.stl", None, "@in@scale=0.5"))]
+#[case("me@home/part.stl@surface", mesh("me@home/part.stl", None, "@surface"))]
+#[case("old.stl@mm/part.stl", mesh("old.stl@mm/part.stl", None, ""))]
+#[case("a.glb#lid@2@mirror=x", mesh("a.glb", Some("lid@2"), "@mirror=x"))]
+#[case("a.glb#lid@mn", mesh("a.glb", Some("lid@mn"), ""))]
 fn descriptions_of_bodies(#[case] text: &str, #[case] expected: BodySource) {
     assert_eq!(text.parse(), Ok(expected));
+}
+
+/// A mesh whose adjustments print as that.
+fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
+    let adjustments = adjusted.split('@').skip(1);
+    let adjustments = adjustments.try_fold(Adjustments::NONE, Adjustments::with_word);
+    let adjustments = adjustments.unwrap();
+    assert_eq!(adjustments.to_string(), adjusted);
+    BodySource::Mesh(MeshSource {
+        file: file.into(),
+        part: part.map(Into::into),
+        adjustments,
+    })
+}
+
+#[rstest]
+#[case("part.stl@mn", "@mn means nothing after a file; use @mm")]
+#[case("part.stl@scale=0", "@scale=0 means nothing")]
+#[case("part.stl@scale=-2", "@scale=-2 means nothing")]
+#[case("part.stl@scale=nan", "@scale=nan means nothing")]
+#[case("part.stl@mirror=w", "@mirror=w means nothing")]
+#[case("part.stl@mm@", "@ means nothing")]
+#[case("part.ccd@mm", "part.ccd: a prepared body has its unit")]
+fn what_means_nothing_after_a_file_is_told(#[case] text: &str, #[case] message: &str) {
+    let error = text.parse::<BodySource>().unwrap_err().to_string();
+    assert!(error.starts_with(message), "{error}");
+}
+
+/// A tetrahedron, in a file of that name.
+struct Tetrahedron(PathBuf);
+
+impl Tetrahedron {
+    fn named(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("{}-{name}", std::process::id()));
+        let faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+        let text = format!("v 1 0 0\nv 3 0 0\nv 1 2 0\nv 1 0 2\n{faces}");
+        std::fs::write(&path, text).unwrap();
+        Tetrahedron(path)
+    }
+
+    /// Loads it with words after its name.
+    fn with(&self, words: &str) -> Prepared {
+        self.try_with(words).unwrap()
+    }
+
+    fn try_with(&self, words: &str) -> Result<Prepared, BodyError> {
+        parse_body(&format!("{}{words}", self.0.display()), Detail::Auto)
+    }
+}
+
+impl Drop for Tetrahedron {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+/// The least and the greatest coordinate along x of a body.
+fn along_x(prepared: &Prepared) -> [f64; 2] {
+    let xs = prepared.body.pieces().points().iter().map(|p| p.x);
+    let fold = |of: fn(f64, f64) -> f64| xs.clone().reduce(of).unwrap();
+    [
+        fold(ccd_core::order::lesser),
+        fold(ccd_core::order::greater),
+    ]
+}
+
+#[test]
+fn files_are_taken_as_their_adjustments_say() {
+    let file = Tetrahedron::named("adjusted.obj");
+    assert_eq!(along_x(&file.with("")), [1.0, 3.0]);
+    assert_eq!(along_x(&file.with("@scale=0.1")), [0.1, 3.0 * 0.1]);
+    let mirrored = file.with("@mirror=x");
+    assert_eq!(along_x(&mirrored), [-3.0, -1.0]);
+    // The triangles are turned round with it, so that nothing has to be repaired.
+    assert_eq!(
+        mirrored.report.to_string(),
+        file.with("").report.to_string()
+    );
+    assert_eq!(mirrored.report.volume, Volume::Solid);
+    assert!(mirrored.report.topology.unwrap().signed_volume > 0.0);
+    let stated = file.with("@in");
+    assert_eq!(
+        (along_x(&stated), stated.unit),
+        ([1.0, 3.0], Some(Unit::Inch))
+    );
+    let text = format!("{}@in", file.0.display());
+    let source: BodySource = text.parse().unwrap();
+    let converted = source.load_in(Unit::Millimetre, Detail::Auto).unwrap();
+    assert_eq!(along_x(&converted), [25.4, 3.0 * 25.4]);
+    // Beside those of all files.
+    let doubled = Adjustments::NONE.scaled(2.0).unwrap().mirrored(Axis::X);
+    let both = source.load_adjusted(&doubled, Detail::Auto).unwrap();
+    assert_eq!(along_x(&both), [-6.0, -2.0]);
+}
+
+#[test]
+fn a_closed_mesh_may_be_hollow() {
+    let file = Tetrahedron::named("hollow.obj");
+    assert_eq!(file.with("").report.volume, Volume::Solid);
+    let hollow = file.with("@surface");
+    assert_eq!(
+        (hollow.report.volume, hollow.report.pieces),
+        (Volume::Surface, 4)
+    );
+    assert_eq!(hollow.body.volume(), Volume::Surface);
+    assert_eq!(hollow.report.to_string(), "4 triangles, surface only");
+}
+
+/// A file of that very name wins.
+#[test]
+fn a_file_with_the_whole_text_as_its_name_is_that_file() {
+    let (plain, at) = (
+        Tetrahedron::named("it.obj"),
+        Tetrahedron::named("it.obj@scale=2.obj"),
+    );
+    assert_eq!(along_x(&at.with("")), [1.0, 3.0]);
+    drop(at);
+    assert!(matches!(
+        plain.try_with("@scale=2.obj"),
+        Err(BodyError::Source(_))
+    ));
+}
+
+#[test]
+fn a_stored_body_stays_as_it_is() {
+    let scaled = Adjustments::NONE.scaled(2.0).unwrap();
+    let stored = BodySource::Stored("part.ccd".into());
+    let error = stored.load_adjusted(&scaled, Detail::Auto).unwrap_err();
+    assert!(
+        matches!(error, BodyError::Source(SourceError::Prepared { .. })),
+        "{error}"
+    );
+    let shape = BodySource::Sphere { radius: 1.0 };
+    let ball = shape.load_adjusted(&scaled, Detail::Auto).unwrap();
+    assert_eq!(ball.body.pieces().get(0).radius, 1.0);
 }
 
 #[rstest]

@@ -57,7 +57,9 @@ class Interrupted(KeyboardInterrupt):
 
 @final
 class Body:
-    def __new__(cls, vertices: ArrayLike, faces: ArrayLike, *, pieces: _Pieces = "auto") -> Body: ...
+    def __new__(
+        cls, vertices: ArrayLike, faces: ArrayLike, *, pieces: _Pieces = "auto", surface: bool = False
+    ) -> Body: ...
     @classmethod
     def from_file(
         cls,
@@ -66,9 +68,13 @@ class Body:
         part: str | None = None,
         unit: _Unit | None = None,
         pieces: _Pieces = "auto",
+        file_unit: _Unit | None = None,
+        scale: float | None = None,
+        mirror: Literal["x", "y", "z"] | None = None,
+        surface: bool = False,
     ) -> Body: ...
     @classmethod
-    def from_trimesh(cls, mesh: _Mesh, *, pieces: _Pieces = "auto") -> Body: ...
+    def from_trimesh(cls, mesh: _Mesh, *, pieces: _Pieces = "auto", surface: bool = False) -> Body: ...
     @classmethod
     def box(cls, x: float, y: float, z: float) -> Body: ...
     @classmethod

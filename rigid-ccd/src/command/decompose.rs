@@ -5,8 +5,8 @@ mod statistics;
 use super::Exit;
 use super::files::check_folder;
 use super::files::{CannotWrite, same_file};
+use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
-use super::unit::UnitArgs;
 use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
@@ -26,11 +26,12 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
 pub(super) struct DecomposeArgs {
-    /// Mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply or .off), or a part of one by its name or number: scene.glb#lid
+    /// Mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply or .off), or a part of one by its name or number: scene.glb#lid;
+    /// either with adjustments: part.stl@mm, @scale=0.001, @mirror=x, @surface
     #[arg(value_name = "MESH")]
     mesh: OsString,
     #[command(flatten)]
-    unit: UnitArgs,
+    meshes: MeshArgs,
     #[command(flatten)]
     pieces: PiecesArgs,
     /// Order in which --pieces patches grow [default: cresting]
@@ -122,10 +123,11 @@ enum Output<'a> {
 /// Prepares the mesh, writes the output file if any, and prints the statistics.
 pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let out = args.out.as_deref().map(Output::of).transpose()?;
-    let source = MeshSource::from(args.mesh.clone());
+    let mut source = MeshSource::try_from(args.mesh.clone())?;
+    source.adjustments = source.adjustments.and(&args.meshes.adjustments())?;
     check_paths(&source.file, out.as_ref())?;
-    let detail = args.detail()?;
-    let (mesh, unit) = source.read(args.unit.unit())?;
+    let detail = source.detail(args.detail()?);
+    let (mesh, unit) = source.read()?;
     let spinner = match args.quiet {
         true => Progress::hidden(),
         false => Progress::of("preparing"),

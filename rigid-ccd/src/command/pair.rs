@@ -1,7 +1,7 @@
 //! The two bodies of queries.
 
+use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
-use super::unit::UnitArgs;
 use crate::batch::{Bodies, SolverKind};
 use crate::command::complain;
 use crate::command::files::same_file;
@@ -19,7 +19,7 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 pub(super) struct BodiesArgs {
     /// Body A: a mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply, .off), a part of one by its name or number
-    /// (scene.glb#lid), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R,
+    /// (scene.glb#lid), either with adjustments (part.stl@mm, @scale=0.001, @mirror=x, @surface), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R,
     /// capsule:R,HALF_HEIGHT, cylinder:R,HALF_HEIGHT or cone:R,HALF_HEIGHT
     #[arg(long, value_name = "BODY")]
     pub(super) a: String,
@@ -27,7 +27,7 @@ pub(super) struct BodiesArgs {
     #[arg(long, value_name = "BODY")]
     pub(super) b: String,
     #[command(flatten)]
-    pub(super) unit: UnitArgs,
+    pub(super) meshes: MeshArgs,
     #[command(flatten)]
     pub(super) pieces: PiecesArgs,
 }
@@ -109,10 +109,7 @@ fn load(
         true => Progress::hidden(),
         false => Progress::of(&format!("preparing {text}")),
     };
-    let loaded = match bodies.unit.unit() {
-        Some(unit) => source.load_in(unit, detail),
-        None => source.load(detail),
-    };
+    let loaded = source.load_adjusted(&bodies.meshes.adjustments(), detail);
     let Prepared {
         mut body,
         report,
@@ -149,15 +146,11 @@ fn with_hull_tree(body: Body) -> Result<Body> {
 
 fn same(a: &BodySource, b: &BodySource) -> bool {
     match (a, b) {
-        (BodySource::Mesh(a), BodySource::Mesh(b))
-        | (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
-        (
-            BodySource::Part { file, part },
-            BodySource::Part {
-                file: other_file,
-                part: other_part,
-            },
-        ) => same_file(file, other_file) && part == other_part,
+        (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
+        (BodySource::Mesh(a), BodySource::Mesh(b)) => {
+            let same = a.part == b.part && a.adjustments == b.adjustments;
+            same && same_file(&a.file, &b.file)
+        }
         _ => a == b,
     }
 }
@@ -166,8 +159,8 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
 fn files(source: &BodySource) -> Vec<PathBuf> {
     // A file that cannot be read is reported when its body is made.
     source.files().unwrap_or_else(|_| match source {
-        BodySource::Mesh(path) | BodySource::Stored(path) => vec![path.clone()],
-        BodySource::Part { file, .. } => vec![file.clone()],
+        BodySource::Stored(path) => vec![path.clone()],
+        BodySource::Mesh(source) => vec![source.file.clone()],
         _ => Vec::new(),
     })
 }

@@ -122,7 +122,7 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
             |name| name.to_string_lossy().into_owned(),
         )
     };
-    let unit = bodies.unit.unit();
+    let unit = bodies.meshes.unit();
     let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }

@@ -192,6 +192,101 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
     }
 }
 
+/// A ball falls onto the corner at (0, 0, 1) of a tetrahedron.
+#[test]
+fn files_are_adjusted_by_words_after_their_names_and_by_options() {
+    let scene = Scene::new("adjusted");
+    let path = scene.file("part.obj", crate::TETRAHEDRON);
+    for (words, options, top) in [
+        ("", &[][..], 1.0),
+        ("@scale=2", &[], 2.0),
+        ("", &["--scale", "2"], 2.0),
+        ("@scale=2", &["--scale", "0.5"], 1.0),
+        ("@mm", &["--unit", "cm"], 0.1),
+        ("@in@scale=2", &["--unit", "ft"], 1.0 / 6.0),
+        ("@mirror=z", &[], 0.0),
+        ("", &["--mirror", "z"], 0.0),
+        ("@mirror=x", &["--surface"], 1.0),
+        ("#0@scale=3@surface", &[], 3.0),
+    ] {
+        let body = format!("{}{words}", name(&path));
+        let rows = Run::query(&["--a", &body, "--b", BALL])
+            .args(options)
+            .stdin(FALL)
+            .succeeds();
+        let early = 4.0 - (top + 0.1) - rows[0].number("time");
+        assert!(
+            (-1e-9..=1.001e-3).contains(&early),
+            "{words} {options:?}: {early}"
+        );
+    }
+    for (word, option) in [("@scale=-1", "--scale=-1"), ("@mirror=w", "--mirror=w")] {
+        let body = format!("{}{word}", name(&path));
+        for run in [
+            Run::query(&["--a", &body, "--b", BALL]).stdin(FALL),
+            Run::query(&["--a", name(&path), "--b", BALL, option]).stdin(FALL),
+            Run::bare(&["decompose", &body]),
+            Run::bare(&["decompose", name(&path), option]),
+        ] {
+            let output = run.output();
+            assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        }
+    }
+}
+
+#[test]
+fn a_body_inside_a_hollow_surface_touches_nothing() {
+    let scene = Scene::new("hollow");
+    let path = scene.file("part.obj", crate::TETRAHEDRON);
+    let hollow = format!("{}@surface", name(&path));
+    let inside = "b_px,b_py,b_pz\n.1,.1,.1\n";
+    for (body, option, status) in [
+        (name(&path), &[][..], "overlapping"),
+        (&hollow, &[], "free"),
+        (name(&path), &["--surface"], "free"),
+    ] {
+        let run = Run::query(&["--a", body, "--b", "sphere:.01"]).args(option);
+        assert_eq!(
+            run.stdin(inside).succeeds()[0].text("status"),
+            status,
+            "{body}"
+        );
+    }
+    let out = scene.directory.join("hollow.ccd");
+    let output = Run::bare(&["decompose", &hollow, "--out", name(&out)]).output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let rows = Run::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
+    assert_eq!(rows.succeeds()[0].text("status"), "free");
+    // What is prepared stays as it is.
+    let output = Run::query(&["--a", name(&out), "--b", BALL, "--scale", "2"]).stdin(FALL);
+    assert!(stderr(&output.output()).contains("a prepared body has its unit"));
+}
+
+/// A cylinder and a cone in the way of a ball: in time for the true shapes, and told how early they may be.
+#[test]
+fn cylinders_and_cones_are_bodies() {
+    for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
+        let run = Run::query(&["--a", BALL, "--b", body, "--tolerance", "1e-7"]);
+        let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").output();
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(
+            stderr(&output).contains("sticking out by up to"),
+            "{}",
+            stderr(&output)
+        );
+        let rows = crate::parse(&output.stdout);
+        // The slant of the cone is as far across as along.
+        let reach = if side == 0.5 {
+            0.6
+        } else {
+            side + 0.1 * 2f64.sqrt()
+        };
+        let early = 4.0 - reach - rows[0].number("time");
+        let most = if side == 0.5 { 0.5 / 4096.0 } else { 2e-6 } + 1e-6;
+        assert!((0.0..=most).contains(&early), "{body}: {early}");
+    }
+}
+
 #[test]
 fn units_are_converted() {
     let scene = Scene::new("units");

@@ -117,7 +117,13 @@ impl QueryArgs {
     pub(super) fn recorded(&self) -> Vec<(&'static str, String)> {
         // Exhaustive: a new option does not compile until it is recorded or left out here.
         let QueryArgs {
-            bodies: BodiesArgs { a, b, unit, pieces },
+            bodies:
+                BodiesArgs {
+                    a,
+                    b,
+                    meshes,
+                    pieces,
+                },
             motions: _,
             ask,
             clearance,
@@ -151,7 +157,6 @@ impl QueryArgs {
         let mut recorded = vec![
             ("--a", a.clone()),
             ("--b", b.clone()),
-            unit.recorded(),
             ("--ask", ask.to_string()),
             ("--clearance", or_not(clearance)),
             ("--oracle", oracle.to_string()),
@@ -168,6 +173,7 @@ impl QueryArgs {
             ("--counters", flag(*counters)),
             ("--no-micros", flag(*no_micros)),
         ];
+        recorded.extend(meshes.recorded());
         recorded.extend(pieces.recorded());
         recorded
     }

@@ -1,9 +1,9 @@
 //! The options of `ccd view`.
 
+use crate::command::meshes::MeshArgs;
 use crate::command::numbers::{not_negative, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::command::pieces::PiecesArgs;
-use crate::command::unit::UnitArgs;
 use ccd_core::limits::DEFAULT_TOLERANCE;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ pub(in crate::command) struct ViewArgs {
     #[arg(long, value_name = "BODY", requires_all = ["a", "motions"])]
     b: Option<String>,
     #[command(flatten)]
-    unit: UnitArgs,
+    meshes: MeshArgs,
     #[command(flatten)]
     pieces: PiecesArgs,
     /// Table of motions or paths to show, CSV, as of `ccd query`; - reads standard input
@@ -78,21 +78,21 @@ pub(super) enum Subject<'a> {
 /// How the bodies of a scene are loaded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
-    pub(super) unit: &'a UnitArgs,
+    pub(super) meshes: &'a MeshArgs,
     pub(super) pieces: &'a PiecesArgs,
 }
 
 impl ViewArgs {
     /// Returns what is to be shown; none where the options name nothing, which is refused before.
     pub(super) fn subject(&self) -> Option<Subject<'_>> {
-        let ViewArgs { unit, pieces, .. } = self;
+        let ViewArgs { meshes, pieces, .. } = self;
         if let Some(scene) = &self.scene {
-            return Some(Subject::Scene(scene, SceneArgs { unit, pieces }));
+            return Some(Subject::Scene(scene, SceneArgs { meshes, pieces }));
         }
         let bodies = BodiesArgs {
             a: self.a.clone()?,
             b: self.b.clone()?,
-            unit: unit.clone(),
+            meshes: meshes.clone(),
             pieces: pieces.clone(),
         };
         Some(Subject::Rows(bodies, self.motions.as_deref()?))

@@ -111,11 +111,7 @@ impl SceneTable {
         }
         let source: BodySource = text.parse()?;
         let detail = how.pieces.detail()?;
-        let prepared = match how.unit.unit() {
-            Some(unit) => source.load_in(unit, detail),
-            None => source.load(detail),
-        };
-        let prepared = prepared?;
+        let prepared = source.load_adjusted(&how.meshes.adjustments(), detail)?;
         self.reports.push(format!("{text}: {}", prepared.report));
         self.bodies.insert(text.to_owned(), prepared.body);
         self.files.extend(source.files()?);

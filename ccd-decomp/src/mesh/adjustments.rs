@@ -1,0 +1,239 @@
+//! What is changed about a mesh on its way from its file.
+
+use super::affine::AffineMap;
+use super::unit::Unit;
+use ccd_core::InputError;
+use ccd_core::glam::{DAffine3, DVec3};
+use std::fmt;
+
+/// What is changed about a mesh on its way from its file: what the file does not say, or says wrongly.
+///
+/// ```
+/// use ccd_decomp::{Adjustments, Axis, Unit};
+/// // The left part, of a right one that was drawn in millimetres; lengths are to be in metres.
+/// let left = Adjustments::default()
+///     .stated_in(Unit::Millimetre)
+///     .converted_to(Unit::Metre)
+///     .mirrored(Axis::Y);
+/// assert_eq!(left.to_string(), "@mm@mirror=y");
+/// assert!(left.scaled(-1.0).is_err());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adjustments {
+    stated: Option<Unit>,
+    wanted: Option<Unit>,
+    /// By which coordinates are multiplied: neither 0 nor infinite.
+    factors: DVec3,
+    is_hollow: bool,
+}
+
+/// An axis of coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl Adjustments {
+    /// Changes nothing.
+    pub const NONE: Adjustments = Adjustments {
+        stated: None,
+        wanted: None,
+        factors: DVec3::ONE,
+        is_hollow: false,
+    };
+
+    /// Takes the numbers of the file to be in a unit, whatever the file says.
+    #[must_use]
+    pub fn stated_in(self, unit: Unit) -> Self {
+        Adjustments {
+            stated: Some(unit),
+            ..self
+        }
+    }
+
+    /// [Converts](crate::MeshFile::in_unit) the coordinates to a unit. Those of a file whose unit is not known are taken
+    /// to be in it already.
+    #[must_use]
+    pub fn converted_to(self, unit: Unit) -> Self {
+        Adjustments {
+            wanted: Some(unit),
+            ..self
+        }
+    }
+
+    /// Multiplies all coordinates by a factor, which rounds each once.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] unless the factor is positive and finite.
+    pub fn scaled(self, factor: f64) -> Result<Self, InputError> {
+        let factors = self.factors * factor;
+        // Written so that NaN is refused; several factors may leave the range together.
+        match factor > 0.0 && factors.abs().min_element() > 0.0 && factors.is_finite() {
+            true => Ok(Adjustments { factors, ..self }),
+            false => Err(InputError::OutOfRange {
+                what: "scale",
+                value: factor,
+                allowed: "positive and finite",
+            }),
+        }
+    }
+
+    /// Mirrors the mesh in the plane through the origin across an axis, and turns its triangles round, so that a solid
+    /// stays one. Exact.
+    #[must_use]
+    pub fn mirrored(self, axis: Axis) -> Self {
+        let mut factors = self.factors;
+        factors[axis as usize] *= -1.0;
+        Adjustments { factors, ..self }
+    }
+
+    /// Makes a [surface](crate::Detail::Surface) of a closed mesh, whatever pieces are asked for: only its triangles are
+    /// touched.
+    #[must_use]
+    pub fn hollow(self) -> Self {
+        Adjustments {
+            is_hollow: true,
+            ..self
+        }
+    }
+
+    /// Returns both together: units of the other one take precedence.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for factors whose product is no number.
+    pub fn and(self, other: &Adjustments) -> Result<Self, InputError> {
+        let mirrored = other.axes().fold(self, Adjustments::mirrored);
+        let both = match other.scale() {
+            1.0 => mirrored,
+            scale => mirrored.scaled(scale)?,
+        };
+        Ok(Adjustments {
+            stated: other.stated.or(self.stated),
+            wanted: other.wanted.or(self.wanted),
+            is_hollow: self.is_hollow || other.is_hollow,
+            ..both
+        })
+    }
+
+    /// The unit of the numbers in the file, if it is given.
+    pub(crate) fn stated(&self) -> Option<Unit> {
+        self.stated
+    }
+
+    /// The unit of the coordinates, if it is given.
+    pub(crate) fn wanted(&self) -> Option<Unit> {
+        self.wanted
+    }
+
+    /// Whether a closed mesh is no solid.
+    pub(crate) fn is_hollow(&self) -> bool {
+        self.is_hollow
+    }
+
+    /// Returns the map of the coordinates, if there is any.
+    pub(crate) fn map(&self) -> Option<AffineMap> {
+        let map = || DAffine3::from_scale(self.factors).into();
+        (self.factors != DVec3::ONE).then(map)
+    }
+
+    /// Returns whether a body that is made already cannot have them.
+    pub(crate) fn need_mesh(&self) -> bool {
+        let others = Adjustments {
+            wanted: None,
+            ..*self
+        };
+        others != Adjustments::NONE
+    }
+
+    fn scale(&self) -> f64 {
+        self.factors.x.abs()
+    }
+
+    /// The axes that are mirrored.
+    fn axes(&self) -> impl Iterator<Item = Axis> {
+        let factors = self.factors;
+        let axes = [Axis::X, Axis::Y, Axis::Z].into_iter();
+        axes.filter(move |&axis| factors[axis as usize] < 0.0)
+    }
+
+    /// Returns it with one more, as it is written after a file.
+    ///
+    /// # Errors
+    /// The word means nothing here.
+    pub(crate) fn with_word(self, word: &str) -> Result<Self, UnknownAdjustment> {
+        let unknown = || UnknownAdjustment { word: word.into() };
+        let (name, value) = match word.split_once('=') {
+            Some((name, value)) => (name, Some(value)),
+            None => (word, None),
+        };
+        match (name, value) {
+            ("surface", None) => Ok(self.hollow()),
+            ("scale", Some(factor)) => {
+                let factor: f64 = factor.parse().map_err(|_| unknown())?;
+                self.scaled(factor).map_err(|_| unknown())
+            }
+            ("mirror", Some("x")) => Ok(self.mirrored(Axis::X)),
+            ("mirror", Some("y")) => Ok(self.mirrored(Axis::Y)),
+            ("mirror", Some("z")) => Ok(self.mirrored(Axis::Z)),
+            (unit, None) => {
+                let unit = unit.parse().map_err(|_| unknown())?;
+                Ok(self.stated_in(unit))
+            }
+            _ => Err(unknown()),
+        }
+    }
+}
+
+/// A word after a file that names no adjustment.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "@{word} means nothing after a file; use @mm (the unit of its numbers: um, mm, cm, m, in or ft), @scale=0.001, \
+     @mirror=x (or y, z) or @surface"
+)]
+pub struct UnknownAdjustment {
+    /// The word.
+    pub word: String,
+}
+
+impl Default for Adjustments {
+    fn default() -> Self {
+        Adjustments::NONE
+    }
+}
+
+/// As it is written after a file; the unit that is converted to is not.
+impl fmt::Display for Adjustments {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(unit) = self.stated {
+            write!(f, "@{unit}")?;
+        }
+        if self.scale() != 1.0 {
+            write!(f, "@scale={}", self.scale())?;
+        }
+        for axis in self.axes() {
+            write!(f, "@mirror={axis}")?;
+        }
+        if self.is_hollow {
+            write!(f, "@surface")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Axis::X => "x",
+            Axis::Y => "y",
+            Axis::Z => "z",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

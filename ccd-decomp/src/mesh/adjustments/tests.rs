@@ -1,0 +1,40 @@
+use super::*;
+
+#[test]
+fn adjustments_add_up() {
+    let small = Adjustments::NONE.scaled(0.5).unwrap().mirrored(Axis::Y);
+    let both = small
+        .and(&Adjustments::NONE.scaled(4.0).unwrap().hollow())
+        .unwrap();
+    assert_eq!(both.to_string(), "@scale=2@mirror=y@surface");
+    assert_eq!(
+        both.map().unwrap().apply(DVec3::ONE),
+        DVec3::new(2.0, -2.0, 2.0)
+    );
+    let twice = small.and(&small).unwrap();
+    assert_eq!(twice.to_string(), "@scale=0.25");
+    let stated = Adjustments::NONE.stated_in(Unit::Inch);
+    let wanted = Adjustments::NONE.converted_to(Unit::Metre);
+    let units = stated.and(&wanted).unwrap();
+    assert_eq!(
+        (units.stated(), units.wanted()),
+        (Some(Unit::Inch), Some(Unit::Metre))
+    );
+    assert_eq!(Adjustments::NONE.map(), None);
+}
+
+#[test]
+fn factors_are_positive_numbers_and_stay_so() {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = Adjustments::NONE.scaled(bad);
+        assert!(
+            matches!(refused, Err(InputError::OutOfRange { what: "scale", .. })),
+            "{bad}"
+        );
+    }
+    for (one, other) in [(1e200, 1e200), (1e-200, 1e-200)] {
+        let scaled = Adjustments::NONE.scaled(one).unwrap();
+        assert!(scaled.scaled(other).is_err());
+        assert!(scaled.and(&scaled).is_err());
+    }
+}

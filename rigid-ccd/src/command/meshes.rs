@@ -1,0 +1,105 @@
+//! The options of how mesh files are taken, for every subcommand that reads some.
+
+use super::pieces::{NOT_GIVEN, value_name};
+use crate::text::Number;
+use ccd_decomp::{Adjustments, Axis, Unit};
+use clap::{Args, ValueEnum};
+
+/// How mesh files are taken.
+#[derive(Clone, Debug, Args)]
+pub(super) struct MeshArgs {
+    /// Unit of all lengths: files that state another one (glTF: metres; 3MF) are converted to it, all other numbers
+    /// are taken to be in it [default: the numbers of the files]
+    #[arg(long, value_name = "UNIT", value_enum, hide_possible_values = false)]
+    unit: Option<UnitArg>,
+    /// Multiply the coordinates of all mesh files by this; of one of them: part.stl@scale=0.001
+    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
+    scale: Option<f64>,
+    /// Mirror all mesh files across an axis; one of them: part.stl@mirror=x
+    #[arg(long, value_name = "AXIS", value_enum)]
+    mirror: Option<AxisArg>,
+    /// Take all mesh files as hollow surfaces, also closed ones; one of them: part.stl@surface
+    #[arg(long, conflicts_with = "pieces")]
+    surface: bool,
+}
+
+fn factor(text: &str) -> Result<f64, String> {
+    let factor: f64 = text.parse().map_err(|_| "it is no number".to_owned())?;
+    let allowed = Adjustments::NONE.scaled(factor);
+    allowed.map(|_| factor).map_err(|error| error.to_string())
+}
+
+/// The axes.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum AxisArg {
+    /// Change the signs of x
+    X,
+    /// Change the signs of y
+    Y,
+    /// Change the signs of z
+    Z,
+}
+
+/// The units, by their signs.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum UnitArg {
+    /// Micrometre
+    Um,
+    /// Millimetre
+    Mm,
+    /// Centimetre
+    Cm,
+    /// Metre
+    M,
+    /// Inch, 25.4 mm
+    In,
+    /// Foot, 12 inches
+    Ft,
+}
+
+impl MeshArgs {
+    /// Returns the corresponding value of the library.
+    pub(super) fn adjustments(&self) -> Adjustments {
+        let mut all = Adjustments::NONE;
+        if let Some(unit) = self.unit() {
+            all = all.converted_to(unit);
+        }
+        // A factor that can not be had was refused when it was read.
+        all = self
+            .scale
+            .and_then(|scale| all.scaled(scale).ok())
+            .unwrap_or(all);
+        all = match self.mirror {
+            Some(AxisArg::X) => all.mirrored(Axis::X),
+            Some(AxisArg::Y) => all.mirrored(Axis::Y),
+            Some(AxisArg::Z) => all.mirrored(Axis::Z),
+            None => all,
+        };
+        if self.surface { all.hollow() } else { all }
+    }
+
+    /// Returns the unit of all lengths, if it is given.
+    pub(super) fn unit(&self) -> Option<Unit> {
+        self.unit.map(|unit| match unit {
+            UnitArg::Um => Unit::Micrometre,
+            UnitArg::Mm => Unit::Millimetre,
+            UnitArg::Cm => Unit::Centimetre,
+            UnitArg::M => Unit::Metre,
+            UnitArg::In => Unit::Inch,
+            UnitArg::Ft => Unit::Foot,
+        })
+    }
+
+    /// Returns the options with their values.
+    pub(super) fn recorded(&self) -> [(&'static str, String); 4] {
+        let scale = self.scale.map(|factor| Number(factor).to_string());
+        let surface = self.surface.then(|| "given".to_owned());
+        [
+            ("--unit", self.unit.as_ref().map(value_name)),
+            ("--scale", scale),
+            ("--mirror", self.mirror.as_ref().map(value_name)),
+            ("--surface", surface),
+        ]
+        .map(|(option, value)| (option, value.unwrap_or_else(|| NOT_GIVEN.to_owned())))
+    }
+}
