@@ -23,6 +23,8 @@ pub enum Course {
     },
     /// From pose to pose, in straight lines and by the keys' rotations.
     Keys {
+        /// The point that moves straight, in the body's frame.
+        centre: [f64; 3],
         /// The poses, by increasing times.
         keys: Vec<Key>,
     },
@@ -32,6 +34,7 @@ pub enum Course {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Key {
     time: f64,
+    /// Of the centre.
     place: [f64; 3],
     /// By rows.
     rotation: [f64; 9],
@@ -40,11 +43,12 @@ pub struct Key {
 }
 
 impl Key {
-    /// Creates a key, from which the body turns by a rotation vector until the next one.
-    pub fn new(time: f64, pose: &Pose, turn: DVec3) -> Self {
+    /// Creates a key of a pose, with the place of the centre, from which the body turns by a rotation vector until the
+    /// next one.
+    pub fn new(time: f64, pose: &Pose, place: DVec3, turn: DVec3) -> Self {
         Key {
             time,
-            place: pose.translation().to_array(),
+            place: place.to_array(),
             rotation: rows(pose),
             turn: turn.to_array(),
         }
@@ -72,9 +76,9 @@ impl Course {
                 .iter()
                 .chain(spin)
                 .any(|component| *component != 0.0),
-            Course::Keys { keys } => keys
+            Course::Keys { keys, .. } => keys
                 .windows(2)
-                .any(|two| (two[0].place, two[0].rotation) != (two[1].place, two[1].rotation)),
+                .any(|two| two[0].place != two[1].place || two[0].turn != [0.0; 3]),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Paths through poses.
 
-use crate::arrays::{any_numbers, finite};
+use crate::arrays::{any_numbers, finite, rows};
 use crate::errors::input;
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
@@ -10,12 +10,14 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 /// A path through poses at given times: of a planner, or of a simulator's log.
 ///
 /// From one pose to the next, the center moves in a straight line, and the body turns about it the shortest way. It rests
-/// before the first time and after the last.
+/// before the first time and after the last. With spins, it turns by any number of turns.
 ///
 /// Args:
 ///     times: increasing.
 ///     poses: one for each time, as `Motion.between` takes them: an array of shape (n, 4, 4), for instance.
 ///     center: the point of the body that moves straight, in its frame; its origin by default.
+///     spins: angular velocities in the world, one from each pose to the next: of shape (n - 1, 3). What one leaves over
+///         to the next pose, a quarter turn at most, is turned beside it. Zeros mean the shortest turn.
 ///
 /// >>> import numpy as np
 /// >>> from rigid_ccd import Path
@@ -32,17 +34,18 @@ pub(crate) struct PyPath {
     made: Parts,
 }
 
-/// Times, poses and a center.
-type Parts = (Vec<f64>, Vec<GivenPose>, [f64; 3]);
+/// Times, poses, a center and angular velocities.
+type Parts = (Vec<f64>, Vec<GivenPose>, [f64; 3], Option<Vec<[f64; 3]>>);
 
 #[pymethods]
 impl PyPath {
     #[new]
-    #[pyo3(signature = (times, poses, center = None))]
+    #[pyo3(signature = (times, poses, center = None, spins = None))]
     fn new(
         times: &Bound<'_, PyAny>,
         poses: &Bound<'_, PyAny>,
         center: Option<&Bound<'_, PyAny>>,
+        spins: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let times = any_numbers(times, "times")?;
         let poses = poses.try_iter()?.enumerate();
@@ -60,9 +63,14 @@ impl PyPath {
         let timed = times.iter().zip(&given).enumerate();
         let timed = timed.map(|(k, (&time, pose))| Ok((time, pose.pose(&format!("pose {k}"))?)));
         let poses = Poses::new(timed.collect::<PyResult<_>>()?).map_err(input)?;
+        let mut poses = poses.about(center).map_err(input)?;
+        let spins = spins.map(|spins| rows::<3>(spins, "spins")).transpose()?;
+        if let Some(spins) = &spins {
+            poses = poses.turning(spins.clone()).map_err(input)?;
+        }
         Ok(PyPath {
-            poses: poses.about(center).map_err(input)?,
-            made: (times, given, center),
+            poses,
+            made: (times, given, center, spins),
         })
     }
 

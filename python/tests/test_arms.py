@@ -116,6 +116,23 @@ def test_a_path_is_followed_from_pose_to_pose() -> None:
             Path(times, poses)
 
 
+def test_a_path_turns_as_often_as_its_spins_say() -> None:
+    here = np.tile(np.eye(4), (2, 1, 1))
+    path = Path([0, 2], here, spins=[[0, 0, 7 * math.pi]])
+    angle = 0.3 * 7 * math.pi
+    assert path.pose(0.3)[:2, 0] == pytest.approx([math.cos(angle), math.sin(angle)], abs=1e-12)
+    again = pickle.loads(pickle.dumps(path))
+    assert again.pose(0.3) == pytest.approx(path.pose(0.3))
+    # The arm comes by a post on its side after a quarter of the first turn.
+    rod = Body.box(2, 0.05, 0.05)
+    hit = first_contact(rod, BALL, path, Motion([0, 1, 0]))
+    assert hit is not None and hit.time < 2 / 14
+    assert is_free(rod, BALL, Path([0, 2], here), Motion([0, 1, 0]))
+    for spins in ([[0, 0, 1]], [[0, 0, math.nan]], [[0, 0, 0]] * 2, [0, 0, 0]):
+        with pytest.raises(InputError):
+            Path([0, 2], here, spins=spins)
+
+
 def test_what_is_no_motion_is_refused() -> None:
     with pytest.raises(TypeError, match="motion_a: a Motion, a Path or a link of a Chain is needed, not list"):
         first_contact(BALL, BALL, [1, 2, 3])  # type: ignore[arg-type]

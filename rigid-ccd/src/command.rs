@@ -15,6 +15,8 @@ mod pair;
 mod pieces;
 mod progress;
 mod query;
+mod scene;
+mod scene_table;
 mod size;
 mod view;
 
@@ -29,6 +31,7 @@ use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
 use man::ManArgs;
 use query::QueryArgs;
+use scene::SceneCommandArgs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -48,6 +51,7 @@ Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd audit --a gripper.stl --b shelf.stl --motions edges.csv --out missed.csv --pages missed
   ccd view --a knot.obj --b knot.obj --motions motions.csv --out view.html
+  ccd scene scene.csv --duration 0.5 --out contacts.csv
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
 
@@ -61,6 +65,8 @@ enum Command {
     Audit(AuditArgs),
     /// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
     View(Box<ViewArgs>),
+    /// List which bodies of a scene touch: when, where, with which features
+    Scene(SceneCommandArgs),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),
     /// Print a completion script for a shell
@@ -86,6 +92,7 @@ pub fn main() -> ExitCode {
         Command::Query(args) => query::run(&args),
         Command::Audit(args) => audit::run(&args),
         Command::View(args) => view::run(&args),
+        Command::Scene(args) => scene::run(&args),
         Command::Decompose(args) => decompose::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),

@@ -27,7 +27,7 @@
 //! | move many bodies, and find who touches whom first, or at all | `Scene` |
 //! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
 //! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], `load` for a file |
-//! | make a body of each part of a file, or convert units | `load_parts`, `load_in`, `mesh::MeshFile` |
+//! | make a body of each part of a file, convert units, scale or mirror it | `load_parts`, `load_in`, `load_adjusted`, `mesh::MeshFile` |
 //! | make a body from vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Problem::contacts_at`] |

@@ -26,7 +26,7 @@ mod curve;
 mod joint;
 mod knots;
 mod link;
-mod poses;
+pub(crate) mod poses;
 mod screw;
 mod spline;
 mod timed;

@@ -103,29 +103,25 @@ impl FromStr for MeshSource {
         let Some((file, mark, rest)) = split(text).filter(|_| !Path::new(text).is_file()) else {
             return Ok(MeshSource::whole(text));
         };
+        let (mut part, mut words) = (None, Vec::new());
         if mark == '@' {
-            let words = rest.split('@');
-            return Ok(MeshSource {
-                adjustments: words
-                    .clone()
-                    .try_fold(Adjustments::NONE, Adjustments::with_word)?,
-                ..MeshSource::whole(file)
-            });
+            words.extend(rest.split('@'));
+        } else {
+            let mut name = rest;
+            while let Some((before, word)) = name.rsplit_once('@')
+                && Adjustments::NONE.with_word(word).is_ok()
+            {
+                name = before;
+                words.push(word);
+            }
+            words.reverse();
+            part = Some(name.to_owned());
         }
-        let (mut part, mut words) = (rest, Vec::new());
-        while let Some((before, word)) = part.rsplit_once('@')
-            && Adjustments::NONE.with_word(word).is_ok()
-        {
-            part = before;
-            words.push(word);
-        }
+        let mut words = words.into_iter();
         Ok(MeshSource {
-            part: Some(part.into()),
-            adjustments: words
-                .into_iter()
-                .rev()
-                .try_fold(Adjustments::NONE, Adjustments::with_word)?,
-            ..MeshSource::whole(file)
+            file: file.into(),
+            part,
+            adjustments: words.try_fold(Adjustments::NONE, Adjustments::with_word)?,
         })
     }
 }

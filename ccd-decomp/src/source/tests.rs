@@ -28,8 +28,8 @@ fn descriptions_of_bodies(#[case] text: &str, #[case] expected: BodySource) {
 
 /// A mesh whose adjustments print as that.
 fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
-    let adjustments = adjusted.split('@').skip(1);
-    let adjustments = adjustments.try_fold(Adjustments::NONE, Adjustments::with_word);
+    let mut words = adjusted.split('@').skip(1);
+    let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_word);
     let adjustments = adjustments.unwrap();
     assert_eq!(adjustments.to_string(), adjusted);
     BodySource::Mesh(MeshSource {

@@ -29,20 +29,19 @@ const Motion = (() => {
     return { rotation: turned, place: from.map((p, k) => p + velocity[k] * t - back[k]) };
   }
 
-  // Between two keys: a straight line, and the first one's rotation.
-  function keyed(keys, t) {
+  // Between two keys: a straight line of the centre, and the first one's rotation.
+  function keyed({ centre, keys }, t) {
     let next = keys.findIndex((key) => key.time > t);
     if (next < 0) next = keys.length - 1;
     const [one, two] = [keys[Math.max(next - 1, 0)], keys[next]];
     const share = two.time > one.time ? Math.min(Math.max((t - one.time) / (two.time - one.time), 0), 1) : 0;
     const way = one.turn;
-    return {
-      rotation: product(turn(way.map((w) => w * share)), one.rotation),
-      place: one.place.map((p, k) => p + share * (two.place[k] - p)),
-    };
+    const rotation = product(turn(way.map((w) => w * share)), one.rotation);
+    const back = apply(rotation, centre);
+    return { rotation, place: one.place.map((p, k) => p + share * (two.place[k] - p) - back[k]) };
   }
 
-  const pose = (motion, t) => (motion.keys ? keyed(motion.keys, t) : steady(motion, t));
+  const pose = (motion, t) => (motion.keys ? keyed(motion, t) : steady(motion, t));
 
   return { pose, apply };
 })();

@@ -118,7 +118,11 @@ class Motion:
 @final
 class Path:
     def __new__(
-        cls, times: ArrayLike, poses: ArrayLike | Iterable[_Pose], center: ArrayLike | None = None
+        cls,
+        times: ArrayLike,
+        poses: ArrayLike | Iterable[_Pose],
+        center: ArrayLike | None = None,
+        spins: ArrayLike | None = None,
     ) -> Path: ...
     @property
     def end(self) -> float: ...

@@ -1,19 +1,18 @@
 //! `ccd view`: writes a page that shows queries, or a scene of many bodies.
 
 mod args;
-mod bodies;
 mod chosen;
 
+use args::Subject;
 pub(super) use args::ViewArgs;
-use args::{SceneArgs, Subject};
 pub(super) use chosen::Chosen;
 
 use super::files::{
     CannotWrite, input_name, open_courses, refuse_missing_folder, refuse_overwriting,
 };
 use super::pair::{BodiesArgs, Loading, Pair};
+use super::scene_table::{self, SceneArgs};
 use super::{Exit, complain};
-use crate::Scene;
 use crate::batch::{Bodies, Question, Settings, Solve, SolverKind, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
@@ -221,7 +220,7 @@ fn settings(args: &ViewArgs) -> Settings {
 
 fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     refuse_overwriting(("--scene", path), ("--out", &args.out))?;
-    let table = bodies::read(path, how)?;
+    let table = scene_table::read(path, how)?;
     if !args.quiet {
         table.report();
     }
@@ -229,11 +228,7 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let shown = table.shown();
-    let mut scene = Scene::new().with_config(settings(args).config);
-    for body in &shown {
-        scene.add(body.body, body.motion);
-    }
-    let contacts = scene.contacts(args.duration);
+    let contacts = table.contacts(settings(args).config, args.duration);
     let title = input_name(path);
     let (meshes, view) = scene_view(&title, &shown, &contacts, args.duration);
     if !args.quiet {

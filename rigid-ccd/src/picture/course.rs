@@ -1,8 +1,7 @@
 //! The motions of a row as a page has them.
 
 use crate::table::courses::Course;
-use ccd_core::glam::DVec3;
-use ccd_core::{InputError, Pose};
+use ccd_core::{InputError, Trajectory};
 use ccd_view::{Course as Shown, Key};
 
 /// Returns the motions of both bodies.
@@ -14,23 +13,16 @@ pub fn course(course: &Course) -> Result<[Shown; 2], InputError> {
         Course::Motions(query) => return Ok([Shown::from(&query.a), Shown::from(&query.b)]),
         Course::Path(path) => path,
     };
-    let mut keys = [Vec::new(), Vec::new()];
-    let times: Vec<f64> = path.times().collect();
-    for (k, &time) in times.iter().enumerate() {
-        let poses = path.poses(time)?;
-        // Half the way is a quarter of a turn at most, which is the shortest way alone.
-        let next = times.get(k + 1).copied().unwrap_or(time);
-        let half = path.poses(0.5 * time + 0.5 * next)?;
-        for ((keys, pose), half) in keys.iter_mut().zip(&poses).zip(&half) {
-            keys.push(Key::new(time, pose, 2.0 * turn(pose, half)));
-        }
-    }
-    Ok(keys.map(|keys| Shown::Keys { keys }))
-}
-
-/// Returns the rotation vector of the shortest rotation from one pose to another.
-fn turn(from: &Pose, to: &Pose) -> DVec3 {
-    let way = to.rotation() * from.rotation().conjugate();
-    let way = if way.w < 0.0 { -way } else { way };
-    way.to_scaled_axis()
+    let [a, b] = [&path.a, &path.b].map(|poses| {
+        let centre = poses.centre();
+        let keys = poses.times().zip(poses.turns()).map(|(time, turn)| {
+            let pose = poses.pose(time)?;
+            Ok(Key::new(time, &pose, pose.transform_point(centre), turn?))
+        });
+        Ok(Shown::Keys {
+            centre: centre.to_array(),
+            keys: keys.collect::<Result<_, InputError>>()?,
+        })
+    });
+    Ok([a?, b?])
 }

@@ -61,12 +61,17 @@ pub(crate) fn scene_view(
         contacts: hits.iter().map(|impact| contact(bodies, impact)).collect(),
         time: hits.first().map_or(0.0, |impact| impact.hit.time),
         origin: origin.to_array(),
-        ..View::of(name, &verdict(bodies, contacts, duration), duration)
+        ..View::of(name, &scene_verdict(bodies, contacts, duration), duration)
     };
     (meshes, view)
 }
 
-fn verdict(bodies: &[Shown<'_>], contacts: &[Result<Impact, PairError>], duration: f64) -> String {
+/// Says in words which bodies touch.
+pub(crate) fn scene_verdict(
+    bodies: &[Shown<'_>],
+    contacts: &[Result<Impact, PairError>],
+    duration: f64,
+) -> String {
     let hits: Vec<&Impact> = contacts
         .iter()
         .filter_map(|found| found.as_ref().ok())

@@ -32,18 +32,22 @@ pub enum Form {
     Paths,
 }
 
-/// The columns of a body, without its prefix; a line of a path has those of a pose.
+/// The columns of a body in a table of motions, without its prefix.
 const OF_BODY: [&str; 23] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "end_px", "end_py", "end_pz", "end_qw", "end_qx",
     "end_qy", "end_qz", "vx", "vy", "vz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
-const OF_POSE: usize = 7;
+
+/// The columns of a body in a table of paths, without its prefix.
+const OF_POSE: [&str; 13] = [
+    "px", "py", "pz", "qw", "qx", "qy", "qz", "wx", "wy", "wz", "cx", "cy", "cz",
+];
 
 impl Form {
     /// Returns all columns in order.
     pub(in crate::table) fn names(self) -> Vec<String> {
         let bodies = ['a', 'b'].into_iter().flat_map(|letter| {
-            let of_body = OF_BODY.iter().take(self.of_body());
+            let of_body = self.of_body().iter();
             of_body.map(move |name| format!("{letter}_{name}"))
         });
         let (before, after): (&[&str], &[&str]) = match self {
@@ -60,16 +64,19 @@ impl Form {
         before.into_iter().chain(bodies).chain(after).collect()
     }
 
-    /// The slots of a quantity.
+    /// The slots of a quantity; none of one that such a table does not have.
     pub(in crate::table) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
-        let within = match quantity {
-            Quantity::Position => 0..3,
-            Quantity::Orientation => 3..7,
-            Quantity::EndPosition => 7..10,
-            Quantity::EndOrientation => 10..14,
-            Quantity::Velocity => 14..17,
-            Quantity::Spin => 17..20,
-            Quantity::Centre => 20..23,
+        let within = match (self, quantity) {
+            (_, Quantity::Position) => 0..3,
+            (_, Quantity::Orientation) => 3..7,
+            (Form::Motions, Quantity::EndPosition) => 7..10,
+            (Form::Motions, Quantity::EndOrientation) => 10..14,
+            (Form::Motions, Quantity::Velocity) => 14..17,
+            (Form::Motions, Quantity::Spin) => 17..20,
+            (Form::Motions, Quantity::Centre) => 20..23,
+            (Form::Paths, Quantity::Spin) => 7..10,
+            (Form::Paths, Quantity::Centre) => 10..13,
+            (Form::Paths, _) => 0..0,
         };
         let first_of_a = match self {
             Form::Motions => 1,
@@ -77,16 +84,16 @@ impl Form {
         };
         let first = match side {
             Side::A => first_of_a,
-            Side::B => first_of_a + self.of_body(),
+            Side::B => first_of_a + self.of_body().len(),
         };
         first + within.start..first + within.end
     }
 
-    /// The number of columns of a body.
-    fn of_body(self) -> usize {
+    /// The columns of a body.
+    fn of_body(self) -> &'static [&'static str] {
         match self {
-            Form::Motions => OF_BODY.len(),
-            Form::Paths => OF_POSE,
+            Form::Motions => &OF_BODY,
+            Form::Paths => &OF_POSE,
         }
     }
 
@@ -96,11 +103,11 @@ impl Form {
             Form::Motions => {
                 "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, \
                  wx wy wz, end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz; or, for paths with \
-                 several poses, id, t and the first seven"
+                 several poses, id, t, px py pz, qw qx qy qz, wx wy wz, cx cy cz"
             }
             Form::Paths => {
                 "a table with a column t holds the poses of paths: known columns are id, t, and with the prefix \
-                 a_ or b_: px py pz, qw qx qy qz"
+                 a_ or b_: px py pz, qw qx qy qz, wx wy wz (to the next row), cx cy cz"
             }
         }
     }

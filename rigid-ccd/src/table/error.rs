@@ -201,6 +201,18 @@ pub enum RowProblem {
         /// The id of the path.
         id: String,
     },
+    /// The centre of rotation is another one than in the row before of the path.
+    CentreMoves {
+        /// The prefix of the body.
+        body: char,
+    },
+    /// The angular velocity of the row before leads far from the orientation of this one.
+    LedElsewhere {
+        /// The prefix of the body.
+        body: char,
+        /// The angle between both, in radians.
+        left: f64,
+    },
     /// Only the default schedule answers this question.
     NeedsBestFirst,
     /// The numbers are valid, the query is not.
@@ -255,6 +267,16 @@ impl fmt::Display for RowProblem {
             Self::PathApart { id } => write!(
                 f,
                 "path `{id}` goes on here after rows of other paths; sort the table by id, then by t"
+            ),
+            Self::CentreMoves { body } => write!(
+                f,
+                "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one centre of rotation"
+            ),
+            Self::LedElsewhere { body, left } => write!(
+                f,
+                "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {:.3} radians away from this \
+                 orientation; a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn",
+                left
             ),
             Self::NeedsBestFirst => write!(f, "needs --schedule best-first"),
             Self::Input(error) => write!(f, "{error}"),

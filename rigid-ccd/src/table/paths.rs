@@ -5,10 +5,13 @@ mod tests;
 
 use super::columns::Columns;
 use super::error::{RowError, RowProblem, TableError};
-use super::motions::row::{self, Poses};
+use super::motions::row::{self, Posed, Poses};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::trajectory;
+use crate::trajectory::poses::{MOST_LEFT, left_over};
+use ccd_core::glam::DVec3;
+use ccd_core::vector::length;
 use ccd_core::{InputError, Pose, Trajectory};
 use std::collections::HashSet;
 use std::hash::{BuildHasher, RandomState};
@@ -41,8 +44,8 @@ pub enum Grouping {
 
 /// An iterator over the paths of a table.
 ///
-/// Columns go by name, in any order: `id`, `t`, and poses as in a table of motions. Rows of one path follow
-/// each other, in the order of their times.
+/// Columns go by name, in any order: `id`, `t`, poses and centres as in a table of motions, and angular velocities until
+/// the next row. Rows of one path follow each other, in the order of their times.
 #[derive(Debug)]
 pub struct PathRows<S> {
     records: S,
@@ -200,12 +203,27 @@ fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
         });
     }
     // Written so that NaN is refused.
-    match since > since_before && since.is_finite() {
-        true => Ok(row),
-        false => Err(RowProblem::TooLate {
+    if !(since > since_before && since.is_finite()) {
+        return Err(RowProblem::TooLate {
             time,
             first: first.time,
-        }),
+        });
+    }
+    follows('a', [before.a, row.a], since - since_before)?;
+    follows('b', [before.b, row.b], since - since_before)?;
+    Ok(row)
+}
+
+/// Refuses a row to which the one before does not lead.
+fn follows(body: char, [before, row]: [Posed; 2], duration: f64) -> Result<(), RowProblem> {
+    if before.centre != row.centre {
+        return Err(RowProblem::CentreMoves { body });
+    }
+    let left = length(left_over([&before.pose, &row.pose], before.spin, duration));
+    // Written so that NaN is refused.
+    match before.spin == DVec3::ZERO || left <= MOST_LEFT {
+        true => Ok(()),
+        false => Err(RowProblem::LedElsewhere { body, left }),
     }
 }
 
@@ -213,9 +231,14 @@ impl Path {
     /// Creates a path through poses, of which there is at least one.
     fn new(id: &str, rows: &[Poses]) -> Result<Self, RowProblem> {
         let start = rows[0].time;
-        let of = |pose: fn(&Poses) -> Pose| {
-            let timed = rows.iter().map(|row| (row.time - start, pose(row)));
-            trajectory::Poses::new(timed.collect())
+        let of = |body: fn(&Poses) -> Posed| {
+            let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
+            let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
+            let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
+            match spins.clone().any(|spin| spin != DVec3::ZERO) {
+                true => path.turning(spins.map(DVec3::into).collect()),
+                false => Ok(path),
+            }
         };
         let (a, b) = (of(|row| row.a)?, of(|row| row.b)?);
         Ok(Path {

@@ -1,15 +1,21 @@
 //! A path through given poses.
 
+mod leg;
+
+pub(crate) use leg::{MOST_LEFT, left_over};
+
 use super::U;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose, Stray, Stretch, Trajectory};
+use leg::Leg;
 
 /// A path through poses at given times: of a planner, or of a simulator's log.
 ///
 /// From one pose to the next, a point of the body moves straight, and the body turns about it the shortest way,
-/// both at constant rates ([`Motion::between`]). The body rests before the first time and after the last.
+/// both at constant rates ([`Motion::between`]); or by any number of turns, at about a [given](Poses::turning) angular
+/// velocity. The body rests before the first time and after the last.
 ///
 /// A stretch between two poses is exact, up to rounding. A longer one is a single motion from its first to its
 /// last pose. The centre is farthest from it at a pose in between. Between two poses the orientation strays at
@@ -29,6 +35,8 @@ use ccd_core::{InputError, Motion, Pose, Stray, Stretch, Trajectory};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Poses {
     poses: Vec<(f64, Pose)>,
+    /// From each pose to the next; none if all turns are the shortest ones.
+    spins: Vec<DVec3>,
     centre: DVec3,
 }
 
@@ -56,6 +64,7 @@ impl Poses {
         }
         Ok(Poses {
             poses,
+            spins: Vec::new(),
             centre: DVec3::ZERO,
         })
     }
@@ -72,6 +81,56 @@ impl Poses {
         }
     }
 
+    /// Lets the body turn from each pose to the next at about an angular velocity, in the world: by any number of turns.
+    ///
+    /// What it leaves over to the next pose is turned beside it, at a constant rate. Where it is zero, the turn is the
+    /// shortest.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`]; [`InputError::OutOfRange`] for more or fewer than one for each pose but the last, and
+    /// for one that leaves over more than a quarter turn.
+    ///
+    /// ```
+    /// use rigid_ccd::Pose;
+    /// use rigid_ccd::trajectory::{Poses, Trajectory};
+    /// // Ten and a half turns, to where half a turn would lead as well.
+    /// let turned = Pose::new([0.0; 3], [0.0, 0.0, 1.0, 0.0])?;
+    /// let drill = Poses::new(vec![(0.0, Pose::IDENTITY), (1.0, turned)])?;
+    /// let drill = drill.turning(vec![[0.0, 0.0, 66.0]])?;
+    /// let quarter = drill.pose(0.25)?.rotation().to_scaled_axis();
+    /// let turns = 21.0 / 8.0 * std::f64::consts::TAU;
+    /// assert!((quarter.z - (turns - 3.0 * std::f64::consts::TAU)).abs() < 1e-9);
+    /// # Ok::<(), rigid_ccd::InputError>(())
+    /// ```
+    pub fn turning(self, spins: Vec<[f64; 3]>) -> Result<Self, InputError> {
+        if spins.len() + 1 != self.poses.len() {
+            return Err(InputError::OutOfRange {
+                what: "number of angular velocities",
+                value: spins.len() as f64,
+                allowed: "one for each pose but the last",
+            });
+        }
+        let spins: Vec<DVec3> = spins.into_iter().map(DVec3::from).collect();
+        for (two, &spin) in self.poses.windows(2).zip(&spins) {
+            let [(begin, from), (end, to)] = [two[0], two[1]];
+            if !spin.is_finite() {
+                return Err(InputError::NotFinite {
+                    what: "angular velocity",
+                });
+            }
+            let left = length(left_over([&from, &to], spin, end - begin));
+            // Written so that NaN is refused.
+            if spin != DVec3::ZERO && !(left <= MOST_LEFT) {
+                return Err(InputError::OutOfRange {
+                    what: "angle from where an angular velocity leads to the next pose",
+                    value: left,
+                    allowed: "at most a quarter turn",
+                });
+            }
+        }
+        Ok(Poses { spins, ..self })
+    }
+
     /// The time of the last pose.
     pub fn end(&self) -> f64 {
         self.poses[self.poses.len() - 1].0
@@ -83,8 +142,8 @@ impl Poses {
     }
 
     /// Returns the motion between the poses that a time is between, as it is at that time: that before a pose
-    /// where `to` is not later, else that after it.
-    fn at(&self, time: f64, to: f64) -> Result<Motion, InputError> {
+    /// where `to` is not later, else that after it. Bounds how fast its angular velocity changes, too.
+    fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = match to > time {
             true => self.poses.partition_point(|&(at, _)| at <= time),
             false => self.poses.partition_point(|&(at, _)| at < time),
@@ -92,15 +151,12 @@ impl Poses {
         match (next.checked_sub(1), self.poses.get(next)) {
             (Some(k), Some(&(end, pose))) => {
                 let (begin, from) = self.poses[k];
-                let whole = Motion::between(from, pose, self.centre, end - begin)?;
-                match time > begin {
-                    true => self.moving(whole.pose(time - begin), &whole),
-                    false => Ok(whole),
-                }
+                let leg = Leg::new([from, pose], self.centre, end - begin, self.spin(k))?;
+                Ok((leg.at(time - begin)?, leg.bend()))
             }
             // The body rests before the first pose and after the last.
-            (None, Some(&(_, pose))) => self.still(pose),
-            (_, None) => self.still(self.poses[self.poses.len() - 1].1),
+            (None, Some(&(_, pose))) => Ok((self.still(pose)?, 0.0)),
+            (_, None) => Ok((self.still(self.poses[self.poses.len() - 1].1)?, 0.0)),
         }
     }
 
@@ -108,9 +164,26 @@ impl Poses {
         Motion::about(pose, DVec3::ZERO, DVec3::ZERO, self.centre)
     }
 
-    /// Returns a motion from a pose on, at the velocities of another one.
-    fn moving(&self, start: Pose, as_in: &Motion) -> Result<Motion, InputError> {
-        Motion::about(start, as_in.velocity(), as_in.spin(), self.centre)
+    /// The point of the body that moves straight.
+    #[cfg(feature = "pages")]
+    pub(crate) fn centre(&self) -> DVec3 {
+        self.centre
+    }
+
+    /// The angular velocity that is given from a pose to the next; 0 for the shortest turn.
+    fn spin(&self, k: usize) -> DVec3 {
+        self.spins.get(k).copied().unwrap_or_default()
+    }
+
+    /// Returns the rotation vector from each pose to the next, about; of the last one it is 0.
+    #[cfg(feature = "pages")]
+    pub(crate) fn turns(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
+        let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
+        let turns = ends.enumerate().map(|(k, [(begin, from), (end, to)])| {
+            let leg = Leg::new([from, to], self.centre, end - begin, self.spin(k))?;
+            Ok(leg.at(0.0)?.spin() * (end - begin))
+        });
+        turns.chain([Ok(DVec3::ZERO)])
     }
 
     /// The poses strictly between two times.
@@ -122,16 +195,18 @@ impl Poses {
 
     /// Returns a motion from the pose at one time to that at another, and how far the path strays from it.
     fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let end = self.at(to, to)?.start();
-        let motion = Motion::between(self.at(from, to)?.start(), end, self.centre, to - from)?;
+        let [begin, end] = [self.at(from, to)?.0.start(), self.at(to, to)?.0.start()];
+        let motion = Motion::between(begin, end, self.centre, to - from)?;
         let mut stray = Stray::NONE;
         // The turn by which the chord is off at a pose, and that pose's time.
         let mut last = (from, Off::default());
         for &(time, pose) in self.between(from, to).iter().chain(&[(to, end)]) {
             let off = Off::new(&motion, &pose, self.centre, time - from);
             // The motion that ends at this pose.
-            let change = self.at(time, time)?.spin().distance(motion.spin());
-            let between = 0.5 * (off.turn + last.1.turn + change * (time - last.0));
+            let (before, bend) = self.at(time, time)?;
+            let since = time - last.0;
+            let change = before.spin().distance(motion.spin()) + bend * since;
+            let between = 0.5 * (off.turn + last.1.turn + change * since);
             stray.shift = greater(stray.shift, off.shift);
             stray.turn = greater(stray.turn, between);
             last = (time, off);
@@ -150,9 +225,13 @@ impl Poses {
         let lengths = given.iter().map(|(_, pose)| length(pose.translation()));
         // The way from one to the next is at most twice as long.
         let place = 3.0 * lengths.fold(0.0, greater) + 4.0 * length(self.centre);
+        let turn = |(k, two): (usize, &[(f64, Pose)])| {
+            length(self.spin(first.saturating_sub(1) + k)) * (two[1].0 - two[0].0)
+        };
+        let turn = given.windows(2).enumerate().map(turn).fold(1.0, greater);
         Stray {
             shift: 64.0 * U * place,
-            turn: 64.0 * U,
+            turn: 64.0 * U * turn,
         }
     }
 }
@@ -161,7 +240,15 @@ impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let stretch = match self.between(from, to).is_empty() {
             // The motion itself: one from pose to pose might turn the other way.
-            true => Stretch::exact(self.at(from, to)?),
+            true => {
+                let (motion, bend) = self.at(from, to)?;
+                let mut stretch = Stretch::exact(motion);
+                // Twice the integral of what the angular velocity is off by is a square.
+                if bend > 0.0 {
+                    stretch.stray.turn = 0.5 * bend * (to - from) * (to - from);
+                }
+                stretch
+            }
             false => self.chord(from, to)?,
         };
         Ok(Stretch {

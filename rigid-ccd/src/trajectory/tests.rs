@@ -5,6 +5,7 @@ mod extremes;
 use super::*;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Pose};
+use rand::seq::IndexedRandom;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::io::Write;
@@ -124,6 +125,62 @@ fn poses() {
         });
         Poses::new(stops.collect())?.about(vector(rng, 1.0))
     });
+}
+
+/// Turns by angular velocities that leave over up to a quarter turn.
+#[test]
+fn poses_of_many_turns() {
+    check("poses, many turns", 0.3, |rng| {
+        let (mut time, mut turned) = (-0.5, orientation(rng));
+        let (mut stops, mut spins) = (Vec::new(), Vec::new());
+        for _ in 0..rng.random_range(2..6) {
+            stops.push((time, Pose::new(vector(rng, 3.0), turned)?));
+            let (duration, left) = (rng.random_range(0.1..1.5), vector(rng, 0.9));
+            let spin = vector(rng, *[0.1, 3.0, 30.0].choose(rng).unwrap());
+            spins.push(spin.to_array());
+            time += duration;
+            let share = [0.0, 1e-6, 1.0].choose(rng).unwrap();
+            turned = DQuat::from_scaled_axis(left * *share)
+                * DQuat::from_scaled_axis(spin * duration)
+                * turned;
+        }
+        stops.push((time, Pose::new(vector(rng, 3.0), turned)?));
+        Poses::new(stops)?.turning(spins)?.about(vector(rng, 1.0))
+    });
+}
+
+/// A turn that leads to the same orientation is told by its angular velocity alone.
+#[test]
+fn angular_velocities_tell_the_number_of_turns() {
+    let still = vec![(0.0, Pose::IDENTITY), (2.0, Pose::IDENTITY)];
+    let path = Poses::new(still).unwrap();
+    let turns = std::f64::consts::TAU * 7.0;
+    let turning = path.clone().turning(vec![[0.0, 0.0, 0.5 * turns]]).unwrap();
+    for time in [0.1, 0.5, 1.3, 2.0] {
+        let exact = DQuat::from_rotation_z(0.5 * turns * time);
+        let found = turning.pose(time).unwrap().rotation();
+        assert!(found.dot(exact).abs() > 1.0 - 1e-14, "{time}");
+    }
+    // The same to the next pose as what is left over: a twentieth of a turn.
+    let nearly = path
+        .clone()
+        .turning(vec![[0.0, 0.0, 0.5 * (turns + 0.3)]])
+        .unwrap();
+    let stretch = nearly.stretch(0.0, 2.0).unwrap();
+    assert!(
+        (stretch.motion.spin().z * 2.0 - turns).abs() < 1e-12,
+        "{stretch:?}"
+    );
+    let zero = path.clone().turning(vec![[0.0; 3]]).unwrap();
+    assert_eq!(zero.stretch(0.0, 2.0).unwrap().motion.spin(), DVec3::ZERO);
+    for bad in [
+        vec![],
+        vec![[0.0, 0.0, 1.0]],
+        vec![[f64::NAN, 0.0, 0.0]],
+        vec![[0.0; 3]; 2],
+    ] {
+        assert!(path.clone().turning(bad.clone()).is_err(), "{bad:?}");
+    }
 }
 
 /// Half turns, up to rounding: the way that they go is that from pose to pose.

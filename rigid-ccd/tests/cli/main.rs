@@ -10,6 +10,7 @@ mod messages;
 mod questions;
 mod refusals;
 mod resume;
+mod scene;
 mod view;
 
 use command::{Row, Run, Scene, parse, stderr};

@@ -44,6 +44,9 @@ Table of paths:
   id                        name of the path in the results [default: all rows are one path]
   t                         time of the row, later than that of the row before
   a_px ... a_qz, b_px, ...  poses of A and B at that time, as above
+  a_cx a_cy a_cz, b_cx, ... centre of rotation, as above, the same in all rows of a path
+  a_wx a_wy a_wz, b_wx, ... angular velocity to the next row, for turns of more than half a turn; it may be
+                            off by a quarter turn in all, and 0 is the shortest rotation [default: 0]
   The results have a row for each path, and --rows counts paths; with --ask distance, a row for each
   row. Times are those of column `t`.
 

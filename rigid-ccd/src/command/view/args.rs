@@ -4,6 +4,7 @@ use crate::command::meshes::MeshArgs;
 use crate::command::numbers::{not_negative, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::command::pieces::PiecesArgs;
+use crate::command::scene_table::SceneArgs;
 use ccd_core::limits::DEFAULT_TOLERANCE;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -73,13 +74,6 @@ pub(super) enum Subject<'a> {
     Rows(BodiesArgs, &'a Path),
     /// The bodies of a table.
     Scene(&'a Path, SceneArgs<'a>),
-}
-
-/// How the bodies of a scene are loaded.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SceneArgs<'a> {
-    pub(super) meshes: &'a MeshArgs,
-    pub(super) pieces: &'a PiecesArgs,
 }
 
 impl ViewArgs {

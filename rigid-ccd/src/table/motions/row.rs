@@ -37,11 +37,20 @@ pub fn query<R: Record + ?Sized>(
     })
 }
 
-/// The poses of both bodies at a time.
+/// How both bodies are at a time.
 pub(in crate::table) struct Poses {
     pub(in crate::table) time: f64,
-    pub(in crate::table) a: Pose,
-    pub(in crate::table) b: Pose,
+    pub(in crate::table) a: Posed,
+    pub(in crate::table) b: Posed,
+}
+
+/// How a body is at a time.
+#[derive(Clone, Copy)]
+pub(in crate::table) struct Posed {
+    pub(in crate::table) pose: Pose,
+    /// The angular velocity to the next row; zero for the shortest turn.
+    pub(in crate::table) spin: DVec3,
+    pub(in crate::table) centre: DVec3,
 }
 
 /// Parses a row of a path.
@@ -58,8 +67,8 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
     }
     Ok(Poses {
         time: row.number(TIME)?.ok_or_else(|| row.empty(TIME))?,
-        a: row.start(Side::A)?,
-        b: row.start(Side::B)?,
+        a: row.posed(Side::A)?,
+        b: row.posed(Side::B)?,
     })
 }
 
@@ -88,6 +97,14 @@ impl<C: Cells> Row<'_, C> {
             position.unwrap_or(DVec3::ZERO),
             orientation.unwrap_or(DQuat::IDENTITY),
         )?)
+    }
+
+    fn posed(&self, side: Side) -> Result<Posed, RowProblem> {
+        Ok(Posed {
+            pose: self.start(side)?,
+            spin: self.vector(side, Quantity::Spin)?.unwrap_or_default(),
+            centre: self.vector(side, Quantity::Centre)?.unwrap_or_default(),
+        })
     }
 
     fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {

@@ -127,6 +127,53 @@ fn a_path_that_cannot_be_followed_is_an_error() {
     }
 }
 
+/// The centre moves straight, and the origin about it: half a turn about z, of a centre at (1, 0, 0).
+#[test]
+fn a_path_has_a_centre_of_rotation() {
+    let read = paths("t,a_px,a_qw,a_qx,a_qy,a_qz,a_cx,b_cy\n0,0,1,0,0,0,1,7\n2,2,0,0,0,1,1,7\n");
+    let expected = [[0.0; 3], [1.0, -1.0, 0.0], [2.0, 0.0, 0.0]];
+    for (place, expected) in places(&read[0], &[0.0, 1.0, 2.0]).into_iter().zip(expected) {
+        let off = DVec3::from(place).distance(expected.into());
+        assert!(off < 1e-14, "{place:?}");
+    }
+    let (row, message) = only_problem("t,a_cx\n0,1\n1,1\n2,1.5\n");
+    assert_eq!(row, 2);
+    assert!(
+        message.starts_with("columns a_cx a_cy a_cz: not those"),
+        "{message}"
+    );
+}
+
+/// By 3.25 turns, three more than poses alone tell; the last velocity leads nowhere.
+#[test]
+fn angular_velocities_give_whole_turns_to_the_next_row() {
+    let spin = 3.25 * std::f64::consts::TAU / 2.0;
+    let half = std::f64::consts::FRAC_PI_4;
+    let [w, z] = [half.cos(), half.sin()];
+    let table = |spin: f64| {
+        format!("t,a_qw,a_qx,a_qy,a_qz,a_wz,b_px\n0,1,0,0,0,{spin},5\n2,{w},0,0,{z},9,5\n")
+    };
+    let x_axis = |path: &Path, time: f64| path.poses(time).unwrap()[0].rotation() * DVec3::X;
+    for (spin, turns) in [
+        (spin, 3.25),
+        (spin + 0.2, 3.25),
+        (spin - 0.2, 3.25),
+        (0.0, 0.25),
+    ] {
+        let read = paths(&table(spin));
+        for time in [0.0, 0.31, 1.7, 2.0] {
+            let angle = 0.5 * time * turns * std::f64::consts::TAU;
+            let expected = DVec3::new(angle.cos(), angle.sin(), 0.0);
+            let off = x_axis(&read[0], time).distance(expected);
+            assert!(off < 1e-12, "{spin} {time}: {off:e}");
+        }
+    }
+    let (row, message) = only_problem(&table(spin + 0.8));
+    assert_eq!(row, 1);
+    let expected = "columns a_wx a_wy a_wz: those of the row before lead 1.600 radians away";
+    assert!(message.starts_with(expected), "{message}");
+}
+
 #[test]
 fn columns_of_motions_are_no_columns_of_paths() {
     let message = |header: &str| {

@@ -1,10 +1,12 @@
 //! The table of a scene: a row for each body.
 
-use super::args::SceneArgs;
+use super::meshes::MeshArgs;
+use super::pieces::PiecesArgs;
 use crate::picture::Shown;
 use crate::table::motions::MotionTable;
+use crate::{Impact, PairError, Scene};
 use anyhow::{Context, Result, bail};
-use ccd_core::{Body, Motion};
+use ccd_core::{Body, Config, Motion};
 use ccd_decomp::BodySource;
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -13,6 +15,13 @@ use std::path::{Path, PathBuf};
 /// The column that names a body.
 const BODY: &str = "body";
 
+/// How the bodies of a scene are loaded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SceneArgs<'a> {
+    pub(super) meshes: &'a MeshArgs,
+    pub(super) pieces: &'a PiecesArgs,
+}
+
 /// The bodies of a scene.
 pub(super) struct SceneTable {
     /// By description.
@@ -20,8 +29,17 @@ pub(super) struct SceneTable {
     files: Vec<PathBuf>,
     /// What was found about each.
     reports: Vec<String>,
-    /// The description, the name and the motion of each.
-    rows: Vec<(String, String, Motion)>,
+    rows: Vec<Row>,
+}
+
+/// A body of a scene.
+struct Row {
+    /// What it is.
+    text: String,
+    id: String,
+    /// The id, with what it is if the id is a number.
+    name: String,
+    motion: Motion,
 }
 
 /// Reads a table, and loads each body once.
@@ -41,11 +59,16 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
         scene
             .load(&text, how)
             .with_context(|| format!("{}: line {}", name(), position.line))?;
-        let id = match query.id.parse::<usize>() {
+        let name = match query.id.parse::<usize>() {
             Ok(_) => format!("{} {}", query.id, text),
-            Err(_) => query.id,
+            Err(_) => query.id.clone(),
         };
-        scene.rows.push((text, id, query.a));
+        scene.rows.push(Row {
+            text,
+            id: query.id,
+            name,
+            motion: query.a,
+        });
     }
     Ok(scene)
 }
@@ -121,7 +144,7 @@ impl SceneTable {
     /// Returns the files that were read, each with what names it.
     pub(super) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let files = self.files.iter();
-        files.map(|path| ("a body of --scene", path.as_path()))
+        files.map(|path| ("a body of the scene", path.as_path()))
     }
 
     /// Prints what was found about each body.
@@ -133,14 +156,28 @@ impl SceneTable {
 
     /// Returns the bodies in the order of their rows.
     pub(super) fn shown(&self) -> Vec<Shown<'_>> {
-        let shown = self.rows.iter().filter_map(|(text, name, motion)| {
-            let body = self.bodies.get(text)?;
+        let shown = self.rows.iter().filter_map(|row| {
+            let body = self.bodies.get(&row.text)?;
             Some(Shown {
-                name,
+                name: &row.name,
                 body,
-                motion: *motion,
+                motion: row.motion,
             })
         });
         shown.collect()
+    }
+
+    /// Returns the ids of the bodies, in the order of their rows.
+    pub(super) fn ids(&self) -> impl Iterator<Item = &str> {
+        self.rows.iter().map(|row| row.id.as_str())
+    }
+
+    /// Finds the first contact of each pair of bodies that touch, in order of time.
+    pub(super) fn contacts(&self, config: Config, duration: f64) -> Vec<Result<Impact, PairError>> {
+        let mut scene = Scene::new().with_config(config);
+        for body in self.shown() {
+            scene.add(body.body, body.motion);
+        }
+        scene.contacts(duration)
     }
 }
