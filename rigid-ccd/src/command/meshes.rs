@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 /// How mesh files are taken.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
-    /// Unit of all lengths: files that state another one (glTF: metres; 3MF) are converted to it, all other numbers
+    /// Unit of all lengths: files in another one (glTF: metres; 3MF; part.stl@mm) are converted to it, all other numbers
     /// are taken to be in it [default: the numbers of the files]
     #[arg(long, value_name = "UNIT", value_enum, hide_possible_values = false)]
     unit: Option<UnitArg>,

@@ -5,7 +5,6 @@ mod extremes;
 use super::*;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Pose};
-use rand::seq::IndexedRandom;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::io::Write;
@@ -136,11 +135,12 @@ fn poses_of_many_turns() {
         for _ in 0..rng.random_range(2..6) {
             stops.push((time, Pose::new(vector(rng, 3.0), turned)?));
             let (duration, left) = (rng.random_range(0.1..1.5), vector(rng, 0.9));
-            let spin = vector(rng, *[0.1, 3.0, 30.0].choose(rng).unwrap());
+            let size = [0.1, 3.0, 30.0][rng.random_range(0..3)];
+            let spin = vector(rng, size);
             spins.push(spin.to_array());
             time += duration;
-            let share = [0.0, 1e-6, 1.0].choose(rng).unwrap();
-            turned = DQuat::from_scaled_axis(left * *share)
+            let share = [0.0, 1e-6, 1.0][rng.random_range(0..3)];
+            turned = DQuat::from_scaled_axis(left * share)
                 * DQuat::from_scaled_axis(spin * duration)
                 * turned;
         }
