@@ -112,7 +112,7 @@ fn files_are_taken_as_their_adjustments_say() {
     let text = format!("{}@in", file.0.display());
     let source: BodySource = text.parse().unwrap();
     let converted = source.load_in(Unit::Millimetre, Detail::Auto).unwrap();
-    assert_eq!(along_x(&converted), [25.4, 3.0 * 25.4]);
+    assert_eq!(along_x(&converted), [25.4, 76.2]);
     // Beside those of all files.
     let doubled = Adjustments::NONE.scaled(2.0).unwrap().mirrored(Axis::X);
     let both = source.load_adjusted(&doubled, Detail::Auto).unwrap();
