@@ -274,9 +274,8 @@ impl fmt::Display for RowProblem {
             ),
             Self::LedElsewhere { body, left } => write!(
                 f,
-                "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {:.3} radians away from this \
-                 orientation; a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn",
-                left
+                "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {left:.3} radians away from this \
+                 orientation; a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
             ),
             Self::NeedsBestFirst => write!(f, "needs --schedule best-first"),
             Self::Input(error) => write!(f, "{error}"),
