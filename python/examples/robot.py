@@ -157,8 +157,8 @@ cell = obstacle_of("cell", trimesh.util.concatenate(placed), [0, 0, 0])
 
 
 # %% Two checks of an edge
-# An edge moves all joints at constant rates. Ours is asked once for each pair of bodies, for the whole edge. A pair of
-# links is asked as the nearer one sees the other: what moves both costs nothing.
+# An edge moves each joint from one position to another. Ours is asked once for each pair of bodies, for the whole edge.
+# A pair of links is asked as the nearer one sees the other: what moves both costs nothing.
 def pairs(start: np.ndarray, end: np.ndarray, around: list[Obstacle]) -> Iterator[tuple[Link, Link | Obstacle, Any]]:
     """Each pair of bodies that may meet, with their motions: what the queries take."""
     for link in links:

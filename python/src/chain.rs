@@ -149,9 +149,9 @@ impl PyJoint {
 /// >>> from rigid_ccd import Body, Chain, Joint, first_contact
 /// >>> turns = [Joint.revolute(([0, 0, 0], [1, 0, 0, 0]), [0, 0, 1]), Joint.revolute(([1, 0, 0], [1, 0, 0, 0]), [0, 0, 1])]
 /// >>> arm = Chain(turns)
-/// >>> forearm = arm.link(2, [0, 0], [1, -2])
-/// >>> arm.pose(2, [0, 0])[:3, 3]
-/// array([1., 0., 0.])
+/// >>> forearm = arm.link(2, start=[0.3, 0.5], end=[1.3, -1.5])
+/// >>> bool((forearm.pose(1) == arm.pose(2, [1.3, -1.5])).all())
+/// True
 /// >>> ball, post = Body.sphere(0.1), Body.box(0.1, 0.1, 1)
 /// >>> first_contact(ball, post, forearm) is None
 /// True
@@ -218,13 +218,13 @@ impl PyChain {
         Ok(matrix_of(py, &pose.map_err(input)?))
     }
 
-    /// A link while all joints move at constant rates: an edge of a planner.
+    /// A link while each joint goes from its position in start to that in end, at a constant rate: an edge of a planner.
     ///
     /// It stands for a `Motion` in all queries: the proof is about the link's own curve, not about steps of it.
     ///
     /// Args:
     ///     link: its number; link k + 1 is after joint k.
-    ///     start, end: a position for each joint, fixed ones included.
+    ///     start, end: a position for each joint at both ends, fixed ones included; no rates.
     ///     duration: the time from one to the other.
     ///
     /// Raises:

@@ -21,7 +21,7 @@ use std::time::Instant;
 const CLEARANCE: f64 = 0.005;
 const OBSTACLES: usize = 20;
 
-/// Returns whether an edge of the planner's graph is free: all joints move at constant rates.
+/// Returns whether an edge of the planner's graph is free: each joint goes from one position to another.
 fn edge_is_free(
     solver: &mut Solver,
     scene: &Scene,

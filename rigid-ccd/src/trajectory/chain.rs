@@ -14,12 +14,14 @@ use ccd_core::Pose;
 /// let shoulder = Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0])?;
 /// let elbow = Joint::revolute(Pose::at([1.0, 0.0, 0.0])?, [0.0, 0.0, 1.0])?;
 /// let arm = Chain::new(Pose::IDENTITY, vec![shoulder, elbow]);
-/// // Both joints turn at constant rates; the forearm's origin stays on a circle.
-/// let forearm = arm.link(2, &[0.0, 0.0], &[1.0, -2.0], 1.0)?;
+/// // Where the joints are at time 0, and where they are 2 units of time later: positions, not rates.
+/// let (from, to) = ([0.3, 0.5], [1.3, -1.5]);
+/// let forearm = arm.link(2, &from, &to, 2.0)?;
+/// assert_eq!(forearm.pose(0.0)?, arm.pose(2, &from)?);
+/// assert_eq!(forearm.pose(2.0)?, arm.pose(2, &to)?);
+/// // In between the forearm's origin stays on a circle. As the upper arm sees it, it only turns.
 /// assert!((forearm.pose(0.7)?.translation().length() - 1.0).abs() < 1e-15);
-/// // As the upper arm sees it, it only turns.
-/// let bends = arm.link(2, &[0.0, 0.0], &[1.0, -2.0], 1.0)?.seen_from(1)?;
-/// assert!(bends.pose(0.7)?.translation().x == 1.0);
+/// assert_eq!(forearm.seen_from(1)?.pose(0.7)?.translation().x, 1.0);
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

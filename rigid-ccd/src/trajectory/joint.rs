@@ -13,10 +13,10 @@ use std::ops::RangeInclusive;
 /// use rigid_ccd::trajectory::Joint;
 /// use rigid_ccd::Pose;
 /// let hinge = Joint::revolute(Pose::at([0.0, 0.0, 1.0])?, [0.0, 1.0, 0.0])?.within(-1.5..=1.5);
-/// // A door opens by one radian in two units of time.
-/// let opens = hinge.motion(0.0, 1.0, 2.0)?;
+/// // A door that is open by a quarter of a radian opens to 1.25 radians, in two units of time.
+/// let opens = hinge.motion(0.25, 1.25, 2.0)?;
 /// assert_eq!(opens.spin().y, 0.5);
-/// assert!(hinge.motion(0.0, 3.0, 2.0).is_err());
+/// assert!(hinge.motion(0.25, 3.0, 2.0).is_err());
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -106,8 +106,8 @@ impl Joint {
         Ok(self.origin.compose(&moved))
     }
 
-    /// Returns the motion of the link after the joint, in the frame of the link before it, at a constant rate
-    /// from one position to another.
+    /// Returns the motion of the link after the joint, in the frame of the link before it, from a position at time 0
+    /// to another one at the time `duration`, at a constant rate.
     ///
     /// # Errors
     /// [`InputError::JointPosition`] outside of the limits, [`InputError::NotFinite`], also for a duration of 0

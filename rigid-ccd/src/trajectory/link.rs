@@ -1,4 +1,4 @@
-//! A link of a serial chain whose joints all move at constant rates.
+//! A link of a serial chain whose joints all go from one position to another.
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
@@ -45,9 +45,11 @@ impl Chain {
         Trajectory::pose(&rests, 0.0)
     }
 
-    /// Returns the trajectory of a link while all joints move at constant rates from some positions to others.
+    /// Returns the trajectory of a link while each joint goes from its position in `from`, at time 0, to its position
+    /// in `to`, at the time `duration`.
     ///
-    /// There is a position for each joint, fixed ones included.
+    /// Both are positions, not rates: a joint's rate is `(to − from) / duration`, and constant. There is a position for
+    /// each joint, fixed ones included.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a link that does not exist, for another number of positions, and for a duration
