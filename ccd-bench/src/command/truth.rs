@@ -101,10 +101,10 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
         if batch.is_empty() {
             break;
         }
+        progress.answering(batch.len(), rows.bytes());
         let started = Instant::now();
         let truths = judge(&mut referees, &batch, &progress);
         size.adapt(started.elapsed());
-        progress.read(rows.bytes());
         for (row, truth) in batch.iter().zip(truths) {
             if let Err(error) = row {
                 bad_rows.report(error.position, &error.problem, &progress);

@@ -173,17 +173,18 @@ impl Audit<'_> {
             if batch.is_empty() {
                 return Ok(());
             }
+            self.progress.answering(batch.len(), rows.bytes());
             let (bodies, settings, progress) = (self.bodies, &self.settings, &self.progress);
             let start = Instant::now();
             let answers = self.solver.map(&batch, |solver, row| {
-                progress.step();
-                match row {
+                let answer = match row {
                     Ok((_, course)) => answered(bodies, course, settings, solver.as_mut()),
                     Err(error) => ResultRow::error(&error.id, &error.problem),
-                }
+                };
+                progress.step();
+                answer
             });
             self.batch.adapt(start.elapsed());
-            self.progress.read(rows.bytes());
             for (row, answer) in batch.iter().zip(&answers) {
                 self.take(row, answer)?;
             }

@@ -16,6 +16,9 @@ pub struct Progress {
     bar: ProgressBar,
     steps: Arc<AtomicU64>,
     total: Total,
+    /// The bytes of a step, and where the steps end that have begun, where the total is in bytes.
+    bytes_of_step: AtomicU64,
+    end: AtomicU64,
     /// The end of a channel that closes when the work is done.
     working: Option<Sender<()>>,
     showing: Option<JoinHandle<()>>,
@@ -26,7 +29,7 @@ pub struct Progress {
 pub enum Total {
     /// A known number of steps.
     Steps(usize),
-    /// Steps read from an input of known length in bytes.
+    /// Steps that answer rows of an input of known length in bytes.
     Bytes(u64),
     /// An unknown number of steps.
     Unknown,
@@ -92,6 +95,8 @@ impl Progress {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
             steps: Arc::default(),
             total: Total::Unknown,
+            bytes_of_step: AtomicU64::new(0),
+            end: AtomicU64::new(0),
             working: None,
             showing: None,
         }
@@ -100,15 +105,20 @@ impl Progress {
     /// Counts a step.
     pub fn step(&self) {
         self.steps.fetch_add(1, Ordering::Relaxed);
-        if let Total::Steps(_) = self.total {
-            self.bar.inc(1);
+        match self.total {
+            Total::Steps(_) => self.bar.inc(1),
+            Total::Bytes(_) => self.bar.inc(self.bytes_of_step.load(Ordering::Relaxed)),
+            Total::Unknown | Total::One => {}
         }
     }
 
-    /// Sets the number of bytes read.
-    pub fn read(&self, bytes: u64) {
+    /// Begins as many steps, which answer the rows that end at that byte of the input; all rows before are answered.
+    pub fn answering(&self, steps: usize, end: u64) {
         if let Total::Bytes(_) = self.total {
-            self.bar.set_position(bytes);
+            let begin = self.end.swap(end, Ordering::Relaxed);
+            self.bar.set_position(begin);
+            let bytes = end.saturating_sub(begin) / (steps as u64).max(1);
+            self.bytes_of_step.store(bytes, Ordering::Relaxed);
         }
     }
 
@@ -167,12 +177,22 @@ fn line(bar: &ProgressBar, total: Total, steps: &AtomicU64) -> String {
     }
 }
 
+/// Returns the number of rows answered, and how fast they are.
 fn rate(steps: &AtomicU64, elapsed: Duration) -> String {
     let steps = steps.load(Ordering::Relaxed);
-    let rate = steps as f64 / elapsed.as_secs_f64();
-    format!(
-        "{} rows, {} rows/s",
-        HumanCount(steps),
-        HumanCount(rate as u64)
-    )
+    let seconds = elapsed.as_secs_f64();
+    let rate = steps as f64 / seconds;
+    match steps {
+        0 => "0 rows answered".to_owned(),
+        1 => "1 row answered".to_owned(),
+        _ if rate < 1.0 => format!("{steps} rows answered, {:.0} s/row", 1.0 / rate),
+        _ => format!(
+            "{} rows answered, {} rows/s",
+            HumanCount(steps),
+            HumanCount(rate as u64)
+        ),
+    }
 }
+
+#[cfg(test)]
+mod tests;

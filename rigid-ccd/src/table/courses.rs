@@ -118,7 +118,7 @@ impl<S: Records> Courses<S> {
         }
     }
 
-    /// Returns the number of bytes read from the input, with those that wait in a buffer.
+    /// Returns the number of bytes of the input up to the end of the last row, or of the last path.
     pub fn bytes(&self) -> u64 {
         match self {
             Courses::Motions(table) => table.bytes(),

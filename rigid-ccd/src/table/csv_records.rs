@@ -72,7 +72,8 @@ impl<R: Read> Records for CsvRecords<R> {
     }
 
     fn bytes(&self) -> u64 {
-        self.reader.get_ref().get_ref().0.input().bytes
+        let (quotes, _) = self.reader.get_ref().get_ref();
+        quotes.input().behind(self.reader.position().byte())
     }
 
     fn checksum(&self) -> u32 {

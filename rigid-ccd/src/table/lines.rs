@@ -10,8 +10,9 @@ use std::io::{self, Read};
 pub struct Lines<R> {
     input: R,
     after_return: bool,
-    /// The number of bytes read from the input.
-    pub bytes: u64,
+    /// The number of bytes read from the input, and of those that were left out: one of each `\r\n`.
+    bytes: u64,
+    left_out: u64,
 }
 
 impl<R: Read> Lines<R> {
@@ -21,7 +22,13 @@ impl<R: Read> Lines<R> {
             input,
             after_return: false,
             bytes: 0,
+            left_out: 0,
         }
+    }
+
+    /// Returns how much of the input is behind, of which `taken` bytes of this reader have been used.
+    pub fn behind(&self, taken: u64) -> u64 {
+        self.bytes.min(taken + self.left_out)
     }
 
     /// Reads some bytes of the input; at its start more than a byte order mark has.
@@ -61,6 +68,7 @@ impl<R: Read> Read for Lines<R> {
                     kept += 1;
                 }
             }
+            self.left_out += (read - kept) as u64;
             // A read of 0 bytes would mean the end of the input.
             if kept > 0 || read == 0 {
                 return Ok(kept);

@@ -101,7 +101,7 @@ impl<S: Records> MotionRows<S> {
         Ok(rows)
     }
 
-    /// Returns the number of bytes read from the input, with those that wait in a buffer.
+    /// Returns the number of bytes of the input up to the end of the last row.
     pub fn bytes(&self) -> u64 {
         self.records.bytes()
     }

@@ -57,6 +57,8 @@ pub struct PathRows<S> {
     next: Option<RowPosition>,
     /// The checksum of the header and of all rows of the paths read.
     checksum: u32,
+    /// The number of bytes up to the end of these rows.
+    bytes: u64,
     /// Hashes of the ids of the paths read.
     known: HashSet<u64>,
     hasher: RandomState,
@@ -75,7 +77,7 @@ impl<S: Records> PathRows<S> {
         columns: Columns,
         grouping: Grouping,
     ) -> Result<Self, TableError> {
-        let checksum = records.checksum();
+        let (checksum, bytes) = (records.checksum(), records.bytes());
         Ok(PathRows {
             next: records.advance()?,
             records,
@@ -83,6 +85,7 @@ impl<S: Records> PathRows<S> {
             grouping,
             paths: 0,
             checksum,
+            bytes,
             known: HashSet::new(),
             hasher: RandomState::new(),
         })
@@ -101,9 +104,9 @@ impl<S: Records> PathRows<S> {
         Ok(paths)
     }
 
-    /// Returns the number of bytes read from the input, with those that wait in a buffer.
+    /// Returns the number of bytes of the input up to the end of the last path.
     pub fn bytes(&self) -> u64 {
-        self.records.bytes()
+        self.bytes
     }
 
     /// Returns a checksum of the header and of all rows of the paths so far.
@@ -129,6 +132,7 @@ impl<S: Records> PathRows<S> {
         loop {
             row(at, &self.columns, self.records.current());
             self.checksum = self.records.checksum();
+            self.bytes = self.records.bytes();
             self.next = self.records.advance()?;
             let same = |next| match self.grouping {
                 Grouping::ById => row::id(&self.columns, next) == id,

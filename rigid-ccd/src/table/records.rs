@@ -29,8 +29,7 @@ pub trait Records {
         0
     }
 
-    /// Returns the number of bytes read from the input, with those that wait in a buffer; 0 for tables that are in
-    /// memory.
+    /// Returns the number of bytes of the input up to the end of the current record; 0 for tables that are in memory.
     fn bytes(&self) -> u64 {
         0
     }

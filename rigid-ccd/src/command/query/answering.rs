@@ -36,6 +36,7 @@ impl Answering<'_> {
     /// Answers the selected rows from `start` on, and returns where they end.
     pub(super) fn answer_all(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
         let mut done = start;
+        self.progress.answering(0, rows.bytes());
         loop {
             let end = self.args.rows.end;
             let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
@@ -44,8 +45,8 @@ impl Answering<'_> {
             if batch.is_empty() && broken.is_none() {
                 return Ok(done);
             }
+            self.progress.answering(batch.len(), rows.bytes());
             self.answer(&batch)?;
-            self.progress.read(rows.bytes());
             done = Checkpoint {
                 rows: done.rows + batch.len(),
                 checksum: rows.checksum(),

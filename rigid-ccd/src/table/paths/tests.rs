@@ -220,3 +220,14 @@ fn checksums_are_of_the_paths_that_are_read() {
     assert_eq!(rows.checksum(), sum(text, 1));
     assert_eq!(rows.skip_rows(5).unwrap(), 1);
 }
+
+/// The first row of the next path is read with a path, to see its id.
+#[test]
+fn bytes_are_those_up_to_the_last_path() {
+    let text = "id,t\nx,0\nx,1\ny,0\ny,1\n";
+    let mut rows = Courses::new(text.as_bytes(), Grouping::ById).unwrap();
+    for expected in ["id,t\n", "id,t\nx,0\nx,1\n", text] {
+        assert_eq!(rows.bytes(), expected.len() as u64);
+        let _ = rows.next();
+    }
+}

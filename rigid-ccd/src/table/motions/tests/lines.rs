@@ -118,6 +118,17 @@ fn lines_split_anywhere_are_the_same_lines() {
     assert_eq!(rows.bytes(), text.len() as u64);
 }
 
+/// The whole table is read at once: what waits in the buffer is not behind.
+#[test]
+fn bytes_are_those_up_to_the_last_row() {
+    let header = "id,a_px\n";
+    let mut rows = MotionRows::new("id,a_px\n1,1\nlonger,2\n3,3".as_bytes()).unwrap();
+    for expected in ["", "1,1\n", "1,1\nlonger,2\n", "1,1\nlonger,2\n3,3"] {
+        assert_eq!(rows.bytes(), (header.len() + expected.len()) as u64);
+        let _ = rows.next();
+    }
+}
+
 /// Found by the fuzz target `motions`.
 #[test]
 fn a_byte_order_mark_in_parts_is_ignored() {

@@ -1,0 +1,38 @@
+use super::*;
+
+fn shown(progress: &Progress) -> String {
+    line(&progress.bar, progress.total, &progress.steps)
+}
+
+/// Rows are read before they are answered: those of a batch all at once.
+#[test]
+fn what_is_answered_counts_and_not_what_is_read() {
+    let progress = Progress::new(Total::Bytes(110));
+    progress.answering(0, 10);
+    progress.answering(4, 110);
+    assert_eq!(shown(&progress), "0 rows answered, 9 %");
+    progress.step();
+    assert_eq!(shown(&progress), "1 row answered, 31 %");
+    for _ in 0..3 {
+        progress.step();
+    }
+    assert!(shown(&progress).ends_with(", 100 %"));
+}
+
+/// A run that is continued, or begins at a later row.
+#[test]
+fn rows_that_were_skipped_count_as_answered() {
+    let progress = Progress::new(Total::Bytes(100));
+    progress.answering(0, 60);
+    progress.answering(2, 100);
+    assert_eq!(shown(&progress), "0 rows answered, 60 %");
+}
+
+#[test]
+fn slow_rows_have_a_time_and_fast_ones_a_rate() {
+    let after = |steps, seconds| rate(&AtomicU64::new(steps), Duration::from_secs(seconds));
+    assert_eq!(after(0, 5), "0 rows answered");
+    assert_eq!(after(1, 5), "1 row answered");
+    assert_eq!(after(2, 10), "2 rows answered, 5 s/row");
+    assert_eq!(after(5000, 2), "5,000 rows answered, 2,500 rows/s");
+}
