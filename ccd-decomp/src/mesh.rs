@@ -73,12 +73,21 @@ impl TriangleMesh {
 
     /// Makes a mesh of vertices and triangles in memory.
     ///
+    /// ```
+    /// use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+    /// let vertices = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let mesh = TriangleMesh::new(vertices, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
+    /// let body = body_from_mesh(&mesh, Detail::Auto)?.body;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// [`MeshFault::NotFinite`], [`MeshFault::TooLarge`], [`MeshFault::NoSuchVertex`],
     /// [`MeshFault::NoVertices`], [`MeshFault::NoFaces`], [`MeshFault::TooMany`].
-    pub fn new(vertices: Vec<DVec3>, faces: &[[u32; 3]]) -> Result<Self, MeshError> {
+    pub fn new(vertices: Vec<impl Into<[f64; 3]>>, faces: &[[u32; 3]]) -> Result<Self, MeshError> {
+        let vertices = vertices.into_iter().map(|point| DVec3::from(point.into()));
         Ok(TriangleMesh::from_polygons(Polygons {
-            vertices,
+            vertices: vertices.collect(),
             corners: faces.iter().flatten().map(|&v| i64::from(v)).collect(),
             ends: (1..=faces.len()).map(|k| 3 * k).collect(),
             ..Polygons::default()

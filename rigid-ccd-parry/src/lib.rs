@@ -21,12 +21,37 @@
 //!
 //! | to … | use, in the module `f32` or `f64` |
 //! |---|---|
-//! | replace parry's functions | `cast_shapes_nonlinear`, `cast_shapes` |
-//! | learn why there is no answer | `try_cast_shapes_nonlinear`, `try_cast_shapes`, which return a [`CastError`] |
-//! | cast large shapes each frame | `Caster`, which keeps the bodies of shared shapes |
-//! | set a tolerance or a budget, or fill meshes | `Caster::new` with [`Settings`] |
-//! | ask all else that [`rigid_ccd::Solver`] answers | `body` and `motion` |
-//! | hand a cast to the command `ccd` | `Caster::record`, with the feature `record` |
+//! | replace parry's functions | [`cast_shapes_nonlinear`], [`cast_shapes`] |
+//! | learn why there is no answer | [`try_cast_shapes_nonlinear`], [`try_cast_shapes`], which return a [`CastError`] |
+//! | cast large shapes each frame | [`Caster`], which keeps the bodies of shared shapes |
+//! | set a tolerance or a budget, or fill meshes | [`Caster::new`] with [`Settings`] |
+//! | ask all else that [`rigid_ccd::Solver`] answers | [`body`] and [`motion`] |
+//! | hand a cast to the command `ccd` | [`Caster::record`], with the feature `record` |
+//!
+#![cfg_attr(
+    feature = "f32",
+    doc = "[`cast_shapes`]: crate::f32::cast_shapes
+[`cast_shapes_nonlinear`]: crate::f32::cast_shapes_nonlinear
+[`try_cast_shapes`]: crate::f32::try_cast_shapes
+[`try_cast_shapes_nonlinear`]: crate::f32::try_cast_shapes_nonlinear
+[`Caster`]: crate::f32::Caster
+[`Caster::new`]: crate::f32::Caster::new
+[`body`]: crate::f32::body
+[`motion`]: crate::f32::motion
+[`Caster::record`]: crate::f32::Caster"
+)]
+#![cfg_attr(
+    not(feature = "f32"),
+    doc = "[`cast_shapes`]: crate::f64::cast_shapes
+[`cast_shapes_nonlinear`]: crate::f64::cast_shapes_nonlinear
+[`try_cast_shapes`]: crate::f64::try_cast_shapes
+[`try_cast_shapes_nonlinear`]: crate::f64::try_cast_shapes_nonlinear
+[`Caster`]: crate::f64::Caster
+[`Caster::new`]: crate::f64::Caster::new
+[`body`]: crate::f64::body
+[`motion`]: crate::f64::motion
+[`Caster::record`]: crate::f64::Caster"
+)]
 //!
 //! # Guarantee
 //! Nothing touches between the start and the time of a hit. Without a hit nothing touches in the whole interval. Both hold

@@ -24,17 +24,17 @@
 //! | follow a spline, a path of poses, a throw, an arm's link | [`trajectory`], [`Solver::first_contact_along`] |
 //! | answer many on all cores, in order | [`first_contacts`], [`ParallelSolver`] |
 //! | answer many one after another | [`Solver`] |
-//! | move many bodies, and find who touches whom first, or at all | `Scene` |
+//! | move many bodies, and find who touches whom first, or at all | [`Scene`] |
 //! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
-//! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], `load` for a file |
-//! | make a body of each part of a file, convert units, scale or mirror it | `load_parts`, `load_in`, `load_adjusted`, `mesh::MeshFile` |
-//! | make a body from vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
+//! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], [`load`] for a file |
+//! | make a body of each part of a file, convert units, scale or mirror it | [`load_parts`], [`load_in`], [`load_adjusted`], [`mesh::MeshFile`] |
+//! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Problem::contacts_at`] |
 //! | get proven gaps and statistics | [`Solver::answer`] |
 //! | choose or write a distance backend | [`Solver::with_oracle`], [`DistanceOracle`] |
 //!
-//! Vectors are arrays, or types that convert into them: those of `glam` and `nalgebra`. Lengths are in
+//! Vectors are arrays, or types that convert into them: those of [`glam`] and `nalgebra`. Lengths are in
 //! any one unit, times in the motions' unit, angles in radians.
 //!
 //! # Terms
@@ -56,15 +56,43 @@
 //! do not count.
 //!
 //! # Features
-//! - `meshes` (default): `load`, and `mesh` for everything that `ccd-decomp` does with meshes.
+//! - `meshes` (default): [`load`], and [`mesh`] for everything that `ccd-decomp` does with meshes.
 //! - `gltf`, `3mf`: meshes from files of these formats, too; `command` has both.
 //! - `tables`, `pages`: what the command and the Python package share; no stable interface.
 //! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
-//! - `scenes` (default): `Scene`, many moving bodies.
-//! - `vmarch`: the distance backend `Vmarch`.
+//! - `scenes` (default): [`Scene`], many moving bodies.
+//! - `vmarch`: the distance backend [`Vmarch`].
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
 //!
 //! The README of this crate lists the time that each feature takes to build.
+//!
+// Names that need a feature lead to the list of features in documentation that was built without it.
+#![cfg_attr(
+    feature = "meshes",
+    doc = "[`load`]: load()
+[`load_in`]: load_in()
+[`load_adjusted`]: load_adjusted()
+[`load_parts`]: load_parts()
+[`mesh`]: mesh
+[`mesh::MeshFile`]: mesh::MeshFile
+[`mesh::TriangleMesh::new`]: mesh::TriangleMesh::new
+[`mesh::body_from_mesh`]: mesh::body_from_mesh()"
+)]
+#![cfg_attr(
+    not(feature = "meshes"),
+    doc = "[`load`]: #features
+[`load_in`]: #features
+[`load_adjusted`]: #features
+[`load_parts`]: #features
+[`mesh`]: #features
+[`mesh::MeshFile`]: #features
+[`mesh::TriangleMesh::new`]: #features
+[`mesh::body_from_mesh`]: #features"
+)]
+#![cfg_attr(feature = "scenes", doc = "[`Scene`]: Scene")]
+#![cfg_attr(not(feature = "scenes"), doc = "[`Scene`]: #features")]
+#![cfg_attr(feature = "vmarch", doc = "[`Vmarch`]: Vmarch")]
+#![cfg_attr(not(feature = "vmarch"), doc = "[`Vmarch`]: #features")]
 
 #[cfg(feature = "tables")]
 pub mod batch;
