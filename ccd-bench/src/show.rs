@@ -6,5 +6,6 @@ pub mod comparable;
 pub mod page;
 pub mod presentation;
 pub mod report;
+pub mod sentences;
 pub mod tables;
 pub mod view;

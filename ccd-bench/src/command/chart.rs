@@ -65,6 +65,9 @@ pub(super) struct CommonArgs {
     /// repeated
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
+    /// Print the tables, too: a row for each method on each scene
+    #[arg(long)]
+    tables: bool,
 }
 
 const REPORT: &str = "target/ccd-report";
@@ -74,6 +77,7 @@ impl Default for CommonArgs {
         CommonArgs {
             models: None,
             out: REPORT.into(),
+            tables: false,
         }
     }
 }
@@ -83,10 +87,10 @@ Measurements of the same program and settings are kept, so that an interrupted r
 stopped. An unknown name is answered with the list of known ones.
 
 Examples:
-  ccd-bench chart                                       a few rows of everything, in a minute
-  ccd-bench chart --full --out full                     everything
+  ccd-bench chart                           # a few rows of everything, in a minute
+  ccd-bench chart --full --out full         # everything
   ccd-bench chart --scenes santa --tolerances 1e-3,1e-6
-  ccd-bench chart --export scenes                       meshes and motions, for other programs";
+  ccd-bench chart --export scenes           # meshes and motions, for other programs";
 
 /// The tolerances from coarse to fine, as fractions of a body of size 1.
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
@@ -174,24 +178,24 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         true => plan.recall()?,
         false => plan.run()?,
     };
-    present(&plan, evaluated, foreign, &args.splice)
+    present(&args.common, evaluated, foreign, &args.splice)
 }
 
 pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
     let plan = plan(args, Extent::Glance)?;
-    present(&plan, plan.run()?, Vec::new(), &[])
+    present(args, plan.run()?, Vec::new(), &[])
 }
 
-/// Writes tables, charts and the page.
+/// Writes tables, charts and the page, and says what was seen.
 fn present(
-    plan: &Plan,
+    common: &CommonArgs,
     mut evaluated: Evaluated,
     joined: Vec<Foreign>,
     readmes: &[PathBuf],
 ) -> Result<Exit> {
     joined::join(&mut evaluated, joined)?;
     let presentation = Presentation::new(&evaluated);
-    let page = presentation.write(&plan.folder)?;
+    let page = presentation.write(&common.out)?;
     for readme in readmes {
         splice(readme, &presentation.comparisons)
             .with_context(|| format!("splicing {}", readme.display()))?;
@@ -199,14 +203,22 @@ fn present(
     let mut out = io::stdout().lock();
     let mut print = |text: &dyn Display| {
         writeln!(out, "{text}").map_err(|source| CannotWrite {
-            place: "the tables".to_owned(),
+            place: "what was seen".to_owned(),
             source,
         })
     };
-    for table in &presentation.summary {
-        print(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
+    if common.tables {
+        for table in &presentation.summary {
+            print(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
+        }
     }
-    print(&format_args!("The report: {}", page.display()))?;
+    for sentence in &presentation.sentences {
+        print(sentence)?;
+    }
+    print(&format_args!(
+        "The report, with scenes in motion, charts and tables: {}",
+        page.display()
+    ))?;
     Ok(Exit::AllAnswered)
 }
 

@@ -237,7 +237,7 @@ impl Family {
     const COMPARED: [Family; 3] = [Family::Ours, Family::Rival, Family::Peer];
 
     /// Returns the heading in the legend.
-    fn title(self) -> &'static str {
+    pub(in crate::show) fn title(self) -> &'static str {
         match self {
             Family::Ours => "this project",
             Family::Rival => "published rivals",

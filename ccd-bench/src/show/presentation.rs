@@ -11,6 +11,7 @@ use crate::run::measured::Cell;
 use crate::scene::Scene;
 use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;
+use crate::show::sentences::Seen;
 use crate::show::tables::{self, TextTable};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,8 @@ use std::path::{Path, PathBuf};
 /// Tables, charts and views of one evaluation.
 pub struct Presentation<'e> {
     evaluated: &'e Evaluated,
+    /// What was seen.
+    pub sentences: Vec<String>,
     /// The tables for the terminal.
     pub summary: Vec<TextTable>,
     /// The tables for a page or a README.
@@ -60,6 +63,7 @@ impl<'e> Presentation<'e> {
         published.title += "; the paper reports 1.4 to 45.5 over CONTACT";
         let safety = tables::safety(journal.cells(), journal.trials());
         let reference = Reference::new(DEFAULT, journal.trials());
+        let sentences = sentences(evaluated, &answering(&methods, &safety), &reference);
         let usual = tables::at_tolerance(journal.cells(), USUAL_TOLERANCE, &reference);
         Presentation {
             evaluated,
@@ -70,6 +74,7 @@ impl<'e> Presentation<'e> {
                 safety.clone().named("safety"),
                 usual.clone().named("all"),
             ],
+            sentences,
             summary: vec![usual, safety],
             methods,
             cells: reference.comparable(journal.cells()),
@@ -119,6 +124,31 @@ impl<'e> Presentation<'e> {
             folder,
         )?)
     }
+}
+
+/// Returns the methods that a table of answers lists: others measure something else.
+fn answering(methods: &[(String, Family)], safety: &TextTable) -> Vec<(String, Family)> {
+    let listed = |name: &String| safety.rows.iter().any(|row| row.first() == Some(name));
+    let answering = methods.iter().filter(|(name, _)| listed(name));
+    answering.cloned().collect()
+}
+
+fn sentences(
+    evaluated: &Evaluated,
+    methods: &[(String, Family)],
+    reference: &Reference<'_>,
+) -> Vec<String> {
+    let triangles: Vec<usize> = (evaluated.scenes.iter())
+        .map(|scene| scene.a.triangles())
+        .collect();
+    let seen = Seen {
+        triangles: &triangles,
+        methods,
+        cells: evaluated.journal.cells(),
+        reference,
+        tolerance: USUAL_TOLERANCE,
+    };
+    seen.sentences()
 }
 
 /// Returns the family of each method; an unknown method was measured elsewhere.

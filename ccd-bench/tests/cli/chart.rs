@@ -27,7 +27,15 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let output = chart(&folder).output();
     assert!(output.status.success(), "{}", stderr(&output));
     let output_text = String::from_utf8(output.stdout).unwrap();
-    assert!(output_text.contains("best-first direct") && output_text.contains("The report: "));
+    assert!(output_text.starts_with("1 scenes, "), "{output_text}");
+    assert!(output_text.contains("\nThis project (1 of the methods, "));
+    assert!(output_text.lines().count() <= 10 && output_text.ends_with("index.html\n"));
+    let page = fs::read_to_string(folder.join("index.html")).unwrap();
+    assert!(page.contains("<h1>ccd: certified"));
+    let place = |part: &str| page.find(part).unwrap();
+    assert!(place(r#"<section id="scenes">"#) < place(r#"<section id="plane">"#));
+    assert!(page.contains(r#""group":"this project""#));
+    assert_eq!(first_view(&page), "contact");
     let table = fs::read(folder.join("chart.csv")).unwrap();
     let rows = parse(&table);
     assert_eq!(rows.len(), 4);
@@ -48,8 +56,23 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
             "{file}"
         );
     }
-    assert!(chart(&folder).output().status.success());
+    let output = chart(&folder).args(&["--tables"]).output();
+    assert!(output.status.success());
+    assert!(
+        String::from_utf8(output.stdout)
+            .unwrap()
+            .contains("│ knot216")
+    );
     assert_eq!(fs::read(folder.join("chart.csv")).unwrap(), table);
+}
+
+/// Returns what happens in the view with which a page opens.
+fn first_view(page: &str) -> String {
+    let (_, views) = page.split_once(r#"id="views">"#).unwrap();
+    let (views, _) = views.split_once("</script>").unwrap();
+    let views: serde_json::Value = serde_json::from_str(views).unwrap();
+    let name = views["groups"][0]["views"][0]["name"].as_str().unwrap();
+    name.split(['(', ')']).nth(1).unwrap().to_owned()
 }
 
 #[test]

@@ -22,6 +22,8 @@
       x: points.map((cell) => (method.unsafe ? method.label : Math.max(cell.error, LEAST_ERROR))),
       y: points.map((cell) => cell.median_us),
       xaxis: method.unsafe ? "x2" : "x",
+      legendgroup: method.group,
+      legendgrouptitle: { text: method.group },
       customdata: points.map((cell) => [method.name, cell.tolerance.toExponential(0), cell.median_us,
         cell.mean_us, error(cell), cell.late, cell.missed, cell.false, cell.unresolved, cell.rows]),
       hovertemplate: HOVER,
@@ -42,7 +44,7 @@
     const layout = {
       margin: { l: 70, r: 10, t: 36, b: 60 },
       // Below the plot where there is no room beside it.
-      legend: plot.clientWidth < NARROW ? { orientation: "h", y: -0.25 } : { orientation: "v" },
+      legend: { groupclick: "toggleitem", ...(plot.clientWidth < NARROW ? { orientation: "h", y: -0.25 } : { orientation: "v" }) },
       uirevision: "kept",
       xaxis: { ...power, domain: strip ? [0, 0.74] : [0, 1], dtick: 2, title: { text: "mean error of the time of contact, share of duration" } },
       yaxis: { ...power, title: { text: "time of a query, median, µs" } },

@@ -17,6 +17,8 @@ struct MethodData<'a> {
     name: &'a str,
     label: &'a str,
     family: &'static str,
+    /// What the legend calls the family.
+    group: &'static str,
     colour: String,
     r#unsafe: bool,
 }
@@ -72,6 +74,7 @@ pub(super) fn measured(charts: &Charts<'_>) -> Result<String, serde_json::Error>
                     Family::Peer => "peer",
                     Family::Model => "model",
                 },
+                group: method.family.title(),
                 colour: colour.clone(),
                 r#unsafe: charts.is_unsafe(method.name),
             })
