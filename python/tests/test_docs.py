@@ -4,6 +4,7 @@ import doctest
 import importlib
 import inspect
 import re
+import struct
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -13,6 +14,8 @@ import pytest
 import rigid_ccd
 from rigid_ccd import _rigid_ccd
 
+# A triangle, as an STL file.
+PART = bytes(80) + struct.pack("<I12fH", 1, 0, 0, 1, -1, -1, 0, 1, -1, 0, 0, 1, 0, 0)
 MODULES = ["rigid_ccd", "rigid_ccd._tables", "rigid_ccd._query", "rigid_ccd._audit"]
 
 
@@ -53,11 +56,13 @@ def documented(module: ModuleType) -> list[tuple[str, Any]]:
     return found
 
 
-def test_the_examples_of_the_readme_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("name", ["README.md", "python/README.md"])
+def test_the_examples_of_a_readme_run(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    text = (Path(__file__).parents[1] / "README.md").read_text()
+    (tmp_path / "part.stl").write_bytes(PART)
+    text = (Path(__file__).parents[2] / name).read_text()
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     assert blocks
     names: dict[str, Any] = {}
     for block in blocks:
-        exec(compile(block, "README.md", "exec"), names)  # noqa: S102
+        exec(compile(block, name, "exec"), names)  # noqa: S102

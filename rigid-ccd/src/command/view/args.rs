@@ -106,5 +106,5 @@ Examples:
 Table of a scene: a row for each body.
   body,id,px,py,pz,vx,vz,wy
   part.obj,lid,0,0,2,0,-1,3
-  \"box:1,1,0.1\",table,,,,,,
-(A body with commas in it is quoted. One without velocities stands still.)";
+  \"box:1,1,0.1\",table,0,0,0,0,0,0
+(A body with commas in it is quoted. Columns that are left out are 0; an empty cell is an error.)";
