@@ -6,6 +6,7 @@ pub(crate) mod gap;
 #[cfg(feature = "nalgebra")]
 mod interop;
 pub(crate) mod path;
+pub(crate) mod period;
 pub(crate) mod pose;
 pub(crate) mod relative;
 pub(crate) mod track;

@@ -54,6 +54,8 @@ impl<'a> From<(&'a Body, Motion)> for Moving<'a> {
 pub struct Problem<'a> {
     pub(crate) a: Side<'a>,
     pub(crate) b: Side<'a>,
+    /// The time at which it begins: 0, unless it is a part of another one.
+    begin: f64,
     duration: f64,
     /// The origin of the problem's coordinates in the world, near both bodies.
     origin: DVec3,
@@ -160,6 +162,7 @@ impl<'a> Problem<'a> {
         Ok(Problem {
             a,
             b,
+            begin: 0.0,
             duration,
             origin,
             tolerance: greater(config.tolerance, tolerance::least_tolerance(rounding)),
@@ -227,7 +230,7 @@ impl<'a> Problem<'a> {
     /// Returns the clock of a time of the motions, up to rounding.
     pub(crate) fn clock(&self, time: f64) -> f64 {
         match self.duration > 0.0 {
-            true => time / self.duration,
+            true => (time - self.begin) / self.duration,
             false => 0.0,
         }
     }
@@ -295,6 +298,29 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Returns the problem in a part of the time, from one clock to a later one, with the margin raised by a distance
+    /// and another tolerance. Places are off by more than in the whole, see
+    /// [`place_rounding`](tolerance::place_rounding).
+    pub(crate) fn part(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
+        let of = |side: &Side<'a>| Side {
+            path: side.path.part(clocks),
+            ..*side
+        };
+        let [from, to] = clocks;
+        let rounding = self.rounding + tolerance::margin_rounding(raised);
+        Problem {
+            a: of(&self.a),
+            b: of(&self.b),
+            begin: self.time(from),
+            // Rounded down, so that no time is late.
+            duration: self.duration * (to - from) * (1.0 - tolerance::RATE_F64),
+            margin: (self.margin + raised).next_up(),
+            tolerance: greater(tolerance, tolerance::least_tolerance(rounding)),
+            rounding,
+            ..self.clone()
+        }
+    }
+
     /// Returns the distance that free bodies keep at all times; `proven` is the least gap proven
     /// for nodes.
     pub(crate) fn proven_gap(&self, proven: f64) -> f64 {
@@ -308,9 +334,9 @@ impl<'a> Problem<'a> {
     /// Returns a clock as a time of the motions, rounded so that it is never late.
     pub(crate) fn time(&self, s: f64) -> f64 {
         if s >= 1.0 {
-            self.duration
+            self.begin + self.duration
         } else {
-            greater(0.0, (s * self.duration).next_down())
+            greater(self.begin, (self.begin + s * self.duration).next_down())
         }
     }
 

@@ -6,7 +6,7 @@
 //! from them: the first contact (`best_first.rs`, in steps `first_contact.rs`), any contact (`any_contact.rs`), the closest approach
 //! (`closest_approach.rs`). `nearest.rs` measures bodies at one clock, `start.rs` those in contact at the
 //! start; `answer.rs` runs the schedule as the policy for the start demands. `journey.rs` asks along
-//! trajectories. `out_of_reach.rs` tells bodies apart that are far
+//! trajectories. `rounds.rs` searches a period of bodies that turn many times for all that repeat it. `out_of_reach.rs` tells bodies apart that are far
 //! from each other all the time.
 
 mod answer;
@@ -28,6 +28,7 @@ mod out_of_reach;
 mod pieces;
 mod proven;
 mod queue;
+mod rounds;
 mod search;
 mod stack;
 mod start;

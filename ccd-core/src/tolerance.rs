@@ -109,6 +109,29 @@ pub fn margin_rounding(margin: f64) -> f64 {
 /// pose that it is computed from: 80 are taken.
 pub const STRETCH_F64: f64 = 80.0 * U64;
 
+/// Bounds the error of places of a body on a part of its path, in addition to [`distance_rounding`], and of what is said
+/// of it for other periods.
+///
+/// In units of `u`, of a point at `reach` from the centre, with a turn of `ω` over the whole path:
+/// - sine and cosine of the angle at which the part begins add 3, their products and sums 6, that angle `ω`, and the
+///   product of rate and time `2ω`;
+/// - the number of turns in a period is off by `4ω` over all periods, and by `4ω` more since the rate is;
+/// - the time of a contact is rounded down by up to 17 of the part's, see [`RATE_F64`]: `17ω`.
+///
+/// That is `9 + 28ω`. The centre begins with an error of 4 of its place and of its travel; the time takes 17 of the
+/// latter, products 2, and the difference of two velocities 4: 27 of this `way`. 32 are taken of each.
+pub fn place_rounding(reach: f64, turn: f64, way: f64) -> f64 {
+    32.0 * U64 * ((1.0 + turn) * reach + way)
+}
+
+/// The part of the tolerance by which distances may change from the first period of a turning body to the last one
+/// that it is searched for, without a loss: a contact of the first is one of the bodies. What is left of the tolerance
+/// suffices for the search. Twice as much is taken for rounding and for the change together.
+pub const REPEATED: f64 = 0.25;
+
+/// The part of the duration up to which a search period by period is worth its overhead.
+pub const LEAST_GAIN: f64 = 0.5;
+
 /// The error of lengths due to squares that underflow, in the scene's unit of length: see
 /// [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
@@ -454,9 +477,6 @@ pub const ADVANCE_F64: f64 = 32.0 * U64;
 /// The least distance from the axis of a plane beyond which a node is, in units of the distance of the
 /// node's centre. Nodes that reach nearer have profiles too wide to prove anything.
 pub const LEAST_INNER: f64 = 0.25;
-
-/// The most turns for which surfaces are sought. Nodes that span more pitches hardly ever keep apart.
-pub const MAX_TURNS: f64 = 8.0;
 
 /// The widening of an interval of numbers of turns before its whole numbers are taken, in turns and
 /// relative to them: far above the rounding of a quotient of a few units in the last place.

@@ -76,6 +76,26 @@ impl Path {
         }
     }
 
+    /// Returns the path from one `s` to a later one, with times from 0 to 1 again. Places are off by
+    /// [`place_rounding`](crate::tolerance::place_rounding) at most.
+    pub(crate) fn part(&self, [from, to]: [f64; 2]) -> Self {
+        let time = to - from;
+        let (sin, cos) = sin_cos(self.rate * from);
+        Path {
+            cosine: self.cosine * cos + self.sine * sin,
+            sine: self.sine * cos - self.cosine * sin,
+            constant: self.constant,
+            centre: self.centre,
+            start: self.centre_at(from),
+            velocity: self.centre_velocity_at(from) * time,
+            acceleration: self.acceleration * (time * time),
+            spin: self.spin * time,
+            spin_local: self.spin_local * time,
+            rate: self.rate * time,
+            axis: self.axis,
+        }
+    }
+
     /// Returns the factors of cosine, sine and one in the rotation.
     pub(crate) fn rotations(&self) -> [DMat3; 3] {
         [self.cosine, self.sine, self.constant]

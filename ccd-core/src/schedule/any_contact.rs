@@ -5,6 +5,7 @@ use super::depth_first::DepthFirst;
 use super::meter::Meter;
 use super::pieces::pair::Step;
 use super::proven::{Proven, free_at_once};
+use super::rounds::in_rounds;
 use super::search::{Advance, Question, Search};
 use super::start::overlapping;
 use crate::distance::oracle::DistanceOracle;
@@ -73,11 +74,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
     pub fn any_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer<AnyContact> {
         let mut kept = self.kept.take();
         let answer = answer_in_any_order(problem, oracle, &mut kept, |problem, oracle, meter| {
-            self.stack.clear();
-            let outcome = self.contact(problem, oracle, meter);
-            let stats = &mut meter.stats;
-            stats.peak_front = stats.peak_front.max(self.stack.peak());
-            outcome
+            in_rounds(problem, meter, |problem, meter| {
+                self.stack.clear();
+                let outcome = self.contact(problem, oracle, meter);
+                let stats = &mut meter.stats;
+                stats.peak_front = stats.peak_front.max(self.stack.peak());
+                outcome
+            })
         });
         self.stack.clear();
         self.kept = kept;

@@ -6,6 +6,7 @@ use super::memory::Kept;
 use super::meter::Meter;
 use super::proven::{Proven, free_at_once};
 use super::queue::Queue;
+use super::rounds::in_rounds;
 use super::search::{Advance, Item, Question, Search};
 use crate::distance::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome};
@@ -61,11 +62,13 @@ impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut kept = self.kept.take();
         let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
-            self.queue.clear();
-            let outcome = self.first_contact(problem, oracle, meter);
-            let stats = &mut meter.stats;
-            stats.peak_front = stats.peak_front.max(self.queue.peak());
-            outcome
+            in_rounds(problem, meter, |problem, meter| {
+                self.queue.clear();
+                let outcome = self.first_contact(problem, oracle, meter);
+                let stats = &mut meter.stats;
+                stats.peak_front = stats.peak_front.max(self.queue.peak());
+                outcome
+            })
         });
         self.queue.clear();
         self.kept = kept;

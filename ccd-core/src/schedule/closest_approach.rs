@@ -10,6 +10,7 @@ use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
 use super::nodes::common::Common;
 use super::proven::Proven;
+use super::rounds::Sample;
 use super::search::Search;
 use super::start::at_start;
 use crate::distance::oracle::DistanceOracle;
@@ -155,7 +156,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut kept = self.kept.take();
         let answer = metered(problem, oracle, &mut kept, |oracle, meter| {
             let problem = problem.measuring();
-            let found = self.approach(&problem, beyond, oracle, meter);
+            let found = match Sample::of(&problem) {
+                Some(sample) => {
+                    let found = self.approach(&sample.part, beyond, oracle, meter);
+                    at_all_times(&sample, found)
+                }
+                None => self.approach(&problem, beyond, oracle, meter),
+            };
             let told = found.map(|found| {
                 let found = last_look(&problem, oracle, meter, found);
                 told(&problem, oracle, meter, found)
@@ -227,6 +234,33 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
             }
         }
+    }
+}
+
+/// Returns what is found in a period that stands for the whole time as an answer for all of it.
+fn at_all_times(
+    sample: &Sample<'_>,
+    found: Result<ClosestApproach, Beyond>,
+) -> Result<ClosestApproach, Beyond> {
+    let contact = |contact| sample.contact(contact);
+    match found {
+        Ok(ClosestApproach::Nearest {
+            lower,
+            time,
+            contact: nearest,
+        }) => Ok(ClosestApproach::Nearest {
+            lower: sample.lower(lower),
+            time,
+            contact: contact(nearest),
+        }),
+        Ok(ClosestApproach::Unresolved { nearest, reason }) => Ok(ClosestApproach::Unresolved {
+            nearest: nearest.map(|(time, nearest)| (time, contact(nearest))),
+            reason,
+        }),
+        Ok(overlapping @ ClosestApproach::Overlapping { .. }) => Ok(overlapping),
+        Err(Beyond { lower }) => Err(Beyond {
+            lower: sample.lower(lower),
+        }),
     }
 }
 

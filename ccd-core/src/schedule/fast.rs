@@ -11,6 +11,7 @@ use super::contract::Schedule;
 use super::memory::Kept;
 use super::meter::Meter;
 use super::proven::Proven;
+use super::rounds::in_rounds;
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::bound::Bound;
 use crate::outcome::{Answer, Limit, Outcome};
@@ -84,7 +85,9 @@ impl<O: DistanceOracle> Schedule<O> for Fast<O> {
         self.reaches.forget();
         let mut kept = self.kept.take();
         let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
-            self.advance(problem, hulls, oracle, meter)
+            in_rounds(problem, meter, |problem, meter| {
+                self.advance(problem, hulls, oracle, meter)
+            })
         });
         self.kept = kept;
         answer

@@ -5,6 +5,7 @@ use super::answer::{let_go, of_given, shown};
 use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
 use super::proven::{Proven, free_at_once};
+use super::rounds::Rounds;
 use super::search::{Question, Search};
 use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
@@ -41,6 +42,8 @@ pub struct FirstContact<'a, O: DistanceOracle> {
     problem: Problem<'a>,
     /// What is searched now: the problem with a contact at the start as an answer, or bodies let go.
     current: Problem<'a>,
+    /// If it repeats itself: its rounds, and the part of it that is searched.
+    part: Option<(Rounds<'a>, Problem<'a>)>,
     /// What is still to be done about a contact at the start.
     start: StartPolicy,
     memory: BestFirst<O>,
@@ -73,8 +76,10 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         let mut meter = Meter::new(&problem);
         meter.kept = memory.kept.take();
         memory.queue.clear();
+        let current = problem.reporting();
         FirstContact {
-            current: problem.reporting(),
+            part: first_part(&current),
+            current,
             start: problem.start,
             problem,
             memory,
@@ -102,7 +107,7 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         }
         let before = oracle.effort();
         let progress = match self.search(oracle, until) {
-            ControlFlow::Continue(s) => Progress::ApartUntil(self.problem.time(s)),
+            ControlFlow::Continue(time) => Progress::ApartUntil(time),
             ControlFlow::Break((outcome, tolerance)) => {
                 let within = self.problem.margin + tolerance;
                 let meter = &mut self.meter;
@@ -125,24 +130,32 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         }
     }
 
-    /// Searches to the end of a time, and returns the clock that is reached, or the outcome with its tolerance.
+    /// Searches to the end of a time, and returns the time that is reached, or the outcome with its tolerance.
     fn search(&mut self, oracle: &mut O, until: f64) -> ControlFlow<(Outcome, f64), f64> {
-        // The time of the clock that is reached is rounded down, but not to before the time asked for.
-        let clock = self.problem.clock(until.next_up());
-        let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
         loop {
             let outcome = match self.run(oracle, until) {
-                ControlFlow::Continue(s) => return ControlFlow::Continue(s),
+                ControlFlow::Continue(time) => return ControlFlow::Continue(time),
                 ControlFlow::Break(outcome) => outcome,
             };
             let stats = &mut self.meter.stats;
             stats.peak_front = stats.peak_front.max(self.memory.queue.peak());
             self.memory.queue.clear();
+            self.begun = None;
+            let outcome = match &mut self.part {
+                None => outcome,
+                Some((rounds, part)) => match rounds.conclude(&outcome, &mut self.meter) {
+                    ControlFlow::Break(outcome) => outcome,
+                    ControlFlow::Continue(()) => {
+                        *part = rounds.part();
+                        continue;
+                    }
+                },
+            };
             match let_go(&self.current, self.start, &outcome) {
                 Some(parting) => {
+                    self.part = first_part(&parting);
                     self.current = parting;
                     self.start = StartPolicy::Report;
-                    self.begun = None;
                 }
                 None => {
                     let tolerance = match self.start == self.problem.start {
@@ -155,9 +168,15 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         }
     }
 
-    /// Searches until a clock, and returns the clock that is reached, or the outcome.
+    /// Searches until a time, and returns the time that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
-        let problem = &self.current;
+        // The time of the clock that is reached is rounded down, but not to before the time asked for.
+        let (problem, until) = match &self.part {
+            Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
+            None => (&self.current, until.next_up()),
+        };
+        let clock = problem.clock(until);
+        let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
         let mut search = Search {
             waiting: &mut self.memory.queue,
             oracle,
@@ -182,8 +201,15 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
                 begun.insert(Begun { look, proven })
             }
         };
-        search.until(problem, look, proven, until)
+        let reached = search.until(problem, look, proven, until);
+        reached.map_continue(|s| problem.time(s))
     }
+}
+
+fn first_part<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
+    let rounds = Rounds::of(problem)?;
+    let part = rounds.part();
+    Some((rounds, part))
 }
 
 #[cfg(test)]

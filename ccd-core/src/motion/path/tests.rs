@@ -4,8 +4,11 @@ use super::Path;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
-use glam::DVec3;
+use crate::tests::worst::{Tape, Worst, share};
+use crate::tolerance::place_rounding;
+use glam::{DMat3, DVec3};
 
 #[test]
 fn frames_are_the_poses_of_the_motion_less_the_origin() {
@@ -71,4 +74,43 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
     let path = Path::new(&motion, DVec3::ZERO, 1.0);
     assert_eq!(path.frame(0.0).rotation, path.frame(0.9).rotation);
     assert_eq!(path.rate, 0.0);
+}
+
+/// The exact place of a point on a path as it is kept.
+fn exact_place(path: &Path, s: Double, x: DVec3) -> Double3 {
+    let arm = Double3::from(x) - Double3::from(path.centre);
+    let rotated = |m: &DMat3| {
+        let row = |k: usize| Double3::from(m.row(k)).dot(arm);
+        Double3([row(0), row(1), row(2)])
+    };
+    let (sin, cos) = (Double::from(path.rate) * s).sin_cos();
+    let turned = rotated(&path.cosine).scale(cos) + rotated(&path.sine).scale(sin);
+    let half = Double::from(0.5) * s;
+    let change = Double3::from(path.velocity) + Double3::from(path.acceleration).scale(half);
+    Double3::from(path.start) + change.scale(s) + turned + rotated(&path.constant)
+}
+
+/// The place of a point on a part of a path, against that on the path itself.
+#[test]
+fn worst_part() {
+    let found = Worst::of("place_rounding, part of a path", 4_000).search(|tape: &mut Tape| {
+        let start = Pose::new(tape.vector(-20..=10).map(f64::from), rotation(tape)).ok()?;
+        let spin = direction(tape) * tape.size(-10..=19);
+        let centre = tape.vector(-20..=4);
+        let motion = Motion::about(start, tape.vector(-20..=10), spin, centre).ok()?;
+        let path = Path::new(&motion, DVec3::ZERO, 1.0);
+        let path = path.accelerated(tape.vector(-20..=4).into());
+        let (from, time, share_of_time) = (tape.fraction(), tape.fraction(), tape.fraction());
+        let to = from + (1.0 - from) * time;
+        let arm = DVec3::from(tape.vector(-20..=4));
+        let part = path.part([from, to]);
+        let [begins, ends, share_of_time] = [from, to, share_of_time].map(Double::from);
+        let s = begins + share_of_time * (ends - begins);
+        let x = path.centre + arm;
+        let error = exact_place(&part, share_of_time, x) - exact_place(&path, s, x);
+        let way = path.centre_at(0.0).length() + path.speed();
+        let allowed = place_rounding(x.distance(path.centre), path.rate, way);
+        Some(share(error.length().get(), allowed))
+    });
+    found.is_within(100.0);
 }

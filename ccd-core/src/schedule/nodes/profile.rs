@@ -9,16 +9,13 @@ use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::trig::sin_cos;
-use crate::tolerance::{LEAST_INNER, MAX_TURNS, RATE_F64, TURNS_F64, profile_rounding};
+use crate::tolerance::{LEAST_INNER, RATE_F64, TURNS_F64, profile_rounding};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// The number of surfaces tried, evenly over all slopes. With a thread's flanks at any slope, eleven
 /// degrees between them cost a tenth of a node's width at most.
 const SURFACES: usize = 16;
-
-/// The surface `ζ = constant`.
-const ACROSS: usize = SURFACES / 2;
 
 /// The axis of a screw, at the start.
 #[derive(Debug)]
@@ -135,38 +132,36 @@ impl Profile {
         Some(profile)
     }
 
-    /// Returns the widest gap to another node, along any surface, with the other's `ζ` raised by
-    /// `shift`.
-    fn widest_gap(&self, other: &Profile, axis: &ScrewAxis, shift: f64) -> f64 {
-        let gap = |k: usize| {
-            let rise = axis.surfaces[k].y * shift;
-            let above = (other.low[k] + rise) - self.high[k];
-            greater(above, self.low[k] - (other.high[k] + rise))
-        };
-        (0..SURFACES).map(gap).fold(0.0, greater)
+    /// Returns the interval of shifts by which another node's `ζ` may be raised so that no surface keeps
+    /// more than the needed gap between both. It is empty if one does so for any shift.
+    fn meeting(&self, other: &Profile, axis: &ScrewAxis, needed: f64) -> [f64; 2] {
+        let mut met = [f64::NEG_INFINITY, f64::INFINITY];
+        for (k, n) in axis.surfaces.iter().enumerate() {
+            let least = (self.low[k] - other.high[k]) - needed;
+            let most = (self.high[k] - other.low[k]) + needed;
+            met = match n.y > 0.0 {
+                true => both(met, [least / n.y, most / n.y]),
+                // No shift leads around it. Written so that NaN is no gap.
+                false if least > 0.0 || most < 0.0 => return [f64::INFINITY, f64::NEG_INFINITY],
+                false => met,
+            };
+        }
+        met
     }
 
     /// Returns the numbers of whole turns that the still node's azimuth may be ahead of its own while
     /// the turning node passes it: the least and the most.
-    fn turns(&self, still: &Profile, way: &Way) -> [f64; 2] {
+    fn passes(&self, still: &Profile, way: &Way) -> [f64; 2] {
         let ahead = still.azimuth - self.azimuth;
         let width = self.width + still.width + way.needed / greater(self.close, still.close);
         let [from, to] = way.angles;
-        let by_azimuth = [from - width - ahead, to + width - ahead].map(|angle| angle / TAU);
-        if !(way.pitch.abs() > 0.0) {
-            return outward(by_azimuth);
-        }
-        // Far surfaces across the axis need no look.
-        let gap = way.needed * greater(self.steepest, still.steepest);
-        let ends = [
-            still.low[ACROSS] - self.high[ACROSS] - gap,
-            still.high[ACROSS] - self.low[ACROSS] + gap,
-        ];
-        let [one, other] = ends.map(|rise| rise / way.pitch);
-        let [least, most] = outward(by_azimuth);
-        let [lower, upper] = outward([lesser(one, other), greater(one, other)]);
-        [greater(least, lower), lesser(most, upper)]
+        outward([from - width - ahead, to + width - ahead].map(|angle| angle / TAU))
     }
+}
+
+/// Returns what is in two intervals.
+fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    [greater(a, c), lesser(b, d)]
 }
 
 /// Rounds to the whole numbers in an interval, which is widened by far more than rounding.
@@ -187,25 +182,33 @@ pub(super) struct Way {
 
 /// Returns whether a node that turns and one that stands still certainly keep more than the needed
 /// distance.
+///
+/// A turn more raises the still node's `ζ`, as the turning one sees it, by a pitch less. No surface is between
+/// them in a single interval of shifts, so that the number of turns does not count, only whether a whole one is
+/// in there. Without a pitch all turns are alike.
 pub(super) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, way: &Way) -> bool {
     let near = match still.close > turning.close {
         true => still,
         false => turning,
     };
-    let [least, most] = turning.turns(still, way);
     // Written so that NaN proves nothing.
-    if !(near.close > way.needed && most - least <= MAX_TURNS) {
+    if !(near.close > way.needed) {
         return false;
     }
-    let mut count = least;
-    while count <= most {
-        let gap = turning.widest_gap(still, axis, -count * way.pitch);
-        if !(gap > way.needed * near.steepest) {
-            return false;
-        }
-        count += 1.0;
+    let [least, most] = turning.meeting(still, axis, way.needed * near.steepest);
+    if least > most {
+        return true;
     }
-    true
+    let met = match way.pitch.abs() > 0.0 {
+        true => {
+            let [one, other] = [least, most].map(|shift| -shift / way.pitch);
+            outward([lesser(one, other), greater(one, other)])
+        }
+        false if least > 0.0 || most < 0.0 => return true,
+        false => [f64::NEG_INFINITY, f64::INFINITY],
+    };
+    let [least, most] = both(turning.passes(still, way), met);
+    least > most
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ mod worst;
 use super::*;
 use crate::body::Body;
 use crate::config::Config;
-use crate::math::order::lesser;
+use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::tests::nearest::{Triangle, nearest};
@@ -19,7 +19,7 @@ fn patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
 }
 
-/// A body that moves along a screw, and one beside its way: it passes by after a share of the turn.
+/// A body that moves along a screw, at times for thousands of turns, and one beside its way: it passes by after a share of the turn.
 struct Passage {
     bodies: [Body; 2],
     screwing: Motion,
@@ -32,7 +32,10 @@ fn passage(rng: &mut Pcg64) -> Passage {
     let (size, distance) = (magnitude(rng, -2.0, -0.5), rng.random_range(0.8..1.5));
     let axis = direction(rng);
     let out = axis.any_orthonormal_vector();
-    let turn = rng.random_range(0.1..20.0);
+    let turn = match rng.random_bool(0.75) {
+        true => rng.random_range(0.1..20.0),
+        false => magnitude(rng, 1.0, 5.0),
+    };
     let advance = [0.0, rng.random_range(-0.3..0.3)][rng.random_range(0..2)];
     let near = rng.random_range(0.0..1.0);
     let at = distance * out;
@@ -89,7 +92,13 @@ fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64)
         pairs.fold(f64::INFINITY, lesser)
     };
     let even = (0..200).map(|k| f64::from(k) / 199.0);
-    let dense = (-100..=100).map(|k| near + f64::from(k) * 2e-4);
+    // No step turns by more than a few thousandths of a radian.
+    let step = 2e-4
+        * lesser(
+            1.0,
+            20.0 / greater(problem.a.path.rate, problem.b.path.rate),
+        );
+    let dense = (-100..=100).map(|k| near + f64::from(k) * step);
     let times = even.chain(dense).filter(|t| (s..=1.0).contains(t));
     times.map(distance).fold(f64::INFINITY, lesser)
 }
@@ -162,6 +171,48 @@ fn later_turns_count() {
             screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
             Some(apart),
             "{turns}"
+        );
+    }
+}
+
+/// Turns without an advance are all alike; with one, a node that is as tall as many pitches is apart from what is
+/// outside of all of them, and meets what is not.
+#[test]
+fn any_number_of_turns_is_one_look() {
+    let triangle = |r: f64, tall: f64| {
+        let at = r * DVec3::X;
+        body(&[[at, at + 0.02 * DVec3::Y, at + tall * DVec3::Z]])
+    };
+    let config = Config::default();
+    for (pitch, turns, r, tall, apart) in [
+        (0.0, 1e5, 1.1, 0.02, true),
+        (0.0, 1e5, 1.0, 0.02, false),
+        (1e-3, 1e3, 1.1, 0.8, true),
+        (1e-3, 1e3, 1.0, 0.8, false),
+        (-1e-2, 1e3, 1.1, 20.0, true),
+        // Between the turns of a thread there is room for what is flat.
+        (0.5, 1e3, 1.0, 0.01, true),
+        (0.5, 1e3, 1.0, 0.6, false),
+    ] {
+        let (moving, still) = (triangle(1.0, 0.02), triangle(r, tall));
+        let below = match pitch {
+            0.0 => 0.0,
+            pitch if pitch < 0.0 => 5.0,
+            _ => -0.25,
+        };
+        let spin = Motion::new(
+            Pose::at(below * DVec3::Z).unwrap(),
+            pitch * turns * DVec3::Z,
+            turns * TAU * DVec3::Z,
+        );
+        let moving = (&moving, spin.unwrap());
+        let problem = Problem::new(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
+        let mut profiles = Profiles::default();
+        let screw = Screw::of(&problem, &mut profiles).unwrap();
+        assert_eq!(
+            screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
+            Some(apart),
+            "{pitch} {turns} {r} {tall}"
         );
     }
 }

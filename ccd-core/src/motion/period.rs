@@ -1,0 +1,99 @@
+//! The periods after which two turning bodies are back at the same places relative to each other, or nearly.
+//!
+//! After a time `T`, a body that turns at a rate `ω` has the orientation that it had, turned by `ε = |ω T − 2π p|` for
+//! the nearest whole number of turns `p`, and after `k` such times by `k ε`. A point at a distance of at most `ρ` from
+//! the centre of rotation is then within `k ε ρ` of where it was, as seen from the centre. The centre of one body moves
+//! relative to the other's by at most `(|v| + |a|) k T` in that time, with `v` and `a` the difference of their
+//! velocities and accelerations, and times from 0 to 1. No distance of a point of one body from a point of the other
+//! changes by more than the sum, `k` times that of a period. Whatever is said of all distances in one period holds
+//! for the `k` periods from there, up to that.
+//!
+//! If both bodies turn, a period has to be nearly a whole number of turns of either. The best fractions of their rates
+//! are the convergents of its continued fraction.
+
+use super::path::Path;
+use crate::math::vector::length;
+use crate::tolerance::{RATE_F64, TURNS_F64};
+use std::f64::consts::TAU;
+
+/// A time after which distances are the same again, or nearly.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Period {
+    /// In units of the paths' time.
+    pub(crate) length: f64,
+    /// Bounds how much any distance differs after a period; after `k` periods it is `k` times that. Rounding of the
+    /// rates comes on top, see [`place_rounding`](crate::tolerance::place_rounding).
+    pub(crate) change: f64,
+}
+
+/// A body's path, and the largest distance of its points from the centre of rotation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reaching<'p> {
+    pub(crate) path: &'p Path,
+    pub(crate) reach: f64,
+}
+
+impl Period {
+    /// Returns the periods that fit in twice, short ones first. Later ones are longer, and after them less changes.
+    pub(crate) fn all(bodies: [Reaching<'_>; 2]) -> impl Iterator<Item = Period> {
+        let [a, b] = bodies;
+        let [slow, fast] = match a.path.rate > b.path.rate {
+            true => [b, a],
+            false => [a, b],
+        };
+        let velocity = length(a.path.velocity - b.path.velocity);
+        let speed = velocity + length(a.path.acceleration - b.path.acceleration);
+        Convergents::new(slow.path.rate / fast.path.rate)
+            .map(move |[of_slow, of_fast]| {
+                let length = TAU * of_fast / fast.path.rate;
+                let off = (slow.path.rate * length - TAU * of_slow).abs();
+                Period {
+                    length,
+                    change: (off * slow.reach + speed * length) * (1.0 + RATE_F64),
+                }
+            })
+            // Written so that NaN is no period.
+            .take_while(|period| period.length <= 0.5)
+    }
+
+    /// The length of the first period, and a little more: what comes after whole periods leaves no time out.
+    pub(crate) fn covering(&self) -> f64 {
+        self.length * (1.0 + TURNS_F64)
+    }
+}
+
+/// The fractions nearest to a number from 0 to 1 for their size: numerator and denominator.
+struct Convergents {
+    rest: f64,
+    last: [f64; 2],
+    before: [f64; 2],
+}
+
+impl Convergents {
+    fn new(number: f64) -> Self {
+        Convergents {
+            rest: number,
+            last: [1.0, 0.0],
+            before: [0.0, 1.0],
+        }
+    }
+}
+
+impl Iterator for Convergents {
+    type Item = [f64; 2];
+
+    fn next(&mut self) -> Option<[f64; 2]> {
+        if !self.rest.is_finite() {
+            return None;
+        }
+        let whole = self.rest.floor();
+        let [last, before] = [self.last, self.before];
+        let next = [0, 1].map(|k| whole * last[k] + before[k]);
+        (self.last, self.before) = (next, last);
+        self.rest = (self.rest - whole).recip();
+        Some(next)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,77 @@
+//! Periods against distances of points at sampled times, and against fractions that are known.
+
+use super::*;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
+use crate::tolerance::place_rounding;
+use glam::DVec3;
+
+#[test]
+fn distances_change_by_no_more_than_said() {
+    let mut rng = rng(1);
+    let (mut exact, mut drifting) = (0, 0);
+    for number in 0..2_000 {
+        let reach = 2.0;
+        let rate = TAU * magnitude(&mut rng, 0.5, 4.0);
+        let ratio = [0.0, 1.0, 3.0 / 7.0, 0.5001, 1e-6][number % 5];
+        let velocity = within(&mut rng, 1.0);
+        let drift = within(&mut rng, 1.0) * [0.0, magnitude(&mut rng, -6.0, 0.0)][number / 5 % 2];
+        let pull = within(&mut rng, 1.0) * [0.0, 1.0][number / 10 % 2];
+        let spins = [rate, ratio * rate].map(|rate| rate * direction(&mut rng));
+        let velocities = [velocity, velocity + drift];
+        let mut paths = [0, 1].map(|k| {
+            let start = Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+            let centre = within(&mut rng, 3.0);
+            let motion = Motion::about(start, velocities[k], spins[k], centre).unwrap();
+            Path::new(&motion, DVec3::ZERO, 1.0).accelerated(pull)
+        });
+        if number % 3 == 0 {
+            paths.swap(0, 1);
+        }
+        let points = paths.map(|path| path.centre + within(&mut rng, reach));
+        let rounding = paths
+            .iter()
+            .map(|path| place_rounding(reach, path.rate, 10.0))
+            .sum::<f64>();
+        let distance = |s: f64| {
+            let [a, b] = [0, 1].map(|k| paths[k].frame(s).point(points[k]));
+            a.distance(b)
+        };
+        let bodies = [0, 1].map(|k| Reaching {
+            path: &paths[k],
+            reach,
+        });
+        let mut before = 0.0;
+        for period in Period::all(bodies) {
+            assert!(
+                period.length >= before && period.length <= 0.5,
+                "{period:?}"
+            );
+            before = period.length;
+            let count = rng.random_range(1.0..1.0 / period.length).floor();
+            let s = rng.random_range(0.0..1.0 - count * period.length);
+            let changed = (distance(s + count * period.length) - distance(s)).abs();
+            let said = count * period.change;
+            assert!(changed <= said + rounding, "{number} {period:?}: {changed}");
+            exact += usize::from(said < 1e-9);
+            drifting += usize::from(changed > 0.1 * said && said > 1e-9);
+        }
+    }
+    assert!(exact > 500 && drifting > 100, "{exact} {drifting}");
+}
+
+#[test]
+fn common_periods_are_the_best_fractions() {
+    let fractions = |number: f64, most: f64| -> Vec<[f64; 2]> {
+        let all = Convergents::new(number);
+        all.take_while(|&[_, below]| below < most).collect()
+    };
+    assert_eq!(fractions(0.0, 9.0), [[0.0, 1.0]]);
+    assert_eq!(fractions(1.0, 9.0), [[1.0, 1.0]]);
+    // Rounding may add some, but hides none.
+    assert!(fractions(0.375, 9.0).contains(&[3.0, 8.0]));
+    assert_eq!(fractions(f64::NAN, 9.0), [[0.0; 2]; 0]);
+    let of_pi = [[0.0, 1.0], [1.0, 3.0], [7.0, 22.0], [106.0, 333.0]];
+    assert_eq!(fractions(std::f64::consts::FRAC_1_PI, 334.0), of_pi);
+}
