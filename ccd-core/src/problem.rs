@@ -215,14 +215,14 @@ impl<'a> Problem<'a> {
         self.margin + self.tolerance
     }
 
-    /// The gap that the clocks of pairs of pieces prove: half the tolerance beyond the margin. A
-    /// pair whose clock runs out is well within the tolerance.
+    /// The gap that all clocks prove: half the tolerance beyond the margin. A pair of pieces whose
+    /// clock runs out is well within the tolerance.
     pub(crate) fn gap(&self) -> f64 {
         self.margin + 0.5 * self.tolerance
     }
 
-    /// The gap that the clocks of pairs of nodes prove. It is the same for all sizes of nodes, so
-    /// that clocks that run out at a common contact run out together.
+    /// The gap that the clocks of pairs of nodes prove where rounding allows. It is the same for all
+    /// sizes of nodes, so that clocks that run out at a common contact run out together.
     pub(crate) fn node_gap(&self) -> f64 {
         self.margin + NODE_GAP * self.tolerance
     }
@@ -321,11 +321,10 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the distance that free bodies keep at all times; `proven` is the least gap proven
-    /// for nodes.
-    pub(crate) fn proven_gap(&self, proven: f64) -> f64 {
+    /// Returns the distance that bodies keep until the clocks of all pairs.
+    pub(crate) fn proven_gap(&self) -> f64 {
         match self.start {
-            StartPolicy::Report => greater(lesser(self.gap(), proven), self.margin),
+            StartPolicy::Report => self.gap(),
             // Pieces that rest on each other keep no gap.
             StartPolicy::Leave => 0.0,
         }

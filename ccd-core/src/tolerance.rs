@@ -244,9 +244,13 @@ pub const A_WHILE: f64 = 1.0 / 65536.0;
 /// distances are smooth. No answer depends on it.
 pub const FOLLOWING_LOOKS: usize = 16;
 
-/// The part of the tolerance by which bodies may stray from their motions where these are in contact. Twice
-/// of it is lost: for the margin that the motions keep, and for the contact that they show.
-pub const STRAY_SHARE: f64 = 0.25;
+/// The part of the tolerance by which bodies may stray from their motions where these are in contact. Four times
+/// of it are lost: half of the tolerance is for the gap that the motions keep, and the other half for the contact
+/// that they show, of which either loses the strays twice.
+pub const STRAY_SHARE: f64 = 0.125;
+
+/// The tolerance that distances of motions are known to, in units of the strays that blur them.
+pub const BLURRED: f64 = 1.0 / 16.0;
 
 /// The ratio of strays from which on a stretch beside one that is proven is cut before it is tried: the bodies are
 /// measured where both meet, which costs less than a failure. Twice the length is at most 8 times the stray.
@@ -263,6 +267,10 @@ pub const WORTH_A_CUT: f64 = 0.75;
 /// The least part of a stretch that is cut off. Fewer cuts make it shorter than many halves do, but what they
 /// go by is a guess.
 pub const LEAST_CUT: f64 = 1.0 / 1024.0;
+
+/// The most parts of a journey, cut at corners of its trajectories, that have a budget of their own. Of more, some
+/// share one: a trajectory of a user's own may have corners without end.
+pub const MOST_PARTS: usize = 1 << 16;
 
 /// The longest step along the distance of two pieces, in radians of both bodies' turns: they are nearest
 /// at most once in it, mostly.

@@ -137,11 +137,6 @@ impl Any {
 impl<O: DistanceOracle> Question<O> for Any {
     type Found = Outcome;
 
-    #[inline]
-    fn keep(&mut self, gap: f64) {
-        self.proven.keep(gap);
-    }
-
     fn conclude(
         &mut self,
         problem: &Problem<'_>,

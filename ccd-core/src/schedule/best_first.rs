@@ -109,11 +109,6 @@ impl<O: DistanceOracle> Question<O> for Proven {
         }
     }
 
-    #[inline]
-    fn keep(&mut self, gap: f64) {
-        Proven::keep(self, gap);
-    }
-
     fn conclude(
         &mut self,
         problem: &Problem<'_>,

@@ -7,7 +7,6 @@ use super::pieces::pair::Step;
 use super::start::{contained, overlapping, touching};
 use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
-use crate::math::order::lesser;
 use crate::outcome::{Contact, Limit, Outcome};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
@@ -15,34 +14,18 @@ use std::ops::ControlFlow;
 /// Returns the outcome if balls around the bodies, or boxes, tell them apart for good.
 pub(super) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
     (out_of_reach(problem) || keep_apart(problem)).then(|| Outcome::Free {
-        proven_gap: problem.proven_gap(f64::INFINITY),
+        proven_gap: problem.proven_gap(),
     })
 }
 
 /// The facts proven of the bodies, independent of pairs that still wait.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Proven {
     /// True if at the start no pair of pieces is in contact, and no body inside the other.
     apart_at_start: bool,
-    /// The least gap that pairs of nodes are proven to keep.
-    kept: f64,
-}
-
-impl Default for Proven {
-    fn default() -> Self {
-        Proven {
-            apart_at_start: false,
-            kept: f64::INFINITY,
-        }
-    }
 }
 
 impl Proven {
-    /// Records a gap that pairs of nodes keep until their clocks.
-    pub(crate) fn keep(&mut self, gap: f64) {
-        self.kept = lesser(self.kept, gap);
-    }
-
     /// Concludes from the advance of a pair of pieces at clock `s`: returns the clock to wait for,
     /// or the answer.
     ///
@@ -74,7 +57,7 @@ impl Proven {
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
             time: problem.time(s),
-            contact: contact.no_nearer_than(problem.proven_gap(self.kept)),
+            contact: contact.no_nearer_than(problem.proven_gap()),
         }
     }
 
@@ -94,7 +77,7 @@ impl Proven {
     /// Returns the outcome if all pairs are apart to the end.
     pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
         self.past_start(problem).unwrap_or(Outcome::Free {
-            proven_gap: problem.proven_gap(self.kept),
+            proven_gap: problem.proven_gap(),
         })
     }
 }

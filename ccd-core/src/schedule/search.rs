@@ -39,9 +39,6 @@ pub(super) trait Question<O: DistanceOracle> {
         ControlFlow::Continue(())
     }
 
-    /// Records a gap that pairs of nodes keep until their clocks.
-    fn keep(&mut self, gap: f64);
-
     /// Concludes from the advance of a pair of pieces: returns the clock to wait for, or the answer.
     fn conclude(
         &mut self,
@@ -164,7 +161,6 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         let new = match next {
             Next::Split(split) => {
                 let expansion = expand(common, &split, s);
-                question.keep(f64::from(expansion.bounds.kept));
                 let mut siblings = Siblings::new(&expansion, split, s);
                 look.finish(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))

@@ -55,11 +55,6 @@ impl Nearing {
 impl<O: DistanceOracle> Question<O> for Nearing {
     type Found = Result<ClosestApproach, Beyond>;
 
-    #[inline]
-    fn keep(&mut self, gap: f64) {
-        self.proven.keep(gap);
-    }
-
     fn conclude(
         &mut self,
         problem: &Problem<'_>,

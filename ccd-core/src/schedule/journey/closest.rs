@@ -227,7 +227,7 @@ impl Seen {
 
     /// Returns the end of the leg beyond which they get nearer by more than they stray.
     fn falls_beyond(&self, leg: &Leg) -> Option<f64> {
-        let Span { from, to } = leg.span;
+        let Span { from, to, .. } = leg.span;
         let (near, falls) = (
             LEAST_CUT * leg.span.length(),
             self.approach * leg.span.length(),

@@ -33,11 +33,13 @@ impl<O: DistanceOracle> BestFirst<O> {
             if cut_at_once(&mut stretches, &leg, oracle, &mut self.kept)? {
                 continue;
             }
-            let answer = self.solve(&leg.problem(journey, &config)?, oracle);
+            let problem = leg.problem(journey, &config)?;
+            let answer = self.solve(&problem, oracle);
             stretches.add(&answer.stats);
+            // Of all of the stretch, or of what is before a contact: that may be the last look at it.
+            kept.keep(&leg, problem.proven_gap());
             let (s, contact) = match answer.outcome {
-                Outcome::Free { proven_gap } => {
-                    kept.keep(&leg, proven_gap);
+                Outcome::Free { .. } => {
                     stretches.prove(&leg);
                     continue;
                 }
@@ -58,7 +60,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             }
             let rest = Span {
                 from: leg.time(s),
-                to: leg.span.to,
+                ..leg.span
             };
             let seen = (s, contact);
             let length = length(&mut stretches, &leg, seen, oracle, &mut self.kept)?;

@@ -98,7 +98,6 @@ impl<O: DistanceOracle> BestFirst<O> {
         let mut back = journey.clone();
         back.a.trajectory = &a;
         back.b.trajectory = &b;
-        back.config.budget = back.config.budget.saturating_sub(first.stats.work());
         if let (Some(deadline), Some(begun)) = (&mut back.config.deadline, begun) {
             *deadline = deadline.saturating_sub(begun.elapsed());
         }

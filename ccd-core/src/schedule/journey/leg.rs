@@ -10,7 +10,7 @@ use crate::math::vector::length;
 use crate::motion::trajectory::Stretch;
 use crate::outcome::{Contact, Separation};
 use crate::problem::Problem;
-use crate::tolerance::{STRAY_SHARE, WORTH_A_CUT};
+use crate::tolerance::{BLURRED, STRAY_SHARE, WORTH_A_CUT};
 use glam::DVec3;
 
 /// A stretch of time.
@@ -18,9 +18,19 @@ use glam::DVec3;
 pub(super) struct Span {
     pub(super) from: f64,
     pub(super) to: f64,
+    /// The part of the journey, between two corners, that it is in.
+    pub(super) part: usize,
 }
 
 impl Span {
+    /// No time, at its beginning.
+    pub(super) fn start(self) -> Self {
+        Span {
+            to: self.from,
+            ..self
+        }
+    }
+
     pub(super) fn length(&self) -> f64 {
         self.to - self.from
     }
@@ -101,27 +111,18 @@ impl Leg {
         normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
     }
 
-    /// Poses the problem of the motions: bodies that keep `margin` apart do so wherever they stray.
+    /// Poses the problem of the motions. Wherever the bodies stray, they keep the gap that a query about one motion
+    /// proves: half the tolerance beyond the margin.
     pub(super) fn problem<'a>(
         &self,
         journey: &Journey<'a>,
         config: &Config,
     ) -> Result<Problem<'a>, InputError> {
-        // A contact of the motions is one of the bodies where both stray towards each other. Distances that strays
-        // blur need not be known better.
-        let least = (1.0 - 2.0 * STRAY_SHARE) * config.tolerance;
-        let tolerance = match self.stray > 0.0 {
-            true => greater(
-                greater(
-                    config.tolerance - 2.0 * self.stray,
-                    STRAY_SHARE * STRAY_SHARE * self.stray,
-                ),
-                greater(least, LEAST_TOLERANCE),
-            ),
-            false => config.tolerance,
-        };
+        let tolerance = self.tolerance(config.tolerance);
+        // Both tolerances have the same middle, the gap that is proven.
+        let beyond = 0.5 * greater(config.tolerance - tolerance, 0.0);
         let config = Config {
-            margin: config.margin + self.stray,
+            margin: config.margin + beyond + self.stray,
             tolerance,
             start: StartPolicy::Report,
             ..*config
@@ -142,6 +143,19 @@ impl Leg {
         })
     }
 
+    /// Returns the tolerance for the motions: that for the bodies without the strays, which are lost twice on either
+    /// side of its middle, for the gap that the motions keep and for the contact that they show.
+    fn tolerance(&self, whole: f64) -> f64 {
+        // Written so that without strays it is the whole, to the last bit.
+        let left = whole - 4.0 * self.stray;
+        if self.stray == 0.0 || left >= (1.0 - 4.0 * STRAY_SHARE) * whole {
+            return left;
+        }
+        // Too little is left for a contact. Distances that strays blur need not be known better.
+        let least = greater((1.0 - 4.0 * STRAY_SHARE) * whole, BLURRED * self.stray);
+        greater(least, LEAST_TOLERANCE)
+    }
+
     /// Returns what a distance of the motions says of the bodies where they stray.
     pub(super) fn at_least(&self, distance: f64) -> f64 {
         match self.stray > 0.0 {
@@ -152,7 +166,7 @@ impl Leg {
 
     /// Returns a time of the journey, rounded so that it is never late.
     pub(super) fn time(&self, time: f64) -> f64 {
-        let Span { from, to } = self.span;
+        let Span { from, to, .. } = self.span;
         match from > 0.0 {
             true => lesser(greater(from, (from + time).next_down()), to),
             false => time,

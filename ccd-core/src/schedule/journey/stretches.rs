@@ -10,7 +10,7 @@ use crate::outcome::{Contact, Limit, Outcome, Stats};
 use crate::schedule::answer::metered;
 use crate::schedule::memory::Kept;
 use crate::schedule::start::at_start;
-use crate::tolerance::{LEAST_CUT, MUCH_LONGER, STRAY_SHARE};
+use crate::tolerance::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -19,6 +19,7 @@ pub(super) struct Stretches<'j, 'a> {
     journey: &'j Journey<'a>,
     waiting: Vec<Span>,
     pub(super) stats: Stats,
+    budgets: Budgets,
     looked_at_start: bool,
     /// The last stretch that was proven, and its strays.
     proven: Option<(Span, f64)>,
@@ -34,8 +35,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
             waiting: vec![Span {
                 from: 0.0,
                 to: journey.duration,
+                part: 0,
             }],
             stats: Stats::default(),
+            budgets: Budgets::default(),
             looked_at_start: false,
             proven: None,
             begun: journey.config.deadline.map(|_| Instant::now()),
@@ -62,7 +65,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
         }
-        let budget = config.budget.checked_sub(self.stats.work());
+        let spent = self.budgets.spent(self.stats.work());
+        let budget = config.budget.checked_sub(spent);
         let deadline = match (config.deadline, self.begun) {
             (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
                 Some(left) => Some(left),
@@ -91,6 +95,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         mut span: Span,
     ) -> Result<Result<(Leg, Config), Limit>, InputError> {
         loop {
+            self.budgets.turn_to(span.part, self.stats.work());
             let config = match self.config() {
                 Ok(config) => config,
                 Err(reason) => return Ok(Err(reason)),
@@ -112,8 +117,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Returns true if the bodies stray hardly farther than in a stretch of no length: by rounding.
     fn is_shortest(&self, leg: &Leg) -> Result<bool, InputError> {
-        let from = leg.span.from;
-        let least = Leg::new(self.journey, Span { from, to: from })?;
+        let least = Leg::new(self.journey, leg.span.start())?;
         Ok(leg.stray <= 2.0 * least.stray)
     }
 
@@ -127,12 +131,11 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// they overlap at the start, the bodies need not. Returns false once the start was looked at, and for legs
     /// that begin later.
     pub(super) fn look_at_start(&mut self, leg: &Leg) -> Result<bool, InputError> {
-        let Span { from, .. } = leg.span;
-        if from > 0.0 || self.looked_at_start || self.begins_at_start(leg)? {
+        if leg.span.from > 0.0 || self.looked_at_start || self.begins_at_start(leg)? {
             return Ok(false);
         }
         self.looked_at_start = true;
-        self.waiting.extend([leg.span, Span { from, to: from }]);
+        self.waiting.extend([leg.span, leg.span.start()]);
         Ok(true)
     }
 
@@ -145,7 +148,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// much larger: they likely are too large.
     pub(super) fn looks_too_long(&mut self, leg: &Leg) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
-        let Span { from, to } = leg.span;
+        let Span { from, to, .. } = leg.span;
         let beside = [(from, proven.to), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
         (leg.stray > MUCH_LONGER * stray).then_some(time)
@@ -159,6 +162,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let span = Span {
             from: time,
             to: time,
+            part: self.budgets.part,
         };
         Ok(Some((Leg::new(self.journey, span)?, config)))
     }
@@ -239,8 +243,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    fn parts(&self, span: Span, length: f64) -> Option<[Span; 2]> {
-        let Span { from, to } = span;
+    fn parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
+        let Span { from, to, part } = span;
         let Journey { a, b, .. } = self.journey;
         let corner = |body: &Travelling<'_>| {
             let corner = body.trajectory.corner(from, to)?;
@@ -248,7 +252,67 @@ impl<'j, 'a> Stretches<'j, 'a> {
         };
         let whole = span.length();
         let length = greater(LEAST_CUT * whole, lesser(length, 0.5 * whole));
-        let at = corner(a).or_else(|| corner(b)).unwrap_or(from + length);
-        (at > from && at < to).then_some([Span { from, to: at }, Span { from: at, to }])
+        let corner = corner(a).or_else(|| corner(b));
+        let at = corner.unwrap_or(from + length);
+        if !(at > from && at < to) {
+            return None;
+        }
+        let [before, after] = match corner {
+            Some(_) => [(); 2].map(|()| self.budgets.another(part)),
+            None => [part; 2],
+        };
+        Some([
+            Span {
+                to: at,
+                part: before,
+                ..span
+            },
+            Span {
+                from: at,
+                part: after,
+                ..span
+            },
+        ])
+    }
+}
+
+/// The work on each part of a journey: a part between two corners has a budget of its own.
+struct Budgets {
+    spent: Vec<u64>,
+    /// The part that is worked on.
+    part: usize,
+    /// The work on all parts when that began.
+    begun: u64,
+}
+
+impl Default for Budgets {
+    fn default() -> Self {
+        Budgets {
+            spent: vec![0],
+            part: 0,
+            begun: 0,
+        }
+    }
+}
+
+impl Budgets {
+    /// Returns the work on the present part; `work` is that on all of them.
+    fn spent(&self, work: u64) -> u64 {
+        self.spent[self.part] + (work - self.begun)
+    }
+
+    /// Lets work from now on count for a part.
+    fn turn_to(&mut self, part: usize, work: u64) {
+        self.spent[self.part] = self.spent(work);
+        (self.part, self.begun) = (part, work);
+    }
+
+    /// Returns a part with a budget of its own, or that of the part that it was cut from, if there are too many.
+    fn another(&mut self, part: usize) -> usize {
+        if self.spent.len() >= MOST_PARTS {
+            return part;
+        }
+        self.spent.push(0);
+        self.spent.len() - 1
     }
 }

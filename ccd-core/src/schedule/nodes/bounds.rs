@@ -24,8 +24,6 @@ pub(crate) struct Bounds {
     pub(crate) thicker: u8,
     /// True if the other node is a single piece.
     pub(crate) whole: bool,
-    /// The gap that the pairs keep for their free times.
-    pub(crate) kept: f32,
 }
 
 /// Bounds those of eight pairs that are in `lanes`.
@@ -64,7 +62,6 @@ pub(super) fn bound<L: Simd, C: Children, P: OtherNode>(
         waits,
         thicker: thicker & !bits(children.pieces(level)),
         whole: other.is_piece(),
-        kept: motion.kept,
     }
 }
 

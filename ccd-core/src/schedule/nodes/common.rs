@@ -19,9 +19,9 @@ pub(crate) struct Common<'p> {
     /// The spins of A and of B along their own axes, and the angular speeds, rounded up; none of a
     /// body that does not turn.
     spins: [Option<(Vec3, f32)>; 2],
-    /// The margin, rounded up.
-    pub(super) margin: f32,
-    /// The gap that the clocks of pairs of nodes prove, rounded up.
+    /// The gap that all clocks prove, rounded up.
+    pub(super) gap: f32,
+    /// The gap that the clocks of pairs of nodes aim for, rounded up.
     pub(super) node_gap: f32,
     /// The rounding of distances in f64, rounded up.
     pub(super) rounding: f32,
@@ -64,7 +64,7 @@ impl<'p> Common<'p> {
                 path.turns()
                     .then(|| (path.spin_local.as_vec3(), up(path.rate)))
             }),
-            margin: up(problem.margin),
+            gap: up(problem.gap()),
             node_gap: up(problem.node_gap()),
             rounding: up(problem.rounding),
             rate_slack: RATE_F32 * up(speed(&problem.a, &problem.b)),

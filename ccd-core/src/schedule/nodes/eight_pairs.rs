@@ -22,8 +22,6 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) horizon: f32,
     /// The gap to be kept, plus the rounding of a gap.
     pub(crate) slack: f32,
-    /// The gap that is certainly kept: the slack minus the rounding of a gap.
-    pub(crate) kept: f32,
     /// A gap that exceeds the slack by no more than this counts as closed.
     pub(crate) closed: f32,
     /// A bound of the rounding of a rate.

@@ -268,7 +268,8 @@ impl<L: Simd> GroupView<'_, L> {
         let reach = self.members.reach;
         let common = self.motion.common;
         let rounding = self.rounding(centre, radius);
-        let slack = greater((common.margin + rounding).next_up(), common.node_gap);
+        // Large nodes, whose gaps are rounded by more than is left of the tolerance, keep what pieces do.
+        let slack = greater((common.gap + rounding).next_up(), common.node_gap);
         RelativeMotionF32 {
             velocity: self.motion.seen.velocity.as_vec3(),
             acceleration: self.motion.seen.acceleration.map(|change| change.as_vec3()),
@@ -276,7 +277,6 @@ impl<L: Simd> GroupView<'_, L> {
             other,
             horizon: self.motion.horizon,
             slack,
-            kept: (slack - rounding).next_down(),
             closed: common.closed,
             rate_slack: common.rate_slack,
             larger: if split.turns && reach > MUCH_LARGER * radius {
@@ -299,7 +299,6 @@ impl<L: Simd> GroupView<'_, L> {
             other: Turn::NONE,
             horizon: 0.0,
             slack: self.rounding(centre, radius),
-            kept: 0.0,
             closed: 0.0,
             rate_slack: 1.0,
             larger: None,

@@ -59,6 +59,8 @@ struct Sample<C, P> {
     group: C,
     other: P,
     motion: RelativeMotionF32,
+    /// The gap to be kept: the slack less the rounding of a gap.
+    kept: f64,
     /// The error of a gap for which the slack allows.
     allowed: f32,
     children: Vec<Solid>,
@@ -341,7 +343,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         if free == 0.0 {
             return false;
         }
-        let kept = f64::from(self.motion.kept);
+        let kept = self.kept;
         let travel = self.velocity.length() + self.acceleration.length();
         let size = self.children[lane].far() + self.far.far() + travel;
         let until = lesser(1.0, f64::from(free));

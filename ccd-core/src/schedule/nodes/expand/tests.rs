@@ -103,8 +103,6 @@ struct Lane {
     other: NodeId,
     from: f64,
     until: f64,
-    /// The gap proven until then.
-    kept: f64,
 }
 
 impl Audit<'_> {
@@ -186,7 +184,6 @@ impl Audit<'_> {
         let (count, triangles) = self.below(split, node);
         for lane in 0..count {
             let free = expansion.bounds.free.of(lane as usize);
-            assert!(expansion.bounds.kept >= 0.0, "{:?}", self.name);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
             let pair = Lane {
                 split,
@@ -194,7 +191,6 @@ impl Audit<'_> {
                 other,
                 from: s,
                 until: lesser(1.0, s + f64::from(free)),
-                kept: f64::from(expansion.bounds.kept),
             };
             if free > 0.0 {
                 self.verify(&pair, tally);
@@ -220,11 +216,11 @@ impl Audit<'_> {
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
-    /// Checks that every triangle below the child stays farther than the kept gap from every one
+    /// Checks that every triangle below the child stays farther than the gap of all clocks from every one
     /// below the other node, at every sampled time.
     fn verify(&self, lane: &Lane, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
-        let kept = lane.kept - self.problem.rounding;
+        let kept = self.problem.gap() - self.problem.rounding;
         let mut prover = Prover::default();
         for k in 0..SAMPLES {
             let share = k as f64 / (SAMPLES - 1) as f64;
