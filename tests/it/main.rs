@@ -25,6 +25,7 @@ mod near_misses;
 mod never_late;
 mod oracle_contract;
 mod patch_liars;
+mod proven_bounds;
 mod published_bound;
 mod questions;
 mod referee;

@@ -7,6 +7,7 @@ pub mod case;
 pub mod checks;
 pub mod contract;
 pub mod corpus;
+pub mod courses;
 mod distances;
 pub mod exact;
 pub mod liars;
@@ -16,6 +17,7 @@ pub mod patches;
 pub mod query;
 pub mod questions;
 pub mod referee;
+pub mod solids;
 pub mod strategies;
 pub mod tolerance;
 

@@ -8,6 +8,7 @@ mod triangles;
 
 use ccd_core::order::{greater, lesser};
 pub use placement::Placement;
+pub(crate) use triangles::{edge_edge_squared, pierces};
 pub use triangles::{contains, point_segment, point_triangle};
 
 use crate::query::Query;

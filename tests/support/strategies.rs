@@ -19,6 +19,13 @@ pub fn runner(cases: u32) -> TestRunner {
     })
 }
 
+/// Returns the numbers of `cases` draws, times `CCD_TEST_CASES` if that is set: seeds, which are others for another
+/// `CCD_TEST_SEED`.
+pub fn seeds(cases: u32) -> std::ops::Range<u64> {
+    let first = u64::from(setting("CCD_TEST_SEED", 0)) << 32;
+    first..first + u64::from(cases) * u64::from(setting("CCD_TEST_CASES", 1))
+}
+
 fn setting(name: &str, default: u32) -> u32 {
     std::env::var(name)
         .ok()

@@ -106,7 +106,7 @@ fn distance_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
 }
 
 /// Returns true if an edge passes through the interior of a triangle.
-fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+pub(crate) fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let volume = |u: DVec3, v: DVec3, w: DVec3| (u - p).dot((v - p).cross(w - p));
     let normal = (b - a).cross(c - a);
     let (s, t) = (normal.dot(p - a), normal.dot(q - a));
@@ -115,7 +115,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
 }
 
 /// Returns the squared distance of two edges: their inner feet if both have one, else end points.
-fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+pub(crate) fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let mut best = f64::INFINITY;
     for k in 0..2 {
         best = lesser(best, point_segment(e[k], f).distance_squared(e[k]));

@@ -1,0 +1,429 @@
+//! Every bound that an answer along a trajectory proves, against sampled distances, knots included: whatever the
+//! question, the kind of trajectory and the tolerance.
+
+use ccd_core::order::{greater, lesser};
+use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
+use ccd_core::{Body, Config, Contact, Limit, Motion, Outcome, Pose, Trajectory, Travelling};
+use ccd_tests::courses::{self, KINDS};
+use ccd_tests::solids::Solid;
+use ccd_tests::strategies::seeds;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::Solver;
+use rigid_ccd::trajectory::Poses;
+use std::io::Write;
+
+/// The distance within which the bodies move.
+const REACH: f64 = 2.0;
+
+/// What distances and poses are rounded by here: coordinates are below 32.
+const ROUNDING: f64 = 2e-14;
+
+type Law = Result<(), String>;
+
+macro_rules! law {
+    ($holds:expr, $($why:tt)*) => {{
+        let holds: bool = $holds;
+        if !holds {
+            return Err(format!($($why)*));
+        }
+    }};
+}
+
+/// Two solids on trajectories from time 0 to 1.
+struct Scene {
+    kinds: [usize; 2],
+    solids: [Solid; 2],
+    bodies: [Body; 2],
+    ways: [Box<dyn Trajectory>; 2],
+}
+
+impl Scene {
+    fn draw(rng: &mut Pcg64) -> Self {
+        let solids = [(); 2].map(|()| Solid::draw(rng, 0.7));
+        let kinds = [(); 2].map(|()| rng.random_range(0..KINDS.len()));
+        Scene {
+            bodies: [0, 1].map(|k| solids[k].body()),
+            ways: kinds.map(|kind| courses::draw(rng, kind, REACH)),
+            kinds,
+            solids,
+        }
+    }
+
+    fn travelling(&self) -> [Travelling<'_>; 2] {
+        [0, 1].map(|k| Travelling {
+            body: &self.bodies[k],
+            trajectory: self.ways[k].as_ref(),
+        })
+    }
+
+    fn distance(&self, time: f64) -> f64 {
+        let [a, b] = [0, 1].map(|k| {
+            let pose = self.ways[k].pose(time).expect("a pose");
+            self.solids[k].placed(&pose)
+        });
+        a.distance(&b)
+    }
+
+    /// Measures at even times, at all corners and beside them, and where that is least, finer and finer.
+    fn samples(&self) -> Samples {
+        const EVEN: u32 = 48;
+        let mut times: Vec<f64> = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN)).collect();
+        let mut corners = Vec::new();
+        for way in &self.ways {
+            corners_of(way.as_ref(), [0.0, 1.0], &mut corners);
+        }
+        for corner in corners {
+            let beside = [corner - 1e-7, corner, corner + 1e-7];
+            times.extend(beside.into_iter().filter(|time| (0.0..=1.0).contains(time)));
+        }
+        times.sort_unstable_by(f64::total_cmp);
+        let mut samples: Vec<_> = times.into_iter().map(|t| (t, self.distance(t))).collect();
+        let lowest = |k: &usize| {
+            let [before, after] = [k.saturating_sub(1), (k + 1).min(samples.len() - 1)];
+            samples[*k].1 <= lesser(samples[before].1, samples[after].1)
+        };
+        let mut valleys: Vec<usize> = (0..samples.len()).filter(lowest).collect();
+        valleys.sort_unstable_by(|i, k| samples[*i].1.total_cmp(&samples[*k].1));
+        for k in valleys.into_iter().take(4) {
+            let [mut from, mut to] =
+                [k.saturating_sub(1), (k + 1).min(samples.len() - 1)].map(|k| samples[k].0);
+            for _ in 0..24 {
+                let [one, two] = [from + 0.382 * (to - from), to - 0.382 * (to - from)];
+                let [near, far] = [one, two].map(|time| self.distance(time));
+                samples.extend([(one, near), (two, far)]);
+                match near < far {
+                    true => to = two,
+                    false => from = one,
+                }
+            }
+        }
+        Samples(samples)
+    }
+}
+
+fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>) {
+    if let Some(corner) = way.corner(from, to)
+        && from < corner
+        && corner < to
+    {
+        corners.push(corner);
+        corners_of(way, [from, corner], corners);
+        corners_of(way, [corner, to], corners);
+    }
+}
+
+/// Distances at times.
+struct Samples(Vec<(f64, f64)>);
+
+impl Samples {
+    fn least(&self) -> f64 {
+        self.0
+            .iter()
+            .map(|sample| sample.1)
+            .fold(f64::INFINITY, lesser)
+    }
+
+    /// Checks a lower bound of the distance at all times that are chosen.
+    fn at_least(&self, bound: f64, chosen: impl Fn(f64) -> bool, what: &str) -> Law {
+        let chosen = self.0.iter().filter(|sample| chosen(sample.0));
+        for &(time, distance) in chosen {
+            law!(
+                distance >= bound - ROUNDING,
+                "{what}: {bound:e} is claimed, but at {time} it is {distance:e}"
+            );
+        }
+        Ok(())
+    }
+}
+
+/// How often what was said.
+#[derive(Debug, Default)]
+struct Tally {
+    free: u64,
+    contact: u64,
+    start: u64,
+    measured: u64,
+    unresolved: u64,
+    /// Free for one question, a contact for another one: within the tolerance of each other.
+    grazes: u64,
+}
+
+/// A scene, what is asked of it, and what is known of it.
+struct Case<'s> {
+    scene: &'s Scene,
+    config: Config,
+    samples: Samples,
+}
+
+impl<'s> Case<'s> {
+    /// Draws tolerance and margin; mostly the least distance decides about a contact.
+    fn draw(rng: &mut Pcg64, scene: &'s Scene) -> Self {
+        let samples = scene.samples();
+        let least = samples.least();
+        let tolerance = 10f64.powf(rng.random_range(-12.0..0.5));
+        let near = least - tolerance * rng.random_range(-1.0..2.0);
+        let (margin, tolerance) = match rng.random_range(0..4) {
+            0 => (0.0, tolerance),
+            1 if least > 0.0 => (0.0, greater(1e-12, least * rng.random_range(0.3..3.0))),
+            _ => (greater(near, 0.0), tolerance),
+        };
+        Case {
+            scene,
+            config: Config {
+                tolerance,
+                margin,
+                ..Config::default()
+            },
+            samples,
+        }
+    }
+
+    /// Checks the distance and the bounds of a contact at a time.
+    fn contact(&self, time: f64, contact: &Contact, tolerance: f64) -> Law {
+        let distance = self.scene.distance(time);
+        let (lower, upper) = (contact.separation.lower, contact.separation.upper);
+        let reach = self.config.margin + tolerance;
+        law!(
+            lower <= distance + ROUNDING && distance <= upper + ROUNDING,
+            "{distance:e} at {time} is not from {lower:e} to {upper:e}"
+        );
+        law!(upper <= reach + ROUNDING, "{upper:e} is no contact");
+        Ok(())
+    }
+
+    /// Checks what free bodies keep: a true gap, of at least half the tolerance beyond the margin.
+    fn free(&self, proven_gap: f64) -> Law {
+        let Config {
+            margin, tolerance, ..
+        } = self.config;
+        self.samples.at_least(proven_gap, |_| true, "free")?;
+        law!(
+            proven_gap >= margin + 0.5 * tolerance - ROUNDING,
+            "only {proven_gap:e} is proven"
+        );
+        Ok(())
+    }
+
+    /// Checks that nothing touches before a time.
+    fn safe(&self, until: f64) -> Law {
+        let margin = self.config.margin;
+        (self.samples).at_least(margin, |time| time < until, "before a contact")
+    }
+
+    fn overlapping(&self) -> Law {
+        let distance = self.scene.distance(0.0);
+        law!(
+            distance <= ROUNDING,
+            "no overlap: {distance:e} at the start"
+        );
+        Ok(())
+    }
+
+    fn first(&self, outcome: &Outcome, tolerance: f64, tally: &mut Tally) -> Law {
+        match *outcome {
+            Outcome::Contact { time, contact } => {
+                tally.contact += 1;
+                self.safe(time)?;
+                self.contact(time, &contact, tolerance)
+            }
+            Outcome::Free { proven_gap } => {
+                tally.free += 1;
+                self.free(proven_gap)
+            }
+            Outcome::Touching { contact } => {
+                tally.start += 1;
+                self.contact(0.0, &contact, tolerance)
+            }
+            Outcome::Overlapping { .. } => {
+                tally.start += 1;
+                self.overlapping()
+            }
+            Outcome::Unresolved { safe_until, reason } => {
+                tally.unresolved += 1;
+                law!(reason != Limit::Budget, "the budget was spent");
+                self.safe(safe_until)
+            }
+        }
+    }
+
+    fn any(&self, any: &AnyContact, tolerance: f64, first: &Outcome, tally: &mut Tally) -> Law {
+        let is_free = matches!(any, AnyContact::Free { .. });
+        let decided = !matches!(any, AnyContact::Unresolved { .. });
+        if decided && !matches!(first, Outcome::Unresolved { .. }) {
+            tally.grazes += u64::from(is_free != matches!(first, Outcome::Free { .. }));
+        }
+        match *any {
+            AnyContact::Contact { time, contact } => self.contact(time, &contact, tolerance),
+            AnyContact::Free { proven_gap } => self.free(proven_gap),
+            AnyContact::Overlapping { .. } => self.overlapping(),
+            AnyContact::Unresolved { safe_until, .. } => self.safe(safe_until),
+        }
+    }
+
+    fn interval(&self, interval: &ContactInterval, tolerance: f64, first: &Outcome) -> Law {
+        match *interval {
+            ContactInterval::Free { proven_gap } => {
+                let agrees =
+                    matches!(first, Outcome::Free { proven_gap: other } if *other == proven_gap);
+                law!(agrees, "{interval:?} and {first:?}");
+                self.free(proven_gap)
+            }
+            ContactInterval::Within { first, last } => {
+                self.safe(first.time)?;
+                let margin = self.config.margin;
+                (self.samples).at_least(
+                    margin,
+                    |time| time > last.time,
+                    "after the last contact",
+                )?;
+                for touch in [first, last] {
+                    if let Some(contact) = touch.contact {
+                        self.contact(touch.time, &contact, tolerance)?;
+                    }
+                }
+                Ok(())
+            }
+            ContactInterval::Unresolved {
+                safe_until,
+                safe_from,
+                ..
+            } => {
+                self.safe(safe_until)?;
+                let margin = self.config.margin;
+                (self.samples).at_least(margin, |time| time > safe_from, "after an interval")
+            }
+        }
+    }
+
+    fn closest(&self, closest: &ClosestApproach, tally: &mut Tally) -> Law {
+        self.samples
+            .at_least(closest.lower(), |_| true, "closest")?;
+        if let ClosestApproach::Nearest { time, contact, .. } = closest {
+            tally.measured += 1;
+            let distance = self.scene.distance(*time);
+            let upper = contact.separation.upper;
+            law!(
+                distance <= upper + ROUNDING,
+                "{distance:e} at {time}, not at most {upper:e}"
+            );
+        }
+        Ok(())
+    }
+
+    fn check(&self, solver: &mut Solver, tally: &mut Tally) -> Law {
+        solver.set_config(self.config);
+        let [a, b] = self.scene.travelling();
+        let first = solver.answer_along(a, b, 1.0).expect("in range");
+        self.first(&first.outcome, first.tolerance, tally)?;
+        let any = solver.any_contact_along(a, b, 1.0).expect("in range");
+        self.any(&any.outcome, any.tolerance, &first.outcome, tally)?;
+        let interval = solver.contact_interval_along(a, b, 1.0).expect("in range");
+        self.interval(&interval.outcome, interval.tolerance, &first.outcome)?;
+        let closest = solver.closest_approach_along(a, b, 1.0).expect("in range");
+        self.closest(&closest.outcome, tally)?;
+        match self
+            .scene
+            .kinds
+            .iter()
+            .all(|&kind| courses::is_motion(kind))
+        {
+            true => self.check_motions(solver, tally),
+            false => Ok(()),
+        }
+    }
+
+    /// Asks the same about motions as such.
+    fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> Law {
+        let motion = |k: usize| -> Motion {
+            let way = self.scene.ways[k].stretch(0.0, 1.0);
+            way.expect("a motion").motion
+        };
+        let [a, b] = [0, 1].map(|k| (&self.scene.bodies[k], motion(k)));
+        let first = solver.answer(a, b, 1.0).expect("in range");
+        self.first(&first.outcome, first.tolerance, tally)?;
+        let any = solver.any_contact(a, b, 1.0).expect("in range");
+        self.any(&any.outcome, any.tolerance, &first.outcome, tally)?;
+        let closest = solver.closest_approach(a, b, 1.0).expect("in range");
+        self.closest(&closest.outcome, tally)
+    }
+}
+
+#[test]
+fn no_bound_is_above_a_sampled_distance() {
+    let (mut solver, mut tally) = (Solver::new(), Tally::default());
+    let draws = seeds(1_500);
+    let (mut wrong, count) = (Vec::new(), draws.end - draws.start);
+    for seed in draws {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let scene = Scene::draw(&mut rng);
+        let case = Case::draw(&mut rng, &scene);
+        if let Err(why) = case.check(&mut solver, &mut tally) {
+            let kinds = scene.kinds.map(|kind| KINDS[kind]);
+            wrong.push(format!(
+                "{seed}: {kinds:?}, {:?}, {:?}: {why}",
+                scene.solids, case.config
+            ));
+        }
+    }
+    writeln!(
+        std::io::stderr(),
+        "{count} draws, {} false: {tally:?}",
+        wrong.len()
+    )
+    .unwrap();
+    let shown = &wrong[..wrong.len().min(20)];
+    assert!(
+        wrong.is_empty(),
+        "{} of {count}:\n{}",
+        wrong.len(),
+        shown.join("\n")
+    );
+    let Tally {
+        free,
+        contact,
+        start,
+        measured,
+        unresolved,
+        grazes,
+    } = tally;
+    let many = count / 20;
+    assert!(
+        free > many && contact > many && start > many && measured > many,
+        "{tally:?}"
+    );
+    assert!(grazes < many && unresolved < count / 50, "{tally:?}");
+}
+
+/// A ball comes near to a box at a knot, within the tolerance.
+#[test]
+fn what_is_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
+    let (ball, wall) = (
+        Body::ball(0.5).unwrap(),
+        Body::cuboid([1.0, 5.0, 5.0]).unwrap(),
+    );
+    let stops = [(0.0, -1.68), (0.4, -1.532), (0.41, -1.65), (1.0, -1.61)];
+    let stops = stops.map(|(time, x)| (time, Pose::at([x, 0.0, 0.0]).unwrap()));
+    let path = Poses::new(stops.to_vec()).unwrap();
+    for margin in [0.0, 0.2] {
+        let beside = Motion::still(Pose::at([margin, 0.0, 0.0]).unwrap());
+        let mut solver = Solver::new().with_config(Config {
+            tolerance: 0.1,
+            margin,
+            ..Config::default()
+        });
+        let (a, b) = ((&ball, &path), (&wall, &beside));
+        let first = solver.answer_along(a, b, 1.0).unwrap().outcome;
+        let any = solver.any_contact_along(a, b, 1.0).unwrap().outcome;
+        let interval = solver.contact_interval_along(a, b, 1.0).unwrap().outcome;
+        assert!(
+            matches!(first, Outcome::Contact { time, .. } if time > 0.3 && time <= 0.4),
+            "{first:?}"
+        );
+        assert!(matches!(any, AnyContact::Contact { .. }), "{any:?}");
+        assert!(
+            matches!(interval, ContactInterval::Within { last, .. } if last.time >= 0.4),
+            "{interval:?}"
+        );
+    }
+}

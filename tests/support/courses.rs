@@ -1,0 +1,246 @@
+//! Trajectories of every kind, drawn at random over the times from 0 to 1.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, Trajectory};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+use rigid_ccd::trajectory::{
+    Ballistic, Carried, Chain, Curve, Joint, Pace, Poses, Spline, Steady, Timed, Turns, screw,
+};
+
+/// The kinds of trajectories.
+pub const KINDS: [&str; 13] = [
+    "motion",
+    "still",
+    "screw",
+    "joint",
+    "poses",
+    "thrown",
+    "Bézier curve, slerp",
+    "B-spline, squad",
+    "link",
+    "carried",
+    "timed",
+    "smooth",
+    "zigzag",
+];
+
+/// Draws a trajectory of a kind, an index of [`KINDS`]: within about `reach` of the origin, over about that length.
+pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
+    of_kind(rng, KINDS[kind], reach).expect("finite numbers")
+}
+
+/// Returns whether a kind is a single motion.
+pub fn is_motion(kind: usize) -> bool {
+    ["motion", "still", "screw", "joint"].contains(&KINDS[kind])
+}
+
+fn of_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+    Ok(match kind {
+        "motion" => Box::new(motion(rng, reach)?),
+        "still" => Box::new(Motion::still(pose(rng, reach)?)),
+        "screw" => {
+            let axis = vector(rng, 1.0);
+            let [turns, advance] = [rng.random_range(-3.0..3.0), rng.random_range(-reach..reach)];
+            Box::new(screw(
+                pose(rng, reach)?,
+                vector(rng, reach),
+                axis,
+                turns,
+                advance,
+            )?)
+        }
+        "joint" => {
+            let joint = joint(rng, reach)?;
+            let [from, to] = [(); 2].map(|()| rng.random_range(-2.0..2.0));
+            Box::new(joint.motion(from, to, 1.0)?)
+        }
+        "poses" => {
+            let mut time = rng.random_range(-0.3..0.3);
+            let mut stops = Vec::new();
+            for _ in 0..rng.random_range(1..9) {
+                stops.push((time, pose(rng, reach)?));
+                // Some poses are next to each other.
+                time += [0.01, 0.15, 0.4][rng.random_range(0..3)] * rng.random_range(0.5..1.5);
+            }
+            Box::new(Poses::new(stops)?.about(vector(rng, 0.3 * reach))?)
+        }
+        "thrown" => Box::new(Ballistic::new(
+            motion(rng, reach)?,
+            vector(rng, 4.0 * reach),
+        )?),
+        "Bézier curve, slerp" => {
+            let count = rng.random_range(1..6);
+            let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
+            Box::new(Spline::new(curve, Turns::slerp(&keys(rng))?).about(vector(rng, 0.3 * reach))?)
+        }
+        "B-spline, squad" => {
+            let count = rng.random_range(4..9);
+            let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
+            Box::new(Spline::new(curve, Turns::squad(&keys(rng))?))
+        }
+        "link" => {
+            let count = rng.random_range(1..6);
+            let joints: Result<_, InputError> = (0..count).map(|_| joint(rng, reach)).collect();
+            let positions =
+                [(); 2].map(|()| (0..count).map(|_| rng.random_range(-1.0..1.0)).collect());
+            Box::new(Hand {
+                chain: Chain::new(Pose::IDENTITY, joints?),
+                positions,
+            })
+        }
+        "carried" => {
+            let carrier = Steady(motion(rng, reach)?);
+            let inner = Ballistic::new(motion(rng, reach)?, vector(rng, reach))?;
+            Box::new(Carried::new(carrier, inner))
+        }
+        "timed" => {
+            let thrown = Ballistic::new(motion(rng, reach)?, vector(rng, 4.0 * reach))?;
+            let pace = [Pace::Even, Pace::Eased][rng.random_range(0..2)];
+            let duration = rng.random_range(0.3..1.5);
+            Box::new(Timed::new(thrown, -0.2..0.8, duration, pace)?)
+        }
+        "smooth" => Box::new(Swing {
+            place: vector(rng, reach),
+            along: vector(rng, reach),
+            rate: rng.random_range(0.5..20.0),
+            axis: vector(rng, 1.0).normalize(),
+            turn: rng.random_range(0.0..3.0),
+        }),
+        _ => Box::new(Zigzag {
+            corners: points(rng, 5, reach)
+                .into_iter()
+                .map(DVec3::from_array)
+                .collect(),
+            tells: rng.random_bool(0.5),
+        }),
+    })
+}
+
+fn vector(rng: &mut Pcg64, size: f64) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| rng.random_range(-size..size)))
+}
+
+fn pose(rng: &mut Pcg64, size: f64) -> Result<Pose, InputError> {
+    let turn = DQuat::from_scaled_axis(vector(rng, 3.0));
+    Pose::new(vector(rng, size), turn)
+}
+
+fn motion(rng: &mut Pcg64, reach: f64) -> Result<Motion, InputError> {
+    let turns = [0.0, 1.0, 6.0][rng.random_range(0..3)];
+    let spin = vector(rng, 1.0) * turns;
+    let centre = vector(rng, 0.3 * reach);
+    Motion::about(pose(rng, reach)?, vector(rng, 2.0 * reach), spin, centre)
+}
+
+fn points(rng: &mut Pcg64, count: usize, reach: f64) -> Vec<[f64; 3]> {
+    (0..count).map(|_| vector(rng, reach).to_array()).collect()
+}
+
+/// Orientations that turn by less than 1 from one to the next.
+fn keys(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
+    let count = rng.random_range(2..6);
+    let mut at = DQuat::from_scaled_axis(vector(rng, 3.0));
+    let key = |k| {
+        at = DQuat::from_scaled_axis(vector(rng, 0.5)) * at;
+        (f64::from(k) / f64::from(count - 1), at.to_array())
+    };
+    (0..count).map(key).collect()
+}
+
+fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
+    let origin = Pose::at(vector(rng, 0.7 * reach))?;
+    let axis = vector(rng, 1.0);
+    match rng.random_bool(0.8) {
+        true => Joint::revolute(origin, axis),
+        false => Joint::prismatic(origin, axis),
+    }
+}
+
+/// The last link of a chain that it owns.
+struct Hand {
+    chain: Chain,
+    positions: [Vec<f64>; 2],
+}
+
+impl Trajectory for Hand {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let [first, last] = &self.positions;
+        (self.chain.link(first.len(), first, last, 1.0)?).stretch(from, to)
+    }
+}
+
+/// Swings and turns by a sine of the time, as a user writes it: without accelerations that are known.
+struct Swing {
+    place: DVec3,
+    along: DVec3,
+    rate: f64,
+    axis: DVec3,
+    turn: f64,
+}
+
+impl Smooth for Swing {
+    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+        let (sin, cos) = (self.rate * time).sin_cos();
+        let turned = DQuat::from_axis_angle(self.axis, self.turn * sin);
+        let start = Pose::new(self.place + self.along * sin, turned)?;
+        let cos = self.rate * cos;
+        Motion::new(start, self.along * cos, self.axis * (self.turn * cos))
+    }
+
+    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
+        let square = self.rate * self.rate * (1.0 + 1e-9);
+        Accelerations {
+            linear: self.along.length() * square,
+            angular: self.turn * square,
+        }
+    }
+}
+
+/// Moves straight from corner to corner, by chords, and may not tell where the corners are.
+struct Zigzag {
+    corners: Vec<DVec3>,
+    tells: bool,
+}
+
+impl Zigzag {
+    fn at(&self, time: f64) -> DVec3 {
+        let last = self.corners.len() - 1;
+        let place = time.clamp(0.0, 1.0) * last as f64;
+        let k = (place as usize).min(last - 1);
+        self.corners[k].lerp(self.corners[k + 1], place - k as f64)
+    }
+
+    fn inner(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        let count = self.corners.len() - 1;
+        let times = (0..=count).map(move |k| k as f64 / count as f64);
+        times.filter(move |&time| time > from && time < to)
+    }
+}
+
+impl Trajectory for Zigzag {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let ends = [from, to].map(|time| self.at(time));
+        let velocity = match to > from {
+            true => (ends[1] - ends[0]) / (to - from),
+            false => DVec3::ZERO,
+        };
+        // It is farthest from the chord at a corner.
+        let off = |time: f64| self.at(time).distance(ends[0] + velocity * (time - from));
+        let shift = (self.inner(from, to).map(off)).fold(0.0, ccd_core::order::greater);
+        let motion = Motion::new(Pose::at(ends[0])?, velocity, DVec3::ZERO)?;
+        let reach = self.corners.iter().map(|corner| corner.length());
+        let rounding = 1e-15 * reach.fold(0.0, ccd_core::order::greater);
+        Ok(Stretch {
+            stray: Stray {
+                shift: shift + 8.0 * rounding,
+                turn: 0.0,
+            },
+            ..Stretch::exact(motion)
+        })
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        self.inner(from, to).find(|_| self.tells)
+    }
+}
