@@ -36,7 +36,10 @@ pub enum Outcome {
     },
     /// The bodies stay apart over the whole duration.
     Free {
-        /// A lower bound of the distance at all times.
+        /// A lower bound of the distance at all times: half the tolerance beyond the margin, however far apart the
+        /// bodies are; less, down to 0, where a contact at the start was [let go](crate::StartPolicy::Leave). The
+        /// least distance is another question:
+        /// [`closest_approach`](crate::schedule::DepthFirst::closest_approach).
         proven_gap: f64,
     },
     /// The bodies are within margin + tolerance at the start, without overlapping.

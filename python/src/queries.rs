@@ -12,11 +12,14 @@ use pyo3::types::PyDict;
 use rigid_ccd::schedule::ClosestApproach;
 use rigid_ccd::{Config, Error, Limit, Solver};
 use std::cell::Cell;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The work of about a tenth of a second. A query with more to do is asked again on a thread of its own, while this one
 /// looks for Ctrl-C.
 const SHORT: u64 = 100_000;
+
+/// The time of that, as a path has a budget for each of its parts.
+const MOMENT: Duration = Duration::from_millis(200);
 
 thread_local! {
     /// The solver of this thread, which keeps its memory from query to query. A panic leaves a new one.
@@ -36,6 +39,7 @@ fn ask<T: Send>(
     let begin = Instant::now();
     let short = Config {
         budget: config.budget.min(SHORT),
+        deadline: Some(config.deadline.map_or(MOMENT, |deadline| deadline.min(MOMENT))),
         ..config
     };
     let first = py.detach(|| {
@@ -47,6 +51,7 @@ fn ask<T: Send>(
     });
     let until = match reached(&first) {
         Some((Limit::Budget, until)) if config.budget > SHORT => until,
+        Some((Limit::Deadline, until)) if config.deadline.is_none_or(|deadline| deadline > MOMENT) => until,
         _ => return Ok(first),
     };
     let left = config
@@ -97,7 +102,8 @@ fn pair<'c>(
 ///     tolerance: a contact is reported at a distance of at most margin + tolerance, in your unit of length; 0.001 by
 ///         default.
 ///     margin: a distance to keep; 0 by default.
-///     budget: the work after which a query is given up; a million takes about a second.
+///     budget: the work after which a query is given up, of a path that between two poses; a million takes about a
+///         second.
 ///     deadline: seconds after which a query is given up.
 ///
 /// Raises:

@@ -115,10 +115,8 @@ impl<'a> Painter<'a> {
         let mut view = View::of(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
-            let reached = match (row.status, row.distance_lower, self.asked.claim) {
-                (Status::Free, Some(proven), Claim::First | Claim::Any) => {
-                    Reached::Throughout(proven)
-                }
+            let reached = match (row.status, self.asked.claim) {
+                (Status::Free, Claim::First | Claim::Any) => Reached::Throughout(self.asked.margin),
                 _ => Reached::Nothing,
             };
             let found = gap(&mut self.solver, self.bodies, query, reached)?;

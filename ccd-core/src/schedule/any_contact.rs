@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 pub enum AnyContact {
     /// The bodies stay apart over the whole duration.
     Free {
-        /// A lower bound of the distance at all times.
+        /// As in [`Outcome::Free`].
         proven_gap: f64,
     },
     /// The bodies are within margin + tolerance at `time`. They may be so before, and may overlap then.

@@ -38,7 +38,8 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
             With a column t, rows are poses at that time, and all rows of an id, which follow each other, are one path.
         tolerance: a contact is reported at a distance of at most margin + tolerance; 0.001 by default.
         margin: a distance to keep; 0 by default.
-        budget: the work after which a row is left unresolved; a million takes about a second.
+        budget: the work after which a row is left unresolved, of a path that between two poses; a million takes about
+            a second.
         deadline: seconds after which a row is left unresolved.
         threads: one on each core by default.
         progress: a function of the number of rows answered and of all rows (None if it is not known, or if rows make
@@ -49,7 +50,8 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         A `Table` with the columns of ``ccd query``: id, status, time, distance_lower, distance_upper, normal_x ...,
         witness_a_x ..., witness_b_x ..., feature_a, feature_b, iterations, oracle_calls, micros, reason. Status is
         contact, free, touching or overlapping (at the start), unresolved (a limit was reached: nothing touches before
-        `time`), or error: the row is not a valid motion, with its reason.
+        `time`), or error: the row is not a valid motion, with its reason. Of free rows no distance is known: they are
+        proven to stay farther apart than the margin, and `closest_approaches` measures them.
 
     Raises:
         InputError: a column is unknown, missing, or not numeric; or a stream failed: then it has `results`, too.

@@ -46,7 +46,8 @@ pub(super) struct AuditArgs {
     /// Distance that the checker was to keep between the bodies, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
     margin: f64,
-    /// Leave a query unresolved after N units of work; a million takes about a second
+    /// Leave a query unresolved after N units of work, of a path after N between two poses; a million takes
+    /// about a second
     #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
           value_parser = clap::value_parser!(u64).range(1..))]
     budget: u64,

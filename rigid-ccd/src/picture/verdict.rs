@@ -1,7 +1,6 @@
 //! What a row of the results says, in words.
 
 use crate::table::results::{ResultRow, Status};
-use ccd_core::order::greater;
 
 /// What rows are answers to, as far as it is known.
 #[derive(Clone, Copy, Debug)]
@@ -41,12 +40,18 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
     };
     match row.status {
         Status::Contact => on_the_way(row, asked, &time),
-        Status::Free => free(row, asked, end, proven),
+        Status::Free => free(asked, end, proven),
         Status::Touching if asked.margin > 0.0 => {
-            format!("Within the margin at the start: {}.", contact(row))
+            format!(
+                "Within the margin at the start: {}.{}",
+                contact(row),
+                after(row)
+            )
         }
-        Status::Touching => format!("In contact at the start: {}.", contact(row)),
-        Status::Overlapping => format!("Overlapping at the start: {}.", contact(row)),
+        Status::Touching => format!("In contact at the start: {}.{}", contact(row), after(row)),
+        Status::Overlapping => {
+            format!("Overlapping at the start: {}.{}", contact(row), after(row))
+        }
         Status::Measured if asked.claim == Claim::Then => format!("At {time}: {}.", apart(row)),
         Status::Measured => format!("Nearest at {time}: {}.", apart(row)),
         Status::Kept => format!("{clearance} is kept: nearest at {time}, {}.", apart(row)),
@@ -68,6 +73,13 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         },
         Status::Error => format!("Not answered: {reason}."),
     }
+}
+
+/// Returns what is proven after a contact at the start; nothing if only the first one was asked for.
+fn after(row: &ResultRow) -> String {
+    row.last_time.map_or(String::new(), |last| {
+        format!(" Proven: not after {}.", number_up(last))
+    })
 }
 
 /// Returns the words for a contact on the way.
@@ -105,18 +117,9 @@ fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
     }
 }
 
-fn free(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
+fn free(asked: Asked, end: f64, proven: Option<f64>) -> String {
     let end = number(end);
-    // What a table says is not what is proven here.
-    let told = match asked.claim {
-        Claim::Published | Claim::Told => None,
-        _ => row.distance_lower,
-    };
-    let gap = match (told, proven) {
-        (Some(told), Some(proven)) => Some(greater(told, proven)),
-        (told, proven) => told.or(proven),
-    };
-    match (asked.claim, gap.filter(|gap| *gap > 0.0)) {
+    match (asked.claim, proven.filter(|gap| *gap > 0.0)) {
         (_, Some(gap)) => format!(
             "No contact, to the end at {end}. Proven: never nearer than {}.",
             number(gap)

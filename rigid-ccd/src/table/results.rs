@@ -74,7 +74,8 @@ pub struct ResultRow {
     /// The time before which there is no contact, certified unless the bound is the published one; the
     /// duration when free.
     pub time: Option<f64>,
-    /// A lower bound of the distance at `time`; when free, at all times.
+    /// A lower bound of the distance at `time`; of the closest approach, at all times. Empty when free: those bodies
+    /// are proven to keep the margin, and no distance is known.
     pub distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`.
     pub distance_upper: Option<f64>,
@@ -174,7 +175,7 @@ impl ResultRow {
             Outcome::Contact { time, contact } => self.at(time).with_contact(&contact),
             Outcome::Touching { contact } => self.at(0.0).with_contact(&contact),
             Outcome::Overlapping { overlap } => self.at(0.0).with_overlap(&overlap),
-            Outcome::Free { proven_gap } => self.at(duration).with_gap(proven_gap),
+            Outcome::Free { .. } => self.at(duration),
             Outcome::Unresolved { safe_until, .. } => self.at(safe_until),
         }
     }
@@ -183,21 +184,20 @@ impl ResultRow {
         match *any {
             AnyContact::Contact { time, contact } => self.at(time).with_contact(&contact),
             AnyContact::Overlapping { overlap } => self.at(0.0).with_overlap(&overlap),
-            AnyContact::Free { proven_gap } => self.at(duration).with_gap(proven_gap),
+            AnyContact::Free { .. } => self.at(duration),
             AnyContact::Unresolved { safe_until, .. } => self.at(safe_until),
         }
     }
 
     fn with_interval(self, interval: &ContactInterval, duration: f64) -> Self {
         let (row, last_time) = match *interval {
-            ContactInterval::Free { proven_gap } => {
-                return self.at(duration).with_gap(proven_gap);
-            }
+            ContactInterval::Free { .. } => return self.at(duration),
             ContactInterval::Within { first, last } => {
                 let row = self.at(first.time);
-                let row = match &first.contact {
-                    Some(contact) => row.with_contact(contact),
-                    None => row,
+                let row = match (&first.overlap, &first.contact) {
+                    (Some(overlap), _) => row.with_overlap(overlap),
+                    (None, Some(contact)) => row.with_contact(contact),
+                    (None, None) => row,
                 };
                 (row, last.time)
             }
@@ -231,13 +231,6 @@ impl ResultRow {
     fn at(self, time: f64) -> Self {
         ResultRow {
             time: Some(time),
-            ..self
-        }
-    }
-
-    fn with_gap(self, proven_gap: f64) -> Self {
-        ResultRow {
-            distance_lower: Some(proven_gap),
             ..self
         }
     }

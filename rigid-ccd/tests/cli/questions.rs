@@ -37,7 +37,7 @@ fn a_contact_is_found_at_any_time() {
     assert!(row.number("distance_upper") <= 1e-3);
     let row = only(&ask("is-free", &BALLS, PASSES));
     assert_eq!((row.text("status"), row.text("time")), ("free", "1.0"));
-    assert!(row.number("distance_lower") > 0.0);
+    assert_eq!(row.text("distance_lower"), "");
 }
 
 #[test]
@@ -48,6 +48,30 @@ fn an_interval_holds_the_contact() {
     row.assert_in_time(DROP_TIME, 4.0);
     let late = row.number("last_time") - 5.5 / 4.0;
     assert!((0.0..=1e-3 / 4.0).contains(&late), "{late} late");
+}
+
+#[test]
+fn an_interval_begins_as_the_first_contact_does() {
+    let starts =
+        "id,a_px,a_pz,a_vz\ninto,0,1.4,-1\ndeep,0,0,0\non,0,1.5,1\nin,0,1.4,1\nbeside,9,0,0\n";
+    let first = ask("first-contact", &FALLING_CUBE, starts).succeeds();
+    let interval = ask("contact-interval", &FALLING_CUBE, starts).succeeds();
+    for (first, interval) in first.iter().zip(&interval) {
+        for column in ["id", "status", "time", "distance_lower", "witness_a_x"] {
+            assert_eq!(first.text(column), interval.text(column), "{column}");
+        }
+    }
+    let statuses: Vec<_> = first.iter().map(|row| row.text("status")).collect();
+    assert_eq!(
+        statuses,
+        [
+            "overlapping",
+            "overlapping",
+            "touching",
+            "overlapping",
+            "free"
+        ]
+    );
 }
 
 #[test]

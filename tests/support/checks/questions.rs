@@ -93,7 +93,7 @@ impl Judge<'_> {
                         "in contact at {hi}, after the last contact"
                     );
                 }
-                for Touch { time, contact } in [first, last] {
+                for Touch { time, contact, .. } in [first, last] {
                     // Else one body is inside the other.
                     if let Some(contact) = contact {
                         self.within_reach(time, answer.tolerance, &contact)?;

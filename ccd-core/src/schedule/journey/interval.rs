@@ -8,7 +8,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::Motion;
 use crate::motion::trajectory::{Stray, Stretch, Trajectory};
-use crate::outcome::{Answer, Contact, Limit, Outcome};
+use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap};
 use crate::schedule::BestFirst;
 use crate::tolerance::U64;
 use std::time::Instant;
@@ -25,7 +25,7 @@ use std::time::Instant;
 pub enum ContactInterval {
     /// The bodies stay apart over the whole duration.
     Free {
-        /// A lower bound of the distance at all times.
+        /// As in [`Outcome::Free`].
         proven_gap: f64,
     },
     /// The bodies are within margin + tolerance at the first time and at the last. In between they may part.
@@ -53,6 +53,8 @@ pub struct Touch {
     pub time: f64,
     /// The pieces in contact; none if one body is inside the other without two pieces that intersect.
     pub contact: Option<Contact>,
+    /// The proof, if the bodies overlap: of a first contact at the start, of a last one at the end.
+    pub overlap: Option<Overlap>,
 }
 
 impl<O: DistanceOracle> BestFirst<O> {
@@ -136,11 +138,21 @@ enum Seen {
 }
 
 fn touch(outcome: &Outcome) -> Seen {
-    let at = |time, contact| Seen::At(Touch { time, contact });
+    let at = |time, contact| {
+        Seen::At(Touch {
+            time,
+            contact: Some(contact),
+            overlap: None,
+        })
+    };
     match *outcome {
-        Outcome::Contact { time, contact } => at(time, Some(contact)),
-        Outcome::Touching { contact } => at(0.0, Some(contact)),
-        Outcome::Overlapping { overlap } => at(0.0, contact_of(&overlap)),
+        Outcome::Contact { time, contact } => at(time, contact),
+        Outcome::Touching { contact } => at(0.0, contact),
+        Outcome::Overlapping { overlap } => Seen::At(Touch {
+            time: 0.0,
+            contact: contact_of(&overlap),
+            overlap: Some(overlap),
+        }),
         Outcome::Free { proven_gap } => Seen::Never { proven_gap },
         Outcome::Unresolved { safe_until, reason } => Seen::Unknown { safe_until, reason },
     }

@@ -50,7 +50,7 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(super) start: StartArg,
     /// Leave a query unresolved after N units of work (pairs of nodes visited, and work of equal
-    /// cost); a million takes about a second
+    /// cost), of a path after N between two poses; a million takes about a second
     #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
           value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) budget: u64,

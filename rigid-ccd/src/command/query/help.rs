@@ -60,7 +60,7 @@ Questions (--ask):
 Table of results:
   id                        as in the table of motions
   status    contact         within margin + tolerance at `time`, no contact before
-            free            no contact during the whole duration
+            free            no contact during the whole duration: farther apart than the margin
             touching        within margin + tolerance at the start
             overlapping     intersecting at the start, or one body inside the other, which is a solid
             measured        the distance is between distance_lower and distance_upper
@@ -72,8 +72,8 @@ Table of results:
   time                      certified: no contact before it; from 0 to the duration; of a distance,
                             when the bodies are nearest
   distance_lower, distance_upper
-                            bounds of the distance at `time`; of `free` and of closest-approach:
-                            distance_lower holds at all times
+                            bounds of the distance at `time`; of closest-approach: distance_lower
+                            holds at all times; empty when `free`, which proves the margin alone
   normal_x ... normal_z     unit vector from A to B, world frame, at `time`
   witness_a_x ... witness_b_z
                             a pair of nearest points, world frame, at `time`

@@ -2,7 +2,7 @@
 
 use crate::batch::Found;
 use ccd_core::Outcome;
-use ccd_core::schedule::{AnyContact, Clearance, ClosestApproach, ContactInterval};
+use ccd_core::schedule::{AnyContact, Clearance, ClosestApproach, ContactInterval, Touch};
 use serde::{Deserialize, Serialize};
 
 /// The kind of an answer, or an error.
@@ -73,11 +73,20 @@ impl Status {
                 AnyContact::Unresolved { .. } => Status::Unresolved,
             },
             Found::Interval(interval) => match interval {
-                ContactInterval::Within { .. } => Status::Contact,
+                ContactInterval::Within { first, .. } => Status::of_touch(first),
                 ContactInterval::Free { .. } => Status::Free,
                 ContactInterval::Unresolved { .. } => Status::Unresolved,
             },
             Found::Distance(closest) => Status::of_distance(closest, clearance),
+        }
+    }
+
+    /// Returns what the first contact on its own is called.
+    fn of_touch(first: &Touch) -> Self {
+        match (first.overlap, first.time > 0.0) {
+            (Some(_), _) => Status::Overlapping,
+            (None, false) => Status::Touching,
+            (None, true) => Status::Contact,
         }
     }
 

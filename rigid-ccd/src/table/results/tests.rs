@@ -101,13 +101,12 @@ fn a_contact_fills_every_cell() {
 }
 
 #[test]
-fn a_free_row_has_the_duration_and_the_proven_gap() {
+fn a_free_row_has_the_duration_and_no_distance() {
     let row = written(Outcome::Free { proven_gap: 0.25 });
     assert_eq!(cell(&row, "status"), "free");
     assert_eq!(cell(&row, "time"), "2.5");
-    assert_eq!(cell(&row, "distance_lower"), "0.25");
     assert!(
-        row[4..16].iter().all(|(_, value)| value.is_empty()),
+        row[3..16].iter().all(|(_, value)| value.is_empty()),
         "{row:?}"
     );
 }
@@ -204,6 +203,7 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
     let touch = |time| Touch {
         time,
         contact: Some(contact()),
+        overlap: None,
     };
     let within = Found::Interval(ContactInterval::Within {
         first: touch(0.5),
@@ -214,6 +214,23 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
     assert_eq!([&*status, &*time, &*last], ["contact", "0.5", "2.0"]);
     assert_eq!(row[COLUMNS.len()].0, "last_time");
     assert_eq!(row.len(), COLUMNS.len() + 1 + COUNTER_COLUMNS.len());
+    let overlap = Overlap::AInsideB(DVec3::X);
+    let inside = Touch {
+        contact: None,
+        overlap: Some(overlap),
+        ..touch(0.0)
+    };
+    for (first, outcome) in [
+        (inside, Outcome::Overlapping { overlap }),
+        (touch(0.0), Outcome::Touching { contact: contact() }),
+    ] {
+        let last = touch(2.0);
+        let within = Found::Interval(ContactInterval::Within { first, last });
+        let row = cells_of(within, None, extent);
+        // But for the last time it is the row of the first contact.
+        assert_eq!(row[..COLUMNS.len()], written(outcome)[..]);
+        assert_eq!(cell(&row, "last_time"), "2.0");
+    }
     let free = Found::Interval(ContactInterval::Free { proven_gap: 0.25 });
     let row = cells_of(free, None, extent);
     assert_eq!(
