@@ -133,9 +133,7 @@ fn status(outcome: &Outcome, duration: f64) -> String {
         Outcome::Contact { time, contact } => {
             format!("Contact at {time:.6} of {duration}: {}.", at(contact))
         }
-        Outcome::Free { proven_gap } => {
-            format!("No contact until {duration}: never nearer than {proven_gap:.3e}.")
-        }
+        Outcome::Free { .. } => format!("No contact until {duration}."),
         Outcome::Touching { contact } => format!("In contact at the start: {}.", at(contact)),
         Outcome::Overlapping { overlap } => match overlap {
             Overlap::Pieces(contact) => format!("Overlapping at the start: {}.", at(contact)),

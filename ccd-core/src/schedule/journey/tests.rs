@@ -1,11 +1,12 @@
-//! Answers along trajectories against sampled distances, against those of plain motions, and with every
-//! budget.
+//! Answers along trajectories against sampled distances, and against those of plain motions.
+
+mod budgets;
 
 use super::*;
 use crate::math::order::lesser;
 use crate::motion::Motion;
-use crate::motion::trajectory::{Accelerations, Smooth, Stray, Stretch};
-use crate::outcome::{Limit, Outcome};
+use crate::motion::trajectory::{Accelerations, Smooth};
+use crate::outcome::Outcome;
 use crate::schedule::{AnyContact, BestFirst, ClosestApproach, DepthFirst, Schedule};
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::Exhaustive;
@@ -283,80 +284,6 @@ fn no_contact_is_before_the_first_or_after_the_last() {
         }
     }
     assert!(within > 60 && early > 30, "{within} {early}");
-}
-
-#[test]
-fn budgets_end_a_journey_with_a_time_that_is_safe() {
-    let mut rng = rng(6);
-    let mut ended = 0;
-    for number in 0..60 {
-        let mut swings = Swings::draw(&mut rng);
-        let until = match swings.first() {
-            Outcome::Contact { time, .. } => time,
-            Outcome::Free { .. } => 1.0,
-            _ => continue,
-        };
-        for budget in 1..60 {
-            swings.config.budget = budget;
-            match swings.first() {
-                Outcome::Unresolved { safe_until, reason } => {
-                    assert_eq!(reason, Limit::Budget);
-                    assert!(safe_until <= until, "{number}: {safe_until} of {until}");
-                    ended += 1;
-                }
-                _ => break,
-            }
-        }
-    }
-    assert!(ended > 300, "{ended}");
-}
-
-/// Strays without bounds, and has a corner near the end of all times, or bounds that are none.
-struct Hostile {
-    stray: Stray,
-    step: f64,
-}
-
-impl Trajectory for Hostile {
-    fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
-        Ok(Stretch {
-            stray: self.stray,
-            ..Stretch::exact(Motion::STILL)
-        })
-    }
-
-    fn corner(&self, _: f64, to: f64) -> Option<f64> {
-        Some(to - self.step)
-    }
-}
-
-#[test]
-fn budgets_end_cuts_where_there_is_no_bound() {
-    let ball = Body::ball(0.5).unwrap();
-    let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
-    let ask = |shift: f64, turn: f64, step: f64| {
-        let hostile = Hostile {
-            stray: Stray { shift, turn },
-            step,
-        };
-        let config = Config {
-            budget: 1_000,
-            ..Config::default()
-        };
-        let journey = Journey::new((&ball, &hostile), (&ball, &far), 1.0, &config).unwrap();
-        BestFirst::default().first_contact_along(&journey, &mut Exhaustive)
-    };
-    let unresolved = Outcome::Unresolved {
-        safe_until: 0.0,
-        reason: Limit::Budget,
-    };
-    assert_eq!(ask(f64::INFINITY, 0.0, 1e-9).unwrap().outcome, unresolved);
-    for no_bound in [f64::NAN, -1.0] {
-        assert_eq!(ask(no_bound, 0.0, 2.0).unwrap().outcome, unresolved);
-        assert_eq!(ask(0.0, no_bound, 2.0).unwrap().outcome, unresolved);
-    }
-    let free = ask(0.1, 0.1, 2.0).unwrap().outcome;
-    assert!(matches!(free, Outcome::Free { proven_gap } if proven_gap > 0.0));
 }
 
 #[test]
