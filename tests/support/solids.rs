@@ -1,10 +1,9 @@
 //! Small solids whose distances are a few lines of arithmetic, which nothing else uses.
 
-use crate::models::{Kind, Mesh, Shape};
 use crate::referee::{edge_edge_squared, pierces, point_segment, point_triangle};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
-use ccd_core::{Body, Pose};
+use ccd_core::{Body, Pieces, Pose, Volume};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -66,12 +65,10 @@ impl Solid {
     /// If the engine refuses it.
     pub fn body(&self) -> Body {
         let mesh = |corners: &[DVec3], faces: &[[usize; 3]]| {
-            let faces = faces.iter().map(|face| face.map(|k| k as u32));
-            let mesh = Mesh {
-                vertices: corners.to_vec(),
-                faces: faces.collect(),
-            };
-            Shape::closed(mesh).body(Kind::Triangles)
+            let faces: Vec<_> = faces.iter().map(|face| face.map(|k| k as u32)).collect();
+            let names: Vec<_> = (0..faces.len() as u32).collect();
+            let pieces = Pieces::triangles(corners, &faces, &names).expect("a few triangles");
+            Body::new(&pieces, Volume::Solid).expect("a solid")
         };
         match *self {
             Solid::Ball(radius) => Body::ball(radius).expect("a ball"),
@@ -91,13 +88,9 @@ impl Solid {
                 Placed::Rod([-half, half].map(|z| at(z * DVec3::Z)), radius)
             }
             Solid::Cuboid(half) | Solid::Crate(half) => {
-                let corners = corners_of(half).map(at);
-                Placed::Faces(CRATE.map(|face| face.map(|k| corners[k])).to_vec())
+                Placed::Hull(Hull::new(&corners_of(half).map(at), &CRATE))
             }
-            Solid::Tetrahedron(corners) => {
-                let corners = corners.map(at);
-                Placed::Faces(SIDES.map(|face| face.map(|k| corners[k])).to_vec())
-            }
+            Solid::Tetrahedron(corners) => Placed::Hull(Hull::new(&corners.map(at), &SIDES)),
         }
     }
 }
@@ -114,8 +107,51 @@ fn corners_of(half: DVec3) -> [DVec3; 8] {
 pub enum Placed {
     /// A segment, or a point twice, grown by a radius.
     Rod([DVec3; 2], f64),
-    /// The faces of a convex solid, counterclockwise from outside.
-    Faces(Vec<[DVec3; 3]>),
+    /// A polytope.
+    Hull(Hull),
+}
+
+/// A convex solid: its corners, its edges, and its faces, counterclockwise from outside.
+#[derive(Clone, Debug)]
+pub struct Hull {
+    corners: Vec<DVec3>,
+    edges: Vec<[DVec3; 2]>,
+    faces: Vec<[DVec3; 3]>,
+}
+
+impl Hull {
+    fn new(corners: &[DVec3], faces: &[[usize; 3]]) -> Self {
+        let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        // Each edge is a side of two faces, once each way.
+        let edges = sides.filter(|[a, b]| a < b);
+        Hull {
+            edges: edges.map(|edge| edge.map(|k| corners[k])).collect(),
+            faces: faces.iter().map(|face| face.map(|k| corners[k])).collect(),
+            corners: corners.to_vec(),
+        }
+    }
+
+    fn contains(&self, p: DVec3) -> bool {
+        let height = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).dot(p - *a);
+        self.faces.iter().all(|face| height(face) <= 0.0)
+    }
+
+    fn to_point(&self, p: DVec3) -> f64 {
+        let to = self
+            .faces
+            .iter()
+            .map(|face| point_triangle(p, *face).distance(p));
+        to.fold(f64::INFINITY, lesser)
+    }
+
+    fn to_edge(&self, edge: [DVec3; 2]) -> f64 {
+        let to = self.edges.iter().map(|own| edge_edge(*own, edge));
+        to.fold(f64::INFINITY, lesser)
+    }
+
+    fn is_pierced(&self, edge: [DVec3; 2]) -> bool {
+        self.faces.iter().any(|face| pierces(edge, *face))
+    }
 }
 
 impl Placed {
@@ -123,34 +159,34 @@ impl Placed {
     pub fn distance(&self, other: &Placed) -> f64 {
         let apart = match (self, other) {
             (Placed::Rod(p, r), Placed::Rod(q, s)) => edge_edge(*p, *q) - r - s,
-            (Placed::Rod(core, radius), Placed::Faces(faces))
-            | (Placed::Faces(faces), Placed::Rod(core, radius)) => {
-                let inside = core.iter().any(|p| is_inside(*p, faces));
-                let to = faces.iter().map(|face| edge_face(*core, *face));
-                to.fold(f64::INFINITY, lesser) * f64::from(u8::from(!inside)) - radius
-            }
-            (Placed::Faces(a), Placed::Faces(b)) => {
-                if is_inside(a[0][0], b) || is_inside(b[0][0], a) {
-                    return 0.0;
-                }
-                let pairs = a.iter().flat_map(|x| b.iter().map(move |y| (x, y)));
-                pairs
-                    .map(|(x, y)| face_face(*x, *y))
-                    .fold(f64::INFINITY, lesser)
-            }
+            (Placed::Rod(core, radius), Placed::Hull(hull))
+            | (Placed::Hull(hull), Placed::Rod(core, radius)) => rod_hull(*core, hull) - radius,
+            (Placed::Hull(a), Placed::Hull(b)) => hull_hull(a, b),
         };
         if apart > 0.0 { apart } else { 0.0 }
     }
 }
 
-fn edges([a, b, c]: [DVec3; 3]) -> [[DVec3; 2]; 3] {
-    [[a, b], [b, c], [c, a]]
+fn rod_hull(core: [DVec3; 2], hull: &Hull) -> f64 {
+    if hull.contains(core[0]) || hull.is_pierced(core) {
+        return 0.0;
+    }
+    let [first, last] = core.map(|p| hull.to_point(p));
+    lesser(hull.to_edge(core), lesser(first, last))
 }
 
-/// Returns whether a point is in a convex solid.
-fn is_inside(p: DVec3, faces: &[[DVec3; 3]]) -> bool {
-    let height = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).dot(p - *a);
-    faces.iter().all(|face| height(face) <= 0.0)
+fn hull_hull(a: &Hull, b: &Hull) -> f64 {
+    let pierced = |one: &Hull, other: &Hull| {
+        let mut edges = other.edges.iter();
+        one.contains(other.corners[0]) || edges.any(|edge| one.is_pierced(*edge))
+    };
+    if pierced(a, b) || pierced(b, a) {
+        return 0.0;
+    }
+    let edges = a.edges.iter().map(|edge| b.to_edge(*edge));
+    let points = a.corners.iter().map(|p| b.to_point(*p));
+    let back = b.corners.iter().map(|p| a.to_point(*p));
+    edges.chain(points).chain(back).fold(f64::INFINITY, lesser)
 }
 
 fn edge_edge(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
@@ -160,19 +196,4 @@ fn edge_edge(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
         (false, true) => point_segment(f[0], e).distance(f[0]),
         (false, false) => edge_edge_squared(e, f).sqrt(),
     }
-}
-
-fn edge_face(e: [DVec3; 2], face: [DVec3; 3]) -> f64 {
-    if pierces(e, face) {
-        return 0.0;
-    }
-    let ends = e.map(|p| point_triangle(p, face).distance(p));
-    let sides = edges(face).map(|side| edge_edge(e, side));
-    ends.into_iter().chain(sides).fold(f64::INFINITY, lesser)
-}
-
-fn face_face(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
-    let one = edges(a).map(|side| edge_face(side, b));
-    let other = edges(b).map(|side| edge_face(side, a));
-    one.into_iter().chain(other).fold(f64::INFINITY, lesser)
 }

@@ -108,15 +108,15 @@ impl<O: DistanceOracle> BestFirst<O> {
         // Rounded so that it is never early.
         let time = |time: f64| lesser((duration - time).next_up(), duration);
         let outcome = match touch(&last.outcome) {
-            Seen::At(touch) => ContactInterval::Within {
+            Seen::At(touch) if time(touch.time) > begins.time => ContactInterval::Within {
                 first: begins,
                 last: Touch {
-                    time: greater(time(touch.time), begins.time),
+                    time: time(touch.time),
                     ..touch
                 },
             },
             // What was seen the one way, and not the other, is a near miss.
-            Seen::Never { .. } => ContactInterval::Within {
+            Seen::At(_) | Seen::Never { .. } => ContactInterval::Within {
                 first: begins,
                 last: begins,
             },
