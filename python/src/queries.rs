@@ -39,7 +39,11 @@ fn ask<T: Send>(
     let begin = Instant::now();
     let short = Config {
         budget: config.budget.min(SHORT),
-        deadline: Some(config.deadline.map_or(MOMENT, |deadline| deadline.min(MOMENT))),
+        deadline: Some(
+            config
+                .deadline
+                .map_or(MOMENT, |deadline| deadline.min(MOMENT)),
+        ),
         ..config
     };
     let first = py.detach(|| {
@@ -51,7 +55,11 @@ fn ask<T: Send>(
     });
     let until = match reached(&first) {
         Some((Limit::Budget, until)) if config.budget > SHORT => until,
-        Some((Limit::Deadline, until)) if config.deadline.is_none_or(|deadline| deadline > MOMENT) => until,
+        Some((Limit::Deadline, until))
+            if config.deadline.is_none_or(|deadline| deadline > MOMENT) =>
+        {
+            until
+        }
         _ => return Ok(first),
     };
     let left = config
