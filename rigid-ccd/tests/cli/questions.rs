@@ -53,7 +53,7 @@ fn an_interval_holds_the_contact() {
 #[test]
 fn an_interval_begins_as_the_first_contact_does() {
     let starts =
-        "id,a_px,a_pz,a_vz\ninto,0,1.4,-1\ndeep,0,0,0\non,0,1.5,1\nin,0,1.4,1\nbeside,9,0,0\n";
+        "id,a_px,a_pz,a_vz\ninto,0,1.4,-1\ndeep,0,0,0\non,0,1.5005,1\nin,0,1.4,1\nbeside,19,0,0\n";
     let first = ask("first-contact", &FALLING_CUBE, starts).succeeds();
     let interval = ask("contact-interval", &FALLING_CUBE, starts).succeeds();
     for (first, interval) in first.iter().zip(&interval) {

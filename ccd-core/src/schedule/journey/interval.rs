@@ -131,6 +131,10 @@ impl<O: DistanceOracle> BestFirst<O> {
 }
 
 /// What an outcome says of the first contact.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one at a time: a box would cost more than the bytes"
+)]
 enum Seen {
     At(Touch),
     Never { proven_gap: f64 },
