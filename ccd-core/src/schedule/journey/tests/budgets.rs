@@ -106,9 +106,9 @@ fn each_part_between_two_corners_has_a_budget() {
     while far - near > 1e-5 {
         let middle = 0.5 * (near + far);
         if free(middle) {
-            far = middle
+            far = middle;
         } else {
-            near = middle
+            near = middle;
         }
     }
     let (first, any, closest, _) = ask(1, far, u64::MAX);
