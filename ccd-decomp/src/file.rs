@@ -3,14 +3,14 @@
 pub(crate) mod error;
 mod frame;
 pub(crate) mod obj;
+use crate::mesh::remark::Remarks;
 use crate::prepare::model::Model;
 use crate::prepare::report::Report;
 use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
 use error::{StoreError, StoreFault};
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::path::Path;
 
 /// The extension of a stored body's file.
 pub const STORED_EXTENSION: &str = "ccd";
@@ -21,7 +21,7 @@ pub(crate) fn is_stored(path: &Path) -> bool {
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
 }
 
-/// The stored parts of a model, in this order. A hull tree is stored without its pieces, which are there
+/// The stored parts of a model, in this order; remarks of its mesh follow, if there are any. A hull tree is stored without its pieces, which are there
 /// already. A change to any of these types, or to their order, needs another version of the format.
 type Stored = (
     Pieces,
@@ -42,36 +42,8 @@ impl Model {
     /// [`StoreFault::Unwritable`] when the operating system refuses.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
-        let unwritable = StoreFault::Unwritable;
-        let saved = match fs::metadata(path) {
-            Ok(there) if !there.is_file() => {
-                let file = File::options().write(true).open(path);
-                file.map_err(unwritable).and_then(|file| self.store(file))
-            }
-            Ok(_) => {
-                // A file that must not be written must not be replaced either.
-                let writable = File::options().write(true).open(path);
-                let target = writable.and_then(|_| fs::canonicalize(path));
-                target
-                    .map_err(unwritable)
-                    .and_then(|target| self.replace(&target))
-            }
-            Err(_) => self.replace(path),
-        };
-        saved.map_err(|fault| fault.in_file(path))
-    }
-
-    /// Stores the model beside a file, and then in its place.
-    fn replace(&self, target: &Path) -> Result<(), StoreFault> {
-        let (part, file) = part_of(target).map_err(StoreFault::Unwritable)?;
-        let stored = self.store(file);
-        let stored =
-            stored.and_then(|()| fs::rename(&part, target).map_err(StoreFault::Unwritable));
-        if stored.is_err() {
-            // What stays behind does no harm.
-            let _ = fs::remove_file(&part);
-        }
-        stored
+        ccd_file::write(path, |out| self.store(out))
+            .map_err(|error| StoreFault::Unwritable(error).in_file(path))
     }
 
     /// Loads a model that [`Model::save`] stored.
@@ -94,7 +66,7 @@ impl Model {
     /// # Errors
     /// [`StoreFault::Unwritable`] when the writer fails.
     pub fn write(&self, writer: impl Write) -> Result<(), StoreError> {
-        Ok(self.store(writer)?)
+        Ok(self.store(writer).map_err(StoreFault::Unwritable)?)
     }
 
     /// Reads a model from any reader, to the end, with the guarantee of [`Model::load`].
@@ -105,7 +77,7 @@ impl Model {
         Ok(Model::unpack(reader)?)
     }
 
-    fn store(&self, writer: impl Write) -> Result<(), StoreFault> {
+    fn store(&self, writer: impl Write) -> io::Result<()> {
         let Model {
             pieces,
             hierarchy,
@@ -116,19 +88,27 @@ impl Model {
         } = self;
         let nodes = hull_tree.as_ref().map(HullTree::to_nodes);
         let stored = (pieces, hierarchy, volume, nodes, surface, report);
-        let unwritable = |error| StoreFault::Unwritable(io::Error::other(error));
-        let payload = postcard::to_allocvec(&stored).map_err(unwritable)?;
-        frame::write(writer, &payload).map_err(StoreFault::Unwritable)
+        let mut payload = postcard::to_allocvec(&stored).map_err(io::Error::other)?;
+        let remarks = &report.repairs.remarks;
+        if !remarks.is_empty() {
+            payload = postcard::to_extend(remarks, payload).map_err(io::Error::other)?;
+        }
+        frame::write(writer, &payload)
     }
 
     fn unpack(reader: impl Read) -> Result<Self, StoreFault> {
         let payload = frame::read(reader)?;
         let (stored, rest): (Stored, &[u8]) =
             postcard::take_from_bytes(&payload).map_err(|error| StoreFault::invalid(&error))?;
+        let (pieces, hierarchy, volume, nodes, surface, mut report) = stored;
         if !rest.is_empty() {
-            return Err(StoreFault::invalid(&"there is more than a body"));
+            let (remarks, rest): (Remarks, _) =
+                postcard::take_from_bytes(rest).map_err(|error| StoreFault::invalid(&error))?;
+            if remarks.is_empty() || !rest.is_empty() {
+                return Err(StoreFault::invalid(&"there is more than a body"));
+            }
+            report.repairs.remarks = remarks;
         }
-        let (pieces, hierarchy, volume, nodes, surface, report) = stored;
         let tree = |nodes: Vec<HullNode>| HullTree::new(&pieces, &nodes);
         let hull_tree = nodes.map(tree).transpose();
         let model = Model {
@@ -165,23 +145,6 @@ impl Model {
             return Err("the report counts another number of pieces");
         }
         Ok(())
-    }
-}
-
-/// Creates a file beside another, with a name that nothing has: threads and processes may save side by side.
-fn part_of(target: &Path) -> io::Result<(PathBuf, File)> {
-    static COUNT: AtomicU64 = AtomicU64::new(0);
-    let name = target.file_name().unwrap_or_default();
-    loop {
-        let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let mut part = name.to_owned();
-        part.push(format!(".{}-{count}.part", std::process::id()));
-        let part = target.with_file_name(part);
-        match File::create_new(&part) {
-            // Left behind by a process of the same number.
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            created => return Ok((part, created?)),
-        }
     }
 }
 

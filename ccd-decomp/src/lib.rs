@@ -5,7 +5,7 @@
 //! | read OBJ, STL, PLY, OFF, glTF or 3MF | [`TriangleMesh::read`], [`Format`] |
 //! | read the parts of a file, convert units | [`MeshFile`], [`Unit`] |
 //! | move, join and measure meshes | [`TriangleMesh::transformed`], [`TriangleMesh::merge`], [`TriangleMesh::bounding_box`] |
-//! | find the faults of a mesh | [`Repairs`], [`Topology`], [`MeshFault`] |
+//! | find the faults of a mesh, and what of a file was not read | [`Repairs`], [`Remarks`], [`Topology`], [`MeshFault`] |
 //! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
 //! | store a prepared body, and load it | [`prepare`](fn@prepare), [`Model::save`], [`Model::load`] |
@@ -98,6 +98,7 @@ pub use mesh::affine::AffineMap;
 pub use mesh::error::{MeshError, MeshFault};
 pub use mesh::format::Format;
 pub use mesh::mesh_file::{MeshFile, NamedMesh};
+pub use mesh::remark::{Remark, Remarks};
 pub use mesh::repair::Repairs;
 pub use mesh::unit::{Unit, UnknownUnit};
 pub use pieces::patches::{Decomposition, Order, Patch, decompose};

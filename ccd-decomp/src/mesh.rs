@@ -13,6 +13,7 @@ pub(crate) mod format;
 pub(crate) mod mesh_file;
 mod outline;
 mod polygons;
+pub(crate) mod remark;
 pub(crate) mod repair;
 pub(crate) mod unit;
 
@@ -96,7 +97,10 @@ impl TriangleMesh {
 
     fn from_polygons(mut polygons: Polygons) -> Result<Self, MeshFault> {
         polygons.check()?;
-        let mut repairs = Repairs::default();
+        let mut repairs = Repairs {
+            remarks: std::mem::take(&mut polygons.remarks),
+            ..Repairs::default()
+        };
         let triangles = polygons.triangulate(&mut repairs);
         repairs.note_unreferenced(polygons.vertices.len(), &polygons.corners);
         let face_count = polygons.ends.len() as u32;

@@ -273,9 +273,8 @@ pub(crate) const REPEATED: u64 = 1 << 20;
 /// byte …
 pub(crate) const REPEATED_PER_BYTE: u64 = 1 << 8;
 
-/// … and no more than this in any case: about five million triangles, which take 1.6 GB at most until they are a body
-/// (10 million took 3 GB).
-pub(crate) const REPEATED_AT_MOST: u64 = 1 << 24;
+/// … and no more than this in any case: about ten million triangles, which take 3 GB at most until they are a body.
+pub(crate) const REPEATED_AT_MOST: u64 = 1 << 25;
 
 /// The number of bytes to which the parts of a compressed file may unpack together, in addition to …
 ///

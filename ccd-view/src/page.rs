@@ -2,8 +2,10 @@
 
 use crate::{Group, Meshes};
 use serde::Serialize;
+use serde_json::Serializer;
+use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 /// The place of the views on a page.
 pub const HTML: &str = include_str!("page/view.html");
@@ -39,14 +41,17 @@ pub enum PageError {
 }
 
 impl Page<'_> {
-    /// Writes the page into a file.
+    /// Writes the page into a file. An older file of that name stays until the page is complete.
     ///
     /// # Errors
     /// [`PageError`].
     pub fn write(&self, path: &Path) -> Result<(), PageError> {
-        fs::write(path, self.html()?).map_err(|source| PageError::Write {
-            path: path.to_owned(),
-            source,
+        let html = self.html()?;
+        ccd_file::write(path, |out| out.write_all(html.as_bytes())).map_err(|source| {
+            PageError::Write {
+                path: path.to_owned(),
+                source,
+            }
         })
     }
 
@@ -108,15 +113,37 @@ pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Err
     json(&Data { meshes, groups })
 }
 
-/// Returns a value as JSON for an element `script`: nothing in it ends the element.
+/// Returns a value as JSON for an element `script`: nothing in it ends the element, and no text of it has characters
+/// that control a terminal or end a string, but for line ends and tabs.
 ///
 /// # Errors
 /// If it cannot be serialised.
 pub fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
-    Ok(serde_json::to_string(value)?.replace('<', "\\u003c"))
+    let mut text = Vec::new();
+    value.serialize(&mut Serializer::with_formatter(&mut text, Plain))?;
+    Ok(String::from_utf8_lossy(&text).replace('<', "\\u003c"))
 }
 
-/// Returns a text for an element or an attribute in double quotes.
+/// Writes JSON with the mark of a missing character in the place of control characters.
+struct Plain;
+
+impl Formatter for Plain {
+    fn write_char_escape<W: ?Sized + io::Write>(
+        &mut self,
+        writer: &mut W,
+        escape: CharEscape,
+    ) -> io::Result<()> {
+        match escape {
+            CharEscape::AsciiControl(_) | CharEscape::Backspace | CharEscape::FormFeed => {
+                writer.write_all(b"\\ufffd")
+            }
+            other => CompactFormatter.write_char_escape(writer, other),
+        }
+    }
+}
+
+/// Returns a text for an element or an attribute in double quotes, with the mark of a missing character in the place of
+/// control characters.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -125,6 +152,8 @@ pub fn escape(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
+            '\n' | '\t' => escaped.push(character),
+            control if control.is_control() => escaped.push(char::REPLACEMENT_CHARACTER),
             other => escaped.push(other),
         }
     }

@@ -6,10 +6,10 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use std::env;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::{env, fs};
 use wasm_bindgen_cli_support::Bindgen;
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -52,7 +52,8 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         ("checks", checks),
     ];
     let text = ccd_view::filled(include_str!("page/page.html"), &parts);
-    fs::write(out, text).with_context(|| format!("cannot write {}", out.display()))
+    ccd_file::write(out, |file| file.write_all(text.as_bytes()))
+        .with_context(|| format!("cannot write {}", out.display()))
 }
 
 /// Compresses the module, which halves the page.

@@ -67,7 +67,9 @@ impl Recording {
         let [a, b, motions] = ["a.ccd", "b.ccd", "motions.csv"].map(|name| folder.join(name));
         Model::of_body(&self.bodies[0])?.save(&a)?;
         Model::of_body(&self.bodies[1])?.save(&b)?;
-        fs::write(&motions, self.table()).map_err(failed(&motions))?;
+        let table = self.table();
+        ccd_file::write(&motions, |out| out.write_all(table.as_bytes()))
+            .map_err(failed(&motions))?;
         let Config {
             tolerance, margin, ..
         } = self.config;

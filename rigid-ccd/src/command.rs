@@ -11,6 +11,7 @@ mod files;
 mod man;
 mod meshes;
 mod numbers;
+mod output;
 mod pair;
 mod pieces;
 mod progress;
@@ -18,13 +19,17 @@ mod query;
 mod scene;
 mod scene_table;
 mod size;
+mod table;
 mod view;
 
 pub use bad_rows::BadRows;
-pub use files::{CannotWrite, Table, input_name, open_motions, refuse_overwriting, same_file};
+pub use files::{input_name, open_motions, refuse_overwriting, same_file};
+pub use output::CannotWrite;
 pub use progress::{Progress, Total};
 pub use size::Size;
+pub use table::Table;
 
+use crate::text::Printable;
 use audit::AuditArgs;
 use clap::{Parser, Subcommand};
 use completions::CompletionsArgs;
@@ -111,7 +116,9 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             failed => {
                 complain(&causes::message(&error));
-                ExitCode::from(if failed.is_some() { 1 } else { 2 })
+                // Another run has the output: this one was not to be started.
+                let busy = |f: &CannotWrite| f.source.kind() == io::ErrorKind::ResourceBusy;
+                ExitCode::from(if failed.is_none_or(busy) { 2 } else { 1 })
             }
         },
     }
@@ -119,8 +126,14 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
 
 /// Writes a message to standard error, after the program's name.
 pub fn complain(message: &str) {
+    tell(&format!("{}: {message}", program()));
+}
+
+/// Writes a line to standard error. Cells and names of files in it may hold anything: nothing of it moves the cursor,
+/// changes colours or ends the line.
+pub(crate) fn tell(line: &str) {
     // A message that cannot be written is not a failure.
-    let _ = writeln!(io::stderr(), "{}: {message}", program());
+    let _ = writeln!(io::stderr(), "{}", Printable(line));
 }
 
 /// Returns the name of this program, without folder and extension.

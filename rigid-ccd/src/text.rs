@@ -17,9 +17,46 @@ impl fmt::Display for Number {
     }
 }
 
+/// A text displayed on one line of a terminal: characters that control one are escaped.
+#[cfg(feature = "command")]
+pub(crate) struct Printable<'a>(pub(crate) &'a str);
+
+#[cfg(feature = "command")]
+impl fmt::Display for Printable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use fmt::Write;
+        // Marks of direction turn what follows them round.
+        let turns = |c| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        for c in self.0.chars() {
+            match c.is_control() || turns(c) {
+                true => write!(f, "{}", c.escape_default())?,
+                false => f.write_char(c)?,
+            }
+        }
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Number;
+
+    #[cfg(feature = "command")]
+    #[test]
+    fn nothing_controls_a_terminal() {
+        use super::Printable;
+        for (text, expected) in [
+            ("café 部品 −1", "café 部品 −1"),
+            ("\u{1b}[31mred\u{7}", "\\u{1b}[31mred\\u{7}"),
+            ("over\rwritten\n\tline", "over\\rwritten\\n\\tline"),
+            (
+                "\u{9b}2J\u{0}\u{7f}\u{202e}txt.exe",
+                "\\u{9b}2J\\u{0}\\u{7f}\\u{202e}txt.exe",
+            ),
+        ] {
+            assert_eq!(Printable(text).to_string(), expected);
+        }
+    }
 
     #[test]
     fn numbers_are_short() {

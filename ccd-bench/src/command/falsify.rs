@@ -84,6 +84,9 @@ pub(super) fn run(args: &FalsifyArgs) -> Result<Exit> {
         })
         .collect();
     fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
+    // No other search writes to the folder meanwhile.
+    let claim = ccd_file::Claim::new(args.out.join("gallery.md"));
+    let _claim = claim.with_context(|| args.out.display().to_string())?;
     let progress = Progress::new(Total::Steps(args.tries.get() * hunts.len()));
     let programs = Programs {
         script: args.peers.clone(),

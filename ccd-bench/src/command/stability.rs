@@ -13,7 +13,6 @@ use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::{CannotWrite, Exit};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Find where each method fails: families of scenes that get harder step by step
@@ -134,7 +133,8 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     for (name, text) in files {
         let file = args.out.join(name);
         let place = file.display().to_string();
-        fs::write(&file, text).map_err(|source| CannotWrite { place, source })?;
+        let written = ccd_file::write(&file, |out| out.write_all(text.as_bytes()));
+        written.map_err(|source| CannotWrite { place, source })?;
     }
     write_atlas(&findings, &args.options(), &args.out.join("index.html"))?;
     print_summary(&summary(&findings))?;

@@ -7,15 +7,16 @@ use crate::method::Method;
 use crate::method::guarded::Asked;
 use crate::method::solver::Claim;
 use crate::run::contest::Verdict;
+use crate::run::joined::write_inputs;
 use crate::show::atlas::{Atlas, Detail, StepLine};
 use crate::show::chart::{HeatCell, HeatKind, HeatMap, HeatRow};
 use crate::show::tables::TextTable;
 use crate::show::view::{Shot, View};
 use crate::truth::Truth;
 use anyhow::{Context, Result};
-use ccd_decomp::{TriangleMesh, write_obj};
-use rigid_ccd::table::motions::{self, Query};
-use std::fs::{self, File};
+use ccd_decomp::TriangleMesh;
+use rigid_ccd::table::motions::Query;
+use std::fs;
 use std::path::Path;
 
 const PREFACE: &str = "\
@@ -43,7 +44,8 @@ pub fn write_gallery(reports: &[Report], folder: &Path, script: Option<&Path>) -
         );
     }
     let file = folder.join("gallery.md");
-    fs::write(&file, text).with_context(|| file.display().to_string())?;
+    ccd_file::write(&file, |out| out.write_all(text.as_bytes()))
+        .with_context(|| file.display().to_string())?;
     write_page(reports, &scenes, &folder.join("index.html"))
 }
 
@@ -113,11 +115,8 @@ impl Exhibit {
         let directory = folder.join(&self.name);
         let failed = || directory.display().to_string();
         fs::create_dir_all(&directory).with_context(failed)?;
-        let file = |name: &str| File::create(directory.join(name)).with_context(failed);
-        let [a, b] = &self.meshes;
-        write_obj(a, file("a.obj")?).with_context(failed)?;
-        write_obj(b, file("b.obj")?).with_context(failed)?;
-        motions::write(file("motions.csv")?, std::slice::from_ref(&self.query)).with_context(failed)
+        let queries = std::slice::from_ref(&self.query);
+        write_inputs(&directory, self.meshes.each_ref(), queries).with_context(failed)
     }
 
     fn view(&self) -> View<'_> {

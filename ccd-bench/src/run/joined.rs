@@ -7,12 +7,11 @@ use crate::run::evaluation::Evaluated;
 use crate::run::measured::{Trial, read};
 use crate::scene::{Listing, Models, Scene};
 use anyhow::{Context, Result, bail, ensure};
-use ccd_decomp::write_obj;
-use rigid_ccd::table::motions;
+use ccd_decomp::{TriangleMesh, write_obj};
+use rigid_ccd::table::motions::{self, Query};
 use serde::Deserialize;
-use std::fs::{self, File};
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// A trial measured elsewhere.
 #[derive(Clone, Debug, Deserialize)]
@@ -46,16 +45,27 @@ pub fn export(listings: &[Listing], models: Option<PathBuf>, folder: &Path) -> R
         let scene = listing.make(&mut models)?;
         let directory = folder.join(&scene.name);
         fs::create_dir_all(&directory).with_context(|| directory.display().to_string())?;
-        let file = |name: &str| {
-            let path = directory.join(name);
-            let file = File::create(&path).with_context(|| path.display().to_string());
-            file.map(BufWriter::new)
-        };
-        write_obj(scene.a.mesh(), file("a.obj")?)?;
-        write_obj(scene.b.mesh(), file("b.obj")?)?;
-        motions::write(file("motions.csv")?, &scene.queries)?;
+        let meshes = [scene.a.mesh(), scene.b.mesh()];
+        write_inputs(&directory, meshes, &scene.queries)
+            .with_context(|| directory.display().to_string())?;
     }
     Ok(())
+}
+
+/// Writes two meshes and their motions into a folder: `a.obj`, `b.obj`, `motions.csv`.
+///
+/// # Errors
+/// A file cannot be written.
+pub(crate) fn write_inputs(
+    folder: &Path,
+    meshes: [&TriangleMesh; 2],
+    queries: &[Query],
+) -> io::Result<()> {
+    for (mesh, name) in meshes.into_iter().zip(["a.obj", "b.obj"]) {
+        ccd_file::write(folder.join(name), |out| write_obj(mesh, out))?;
+    }
+    let write = |out: &mut dyn io::Write| motions::write(out, queries).map_err(io::Error::other);
+    ccd_file::write(folder.join("motions.csv"), write)
 }
 
 /// Reads a table of trials measured elsewhere.

@@ -100,12 +100,13 @@ impl Cell {
 /// # Errors
 /// If the file cannot be written.
 pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_path(path)?;
-    for row in rows {
-        writer.serialize(row)?;
-    }
-    writer.flush()?;
-    Ok(())
+    Ok(ccd_file::write(path, |out| {
+        let mut writer = csv::Writer::from_writer(out);
+        for row in rows {
+            writer.serialize(row)?;
+        }
+        writer.flush()
+    })?)
 }
 
 /// Reads a table with a header.

@@ -32,8 +32,8 @@ pub use heat_map::{HeatCell, HeatKind, HeatMap, HeatRow};
 use crate::run::measured::{Cell, Trial};
 use look::{Fill, Look};
 use plotters::style::Color;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 /// The paper's tolerance `[FAST06 §6.2]`, at which charts of one tolerance are drawn.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
@@ -143,7 +143,7 @@ impl Charts<'_> {
             .iter()
             .map(|drawing| {
                 let path = directory.join(format!("{}.svg", drawing.name));
-                match fs::write(&path, &drawing.svg) {
+                match ccd_file::write(&path, |out| out.write_all(drawing.svg.as_bytes())) {
                     Ok(()) => Ok(path),
                     Err(source) => Err(ChartError::Write { path, source }),
                 }

@@ -2,8 +2,8 @@
 
 use super::chart::ChartError;
 use plotly::Plot;
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 pub(super) use ccd_view::{escape, filled, json};
 
@@ -35,7 +35,7 @@ pub enum PageError {
 /// # Errors
 /// [`PageError::Write`].
 pub(super) fn write(path: &Path, html: &str) -> Result<(), PageError> {
-    fs::write(path, html).map_err(|source| PageError::Write {
+    ccd_file::write(path, |out| out.write_all(html.as_bytes())).map_err(|source| PageError::Write {
         path: path.to_owned(),
         source,
     })

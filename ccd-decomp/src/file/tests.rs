@@ -317,3 +317,23 @@ fn links_are_followed_and_devices_stay_what_they_are() {
     assert!(body.save(&folder).is_err(), "a folder");
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// Remarks of a mesh are stored behind the rest, where older files have nothing.
+#[test]
+fn remarks_are_stored() {
+    let plain = model(TETRAHEDRON, Detail::Triangles);
+    let text = [TETRAHEDRON, "l 1 2\nvc 1\n"].concat();
+    let remarked = model(&text, Detail::Triangles);
+    let again = Model::read(&stored(&remarked)[..]).unwrap();
+    assert_eq!(again.report, remarked.report);
+    assert_eq!(again.report.repairs.remarks.iter().count(), 2);
+    assert!(
+        again
+            .report
+            .to_string()
+            .contains("lines passed over: 1 (line 9)"),
+        "{}",
+        again.report
+    );
+    assert!(stored(&remarked).len() > stored(&plain).len());
+}

@@ -6,6 +6,7 @@ pub(crate) mod groups;
 
 use super::error::MeshFault;
 use super::polygons::Polygons;
+use super::remark::Remarks;
 use super::unit::{Conversion, Unit};
 use assembly::Assembly;
 use groups::Groups;
@@ -16,6 +17,8 @@ pub(crate) struct Content {
     /// The unit of the coordinates, if the file or its format says so.
     pub(crate) unit: Option<Unit>,
     pub(crate) layout: Layout,
+    /// What else is in the file.
+    pub(crate) remarks: Remarks,
 }
 
 /// The ways in which a file holds its faces.
@@ -46,36 +49,43 @@ impl Content {
 
     /// The faces of one part, with its own numbers of vertices and faces.
     pub(crate) fn part(&self, part: usize, conversion: Conversion) -> Result<Polygons, MeshFault> {
-        match &self.layout {
-            Layout::List(polygons, groups) => {
-                Ok(converted(groups.part(polygons, part)?, conversion))
-            }
-            Layout::Assembly(assembly) => assembly.expanded(part..part + 1, conversion),
-        }
+        let faces = match &self.layout {
+            Layout::List(polygons, groups) => converted(groups.part(polygons, part)?, conversion),
+            Layout::Assembly(assembly) => assembly.expanded(part..part + 1, conversion)?,
+        };
+        Ok(self.remarked(faces))
     }
 
     /// The faces of each part, in this way.
     pub(crate) fn all_parts(&self, conversion: Conversion) -> Result<Vec<Polygons>, MeshFault> {
-        match &self.layout {
+        let parts: Vec<Polygons> = match &self.layout {
             Layout::List(polygons, groups) => {
                 let parts = groups.all(polygons)?.into_iter();
-                Ok(parts.map(|part| converted(part, conversion)).collect())
+                parts.map(|part| converted(part, conversion)).collect()
             }
             Layout::Assembly(assembly) => {
                 let parts = 0..assembly.parts.len();
                 assembly.check_size(parts.clone())?;
                 let alone = parts.map(|part| assembly.expanded(part..part + 1, conversion));
-                alone.collect()
+                alone.collect::<Result<_, _>>()?
             }
-        }
+        };
+        Ok(parts.into_iter().map(|part| self.remarked(part)).collect())
     }
 
     /// All faces: those of a list with their numbers in the file, those of parts one part after the other.
     pub(crate) fn whole(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
-        match self.layout {
-            Layout::List(polygons, _) => Ok(converted(polygons, conversion)),
-            Layout::Assembly(assembly) => assembly.expanded(0..assembly.parts.len(), conversion),
-        }
+        let mut faces = match self.layout {
+            Layout::List(polygons, _) => converted(polygons, conversion),
+            Layout::Assembly(assembly) => assembly.expanded(0..assembly.parts.len(), conversion)?,
+        };
+        faces.remarks = self.remarks;
+        Ok(faces)
+    }
+
+    fn remarked(&self, faces: Polygons) -> Polygons {
+        let remarks = self.remarks.clone();
+        Polygons { remarks, ..faces }
     }
 }
 
@@ -90,9 +100,10 @@ fn converted(mut polygons: Polygons, conversion: Conversion) -> Polygons {
 
 /// A file of one list without groups.
 impl From<Polygons> for Content {
-    fn from(polygons: Polygons) -> Self {
+    fn from(mut polygons: Polygons) -> Self {
         Content {
             unit: None,
+            remarks: std::mem::take(&mut polygons.remarks),
             layout: Layout::List(polygons, Groups::one()),
         }
     }

@@ -82,7 +82,7 @@ pub enum MeshFault {
     },
     /// Instances multiply a few bytes to more than is taken.
     #[error(
-        "repeats the same vertices and faces too often for its size, by instances or by naming them again; choose one of its parts, or split it"
+        "repeats the same vertices and faces too often for its size, by instances or by naming them again: more than about {} triangles come of it; choose one of its parts, or split it", .limit / 3
     )]
     Repeats {
         /// The most that a file of this size may make, in corners of faces.

@@ -6,6 +6,7 @@ mod obj;
 mod off;
 mod ply;
 mod stl;
+mod text;
 #[cfg(feature = "3mf")]
 mod threemf;
 
@@ -15,19 +16,22 @@ use crate::messages::is_lfs_pointer;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// A format that a mesh can be read from.
+/// A format that a mesh can be read from. Texts are in UTF-8, or in UTF-16 with a byte order mark; their lines may end as
+/// those of any system. [`Remarks`](crate::Remarks) say what of a file was passed over that is no mere decoration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// Wavefront OBJ: statements `v` and `f`, in f64. A fourth number of a vertex divides the others. Lines,
-    /// points, curves, normals, texture coordinates, colours and materials are passed over.
+    /// Wavefront OBJ: statements `v` and `f`, in f64. Normals, texture coordinates, colours and materials are passed over;
+    /// lines, points, curves and unknown statements, too, with a remark. A fourth number of a vertex divides the others,
+    /// with a remark unless it is 1. Free-form surfaces and calls of other files are errors.
     ///
     /// Its parts are its objects (`o`) or, in a file without any, its groups (`g`).
     Obj,
     /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in
     /// the order they appear; the normals are passed over.
     Stl,
-    /// PLY, binary or text: elements `vertex` and `face`; others are passed over.
+    /// PLY, binary or text: elements `vertex`, `face` and `tristrips`, strips of triangles, which −1 separates; others
+    /// are passed over with a remark.
     Ply,
     /// Object File Format, text, with or without normals and colours, which are passed over.
     Off,
@@ -38,10 +42,10 @@ pub enum Format {
     ///
     /// Its parts are the nodes of its scene that have a mesh: of the scene that is shown first or, in a file without
     /// scenes, of all nodes. A node without a name has that of its mesh. Every primitive of triangles, strips
-    /// or fans is read, with or without indices, from floats, quantized integers or sparse accessors. Points, lines,
-    /// materials, skins, morph targets and animations are passed over: a mesh is as it is at rest, without
-    /// its skin. So is a node that is scaled to zero along all three axes, with all below it, as the
-    /// specification hides them so. Compression by Draco or meshopt, and any extension that the file requires and
+    /// or fans is read, with or without indices, from floats, quantized integers or sparse accessors. Materials and
+    /// animations are passed over; points, lines, skins and morph targets, too, with a remark: a mesh is as it is at rest,
+    /// without its skin. So is a node that is scaled to zero along all three axes, with all below it, as the
+    /// specification hides them so. Instances make about ten million triangles at most. Compression by Draco or meshopt, and any extension that the file requires and
     /// that changes the shape, is an error.
     Gltf,
     /// 3MF, in the unit that it states; with the feature `3mf`. Numbers and maps are as in a glTF.
@@ -100,18 +104,17 @@ impl Format {
 
     /// Reads a file's content. All that it refers to is in `beside`.
     pub(crate) fn parse(self, bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
-        // Some editors put a byte order mark before a text; the first keyword would be lost in it.
-        let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-        if is_lfs_pointer(unmarked) {
+        let unmarked = text::decoded(bytes);
+        if is_lfs_pointer(&unmarked) {
             return Err(MeshFault::LfsPointer);
         }
         match self {
-            Format::Obj => obj::parse(unmarked),
+            Format::Obj => obj::parse(&text::plain(bytes)),
             Format::Stl => stl::parse(bytes).map(Content::from),
-            Format::Ply => ply::parse(unmarked).map(Content::from),
-            Format::Off => off::parse(unmarked).map(Content::from),
+            Format::Ply => ply::parse(&unmarked).map(Content::from),
+            Format::Off => off::parse(&text::plain(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
-            Format::Gltf => gltf::parse(unmarked, beside),
+            Format::Gltf => gltf::parse(&unmarked, beside),
             #[cfg(not(feature = "gltf"))]
             Format::Gltf => Err(not_built(beside, "glTF", "gltf")),
             #[cfg(feature = "3mf")]

@@ -2,6 +2,7 @@
 
 use super::error::MeshFault;
 use super::outline;
+use super::remark::Remarks;
 use super::repair::Repairs;
 use crate::exact::predicates::is_without_area;
 use ccd_core::glam::DVec3;
@@ -18,6 +19,7 @@ pub(crate) struct Polygons {
     /// The lines of the vertices and of the faces, from 1; empty where the format has none.
     pub(crate) vertex_lines: Vec<usize>,
     pub(crate) face_lines: Vec<usize>,
+    pub(crate) remarks: Remarks,
 }
 
 impl Polygons {

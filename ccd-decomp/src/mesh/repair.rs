@@ -1,5 +1,6 @@
 //! Repairs of a mesh: the report of them, and the faces that are dropped.
 
+use super::remark::Remarks;
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -27,6 +28,10 @@ pub struct Repairs {
     pub zero_area: Tally<u32>,
     /// Vertices that no face uses.
     pub unreferenced: Tally<u32>,
+    /// What the file holds beside these vertices and faces.
+    // Stored bodies have it at their end, where older ones have nothing.
+    #[serde(skip)]
+    pub remarks: Remarks,
 }
 
 impl Repairs {
@@ -54,6 +59,7 @@ impl Repairs {
             collapsed,
             zero_area,
             unreferenced,
+            remarks,
         } = self;
         polygons.append(&other.polygons, face);
         overhanging.append(&other.overhanging, face);
@@ -61,6 +67,7 @@ impl Repairs {
         collapsed.append(&other.collapsed, face);
         zero_area.append(&other.zero_area, face);
         unreferenced.append(&other.unreferenced, vertex);
+        remarks.append(&other.remarks);
     }
 
     pub(crate) fn note_unreferenced(&mut self, vertices: usize, corners: &[i64]) {
@@ -92,10 +99,11 @@ impl fmt::Display for Repairs {
             write!(f, "{separator}{what}: {tally}")?;
             separator = "; ";
         }
-        if separator.is_empty() {
-            write!(f, "no repairs")?;
+        match (separator, self.remarks.is_empty()) {
+            ("", true) => write!(f, "no repairs"),
+            (_, true) => Ok(()),
+            _ => write!(f, "{separator}{}", self.remarks),
         }
-        Ok(())
     }
 }
 

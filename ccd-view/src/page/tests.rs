@@ -75,3 +75,25 @@ fn a_place_that_cannot_be_written_is_named() {
         .unwrap_err();
     assert!(error.to_string().contains("no/such/folder"), "{error}");
 }
+
+#[test]
+fn no_control_character_reaches_a_page() {
+    let html = page("a\0b\u{1b}[31m\u{9b}c").html().unwrap();
+    assert!(html.contains("a\u{fffd}b\u{fffd}[31m\u{fffd}c"));
+    let data = json(&"a\0b\u{1b}[31m\u{8}\\u0000 \"<\n").unwrap();
+    assert_eq!(data, r#""a\ufffdb\ufffd[31m\ufffd\\u0000 \"\u003c\n""#);
+    let control = |c: char| c.is_control() && !"\n\r\t".contains(c);
+    assert!(!html.chars().any(control) && !data.chars().any(control));
+}
+
+#[test]
+fn a_page_that_fails_leaves_the_older_one() {
+    let folder = std::env::temp_dir().join(format!("ccd-view-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("page.html");
+    page("one").write(&file).unwrap();
+    page("two").write(&file).unwrap();
+    assert!(std::fs::read_to_string(&file).unwrap().contains("two"));
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
+    std::fs::remove_dir_all(&folder).unwrap();
+}

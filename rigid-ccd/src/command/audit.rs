@@ -1,12 +1,12 @@
 //! `ccd audit`: certifies motions that another checker has called free, and lists those that are not.
 
 use super::bad_rows::BadRows;
-use super::files::{
-    CannotWrite, Rows, Table, check_folder, input_name, open_courses, refuse_overwriting,
-};
+use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::numbers::{not_negative, seconds, tolerance};
+use super::output::{CannotWrite, Output};
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::progress::{Progress, Total};
+use super::table::Table;
 use super::view::{answered, title};
 use super::{Exit, complain};
 use crate::ParallelSolver;
@@ -18,6 +18,7 @@ use crate::table::results::{self, Extent, ResultRow, Status};
 use anyhow::{Context, Result};
 use ccd_core::Config;
 use ccd_core::limits::DEFAULT_BUDGET;
+use ccd_file::check_folder;
 use clap::Args;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -89,6 +90,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let (mut rows, length) = open_courses(&args.motions, Question::FirstContact.grouping())?;
+    let out = Output::claim_table(&args.out)?;
     let pair = Pair::load(Loading {
         bodies: &args.bodies,
         method: SolverKind::default(),
@@ -106,7 +108,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
         batch: BatchSize::new(solver.threads()),
         settings,
         solver,
-        out: Table::create(&args.out, &columns)?,
+        out: Table::start(out, &columns)?,
         pages: pages(args, &pair)?,
         counts: [0; Status::ALL.len()],
         bad_rows: BadRows::new(input_name(&args.motions)),
@@ -132,7 +134,10 @@ fn settings(args: &AuditArgs) -> Settings {
     }
 }
 
-fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Pages<'a>>, CannotWrite> {
+/// Pages in a folder that no other run writes to meanwhile.
+type Folder<'a> = (Pages<'a>, ccd_file::Claim);
+
+fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, CannotWrite> {
     let Some(folder) = &args.pages else {
         return Ok(None);
     };
@@ -142,12 +147,14 @@ fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Pages<'a>>, Cann
         clearance: None,
     };
     // Of several missing folders, only the last is created.
-    let pages = check_folder(folder)
-        .and_then(|()| Pages::create(pair.bodies(), asked, title(&args.bodies), folder));
-    pages.map(Some).map_err(|source| CannotWrite {
-        place: folder.display().to_string(),
-        source,
-    })
+    let create = || {
+        check_folder(folder)?;
+        let pages = Pages::create(pair.bodies(), asked, title(&args.bodies), folder)?;
+        Ok((pages, ccd_file::Claim::new(folder.join(".pages"))?))
+    };
+    create()
+        .map(Some)
+        .map_err(|source| CannotWrite::at(folder, source))
 }
 
 struct Audit<'a> {
@@ -157,7 +164,7 @@ struct Audit<'a> {
     solver: ParallelSolver<Box<dyn Solve>>,
     batch: BatchSize,
     out: Table,
-    pages: Option<Pages<'a>>,
+    pages: Option<Folder<'a>>,
     /// The number of rows of each status, in the order of [`Status::ALL`].
     counts: [usize; Status::ALL.len()],
     bad_rows: BadRows,
@@ -207,7 +214,7 @@ impl Audit<'_> {
             self.bad_rows.report(position, reason, &self.progress);
         }
         let page = match (&mut self.pages, row) {
-            (Some(pages), Ok((_, course)))
+            (Some((pages, _)), Ok((_, course)))
                 if answer.status != Status::Error && pages.len() < self.args.most_pages =>
             {
                 page(pages.write(course, answer))?
@@ -239,9 +246,9 @@ impl Audit<'_> {
             complain(&format!(
                 "{free} of {rows} rows are free: that is proven{others}"
             ));
-            if let Some(pages) = self
+            if let Some((pages, _)) = self
                 .pages
-                .filter(|pages| pages.len() == self.args.most_pages)
+                .filter(|(pages, _)| pages.len() == self.args.most_pages)
             {
                 complain(&format!(
                     "wrote {} pages, and no more: see --most-pages",

@@ -40,7 +40,7 @@ fn without_numbers(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::command::files::CannotWrite;
+    use crate::command::output::CannotWrite;
     use anyhow::{Context, anyhow};
     use std::io;
 

@@ -1,7 +1,7 @@
 //! `ccd completions`: completion scripts for shells.
 
 use super::{Cli, Exit};
-use crate::command::files::CannotWrite;
+use crate::command::output::CannotWrite;
 use anyhow::Result;
 use clap::{Args, CommandFactory};
 use clap_complete::{Shell, generate};

@@ -3,9 +3,9 @@
 mod statistics;
 
 use super::Exit;
-use super::files::check_folder;
-use super::files::{CannotWrite, same_file};
+use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
+use super::output::{CannotWrite, Output};
 use super::pieces::PiecesArgs;
 use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
@@ -17,7 +17,6 @@ use ccd_decomp::{
 use clap::{Args, ValueEnum};
 use statistics::Statistics;
 use std::ffi::OsString;
-use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -114,19 +113,21 @@ enum FormatArg {
     Json,
 }
 
-/// The content of an output file.
-enum Output<'a> {
-    Pieces(&'a Path),
-    Body(&'a Path),
+/// The form of an output file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    Pieces,
+    Body,
 }
 
 /// Prepares the mesh, writes the output file if any, and prints the statistics.
 pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
-    let out = args.out.as_deref().map(Output::of).transpose()?;
     let mut source = MeshSource::try_from(args.mesh.clone())?;
     source.adjustments = source.adjustments.and(&args.meshes.adjustments())?;
-    check_paths(&source.file, out.as_ref())?;
+    check_mesh(&source.file)?;
     let detail = source.detail(args.detail()?);
+    let out = args.out.as_deref().map(|out| claim(out, &source.file));
+    let out = out.transpose()?;
     let (mesh, unit) = source.read()?;
     let spinner = match args.quiet {
         true => Progress::hidden(),
@@ -137,8 +138,8 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let (model, body) = args.build(&mesh, detail).with_context(|| name.clone())?;
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
     drop(spinner);
-    if let Some(out) = out {
-        out.write(&model)?;
+    if let Some((form, out)) = out {
+        form.write(&model, out)?;
     }
     let statistics = Statistics::new((name, unit), &model, &body, build_ms);
     let printed = match args.format {
@@ -152,14 +153,14 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Checks the paths before the work, which may take long.
-fn check_paths(mesh: &Path, out: Option<&Output<'_>>) -> Result<()> {
-    if let Some(out) = out {
-        check_folder(out.path()).map_err(|source| out.failed(source))?;
-        if same_file(mesh, out.path()) {
-            bail!("--out would overwrite the mesh; give --out another file");
-        }
-    }
+/// Claims the output before the work, which may take long.
+fn claim(out: &Path, mesh: &Path) -> Result<(Form, Output)> {
+    let form = Form::of(out)?;
+    refuse_overwriting(("the mesh", mesh), ("--out", out))?;
+    Ok((form, Output::claim(out)?))
+}
+
+fn check_mesh(mesh: &Path) -> Result<()> {
     if mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
         bail!(
             "{}: is already a prepared body; give the mesh it was made from",
@@ -198,12 +199,12 @@ fn print_json(statistics: &Statistics) -> io::Result<()> {
     writeln!(io::stdout(), "{text}")
 }
 
-impl<'a> Output<'a> {
-    fn of(path: &'a Path) -> Result<Self> {
+impl Form {
+    fn of(path: &Path) -> Result<Self> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
-            Some("obj") => Ok(Output::Pieces(path)),
-            Some(STORED_EXTENSION) => Ok(Output::Body(path)),
+            Some("obj") => Ok(Form::Pieces),
+            Some(STORED_EXTENSION) => Ok(Form::Body),
             _ => bail!(
                 "--out {}: use the extension .obj for the pieces, or .{STORED_EXTENSION} for the \
                  prepared body",
@@ -212,27 +213,14 @@ impl<'a> Output<'a> {
         }
     }
 
-    fn write(&self, model: &Model) -> Result<(), CannotWrite> {
-        let written = File::create(self.path()).and_then(|file| match self {
-            Output::Pieces(_) => write_obj_pieces(&model.pieces, file),
-            Output::Body(_) => model.write(file).map_err(|error| match error.fault {
+    fn write(self, model: &Model, out: Output) -> Result<(), CannotWrite> {
+        out.write(|writer| match self {
+            Form::Pieces => write_obj_pieces(&model.pieces, writer),
+            Form::Body => model.write(writer).map_err(|error| match error.fault {
                 StoreFault::Unwritable(error) => error,
                 fault => io::Error::other(fault),
             }),
-        });
-        written.map_err(|source| self.failed(source))
-    }
-
-    fn path(&self) -> &'a Path {
-        let (Output::Pieces(path) | Output::Body(path)) = *self;
-        path
-    }
-
-    fn failed(&self, source: io::Error) -> CannotWrite {
-        CannotWrite {
-            place: self.path().display().to_string(),
-            source,
-        }
+        })
     }
 }
 

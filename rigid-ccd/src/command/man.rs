@@ -1,10 +1,11 @@
 //! `ccd man`: man pages for the command and each subcommand.
 
 use super::{Cli, Exit};
-use crate::command::files::{CannotWrite, check_folder};
+use crate::command::output::CannotWrite;
 use anyhow::Result;
-use clap::{Args, CommandFactory};
-use std::path::PathBuf;
+use clap::{Args, Command, CommandFactory};
+use clap_mangen::Man;
+use std::path::{Path, PathBuf};
 
 /// Write man pages for the command and each subcommand to a folder
 #[derive(Debug, Args)]
@@ -21,12 +22,18 @@ Examples:
   ccd man . && man ./ccd-query.1";
 
 pub(super) fn run(args: &ManArgs) -> Result<Exit> {
-    let folder = &args.folder;
-    check_folder(&folder.join("ccd.1"))
-        .and_then(|()| clap_mangen::generate_to(Cli::command(), folder))
-        .map_err(|source| CannotWrite {
-            place: "man pages".to_owned(),
-            source,
-        })?;
+    let mut command = Cli::command().disable_help_subcommand(true);
+    command.build();
+    write(command, &args.folder)?;
     Ok(Exit::AllAnswered)
+}
+
+/// Writes the pages of a command and of all below it.
+fn write(command: Command, folder: &Path) -> Result<(), CannotWrite> {
+    for below in command.get_subcommands().filter(|c| !c.is_hide_set()) {
+        write(below.clone(), folder)?;
+    }
+    let page = Man::new(command);
+    let path = folder.join(page.get_filename());
+    ccd_file::write(&path, |out| page.render(out)).map_err(|error| CannotWrite::at(&path, error))
 }

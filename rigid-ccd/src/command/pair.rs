@@ -3,10 +3,10 @@
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
 use crate::batch::{Bodies, SolverKind};
-use crate::command::complain;
 use crate::command::files::same_file;
 use crate::command::progress::Progress;
 use crate::command::size::Size;
+use crate::command::{complain, tell};
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
@@ -120,10 +120,13 @@ fn load(
     }
     method.prepare(&body);
     drop(progress);
+    let remarks = &report.repairs.remarks;
     if !quiet {
         let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
         let unit = unit.unwrap_or_default();
-        let _ = writeln!(io::stderr(), "{option} {text}: {report}, size {size}{unit}");
+        tell(&format!("{option} {text}: {report}, size {size}{unit}"));
+    } else if !remarks.is_empty() {
+        complain(&format!("{option} {text}: {remarks}"));
     }
     Ok((body, unit))
 }

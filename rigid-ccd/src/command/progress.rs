@@ -1,6 +1,7 @@
 //! Progress on standard error, for work that takes a while.
 
 use super::program;
+use crate::text::Printable;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
 use std::sync::Arc;
@@ -129,7 +130,7 @@ impl Progress {
 
     /// Sets the message.
     pub fn say(&self, message: &str) {
-        self.bar.set_message(message.to_owned());
+        self.bar.set_message(Printable(message).to_string());
     }
 
     /// Hides the bar while something else is written to standard error.

@@ -12,9 +12,8 @@ mod summary;
 pub(super) use args::QueryArgs;
 
 use super::bad_rows::BadRows;
-use super::files::{
-    Rows, input_name, is_standard, open_courses, refuse_missing_folder, refuse_overwriting,
-};
+use super::files::{Rows, input_name, open_courses, refuse_overwriting};
+use super::output::{Output, is_standard_output};
 use super::view::{Chosen, Drawn, title, write_rows};
 use super::{Exit, complain};
 use crate::batch::{
@@ -27,7 +26,7 @@ use answering::Answering;
 use anyhow::{Result, bail};
 use ccd_core::{Config, StartPolicy};
 use journal::{CONTENT, Checkpoint, Recorded};
-use outputs::Opened;
+use outputs::{Opened, Places};
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use summary::Summary;
@@ -39,12 +38,14 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_question(args)?;
     let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
     check_rows(args, &rows)?;
+    let places = Places::claim(args)?;
+    let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = Pair::load(Loading {
         bodies: &args.bodies,
         method: method(args),
         quiet: args.quiet,
     })?;
-    let (mut outputs, earlier) = match Opened::new(args, &recorded(args, &pair))? {
+    let (mut outputs, earlier) = match Opened::new(args, places, &recorded(args, &pair))? {
         Opened::New(outputs) => (outputs, None),
         Opened::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
         Opened::Finished(end) => return resume::leave_finished(args, &mut rows, end),
@@ -83,7 +84,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     answering.outputs.finish(end)?;
     drop(answering.progress);
     answering.bad_rows.close();
-    let shown = write_page(args, &pair, answering.shown)?;
+    let shown = write_page(args, &pair, answering.shown.zip(html))?;
     if answering.summary.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
     }
@@ -97,8 +98,8 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
 }
 
 /// Writes the page of the rows that were chosen, if there is to be one.
-fn write_page(args: &QueryArgs, pair: &Pair, chosen: Option<Chosen>) -> Result<Exit> {
-    let (Some(chosen), Some(html)) = (chosen, &args.html) else {
+fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> Result<Exit> {
+    let Some((chosen, html)) = page else {
         return Ok(Exit::AllAnswered);
     };
     let subject = Drawn {
@@ -127,29 +128,24 @@ fn asked(args: &QueryArgs) -> Asked {
     }
 }
 
-/// Refuses an output that is also an input or the other output.
+/// Refuses an output that is also an input or another output.
 fn check_paths(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
     read.extend(args.bodies.files()?);
-    for (option, path) in &read {
-        refuse_overwriting((option, path), ("--out", &args.out))?;
-        if let Some(html) = &args.html {
-            refuse_overwriting((option, path), ("--html", html))?;
+    let mut written = vec![("--out", &args.out)];
+    written.extend(args.html.iter().map(|path| ("--html", path)));
+    written.extend(args.contacts.iter().map(|path| ("--contacts", path)));
+    for (k, &(option, target)) in written.iter().enumerate() {
+        for (read, source) in &read {
+            refuse_overwriting((read, source), (option, target))?;
         }
-        if let Some(contacts) = &args.contacts {
-            refuse_overwriting((option, path), ("--contacts", contacts))?;
+        for &(other, path) in &written[..k] {
+            if is_standard_output(path) && is_standard_output(target) {
+                bail!("{option} - and {other} - are both standard output; give one of them a file");
+            }
+            refuse_overwriting((other, path), (option, target))?;
+            refuse_overwriting((option, target), (other, path))?;
         }
-    }
-    if let Some(html) = &args.html {
-        refuse_overwriting(("--out", &args.out), ("--html", html))?;
-        refuse_missing_folder(html)?;
-    }
-    if let Some(contacts) = &args.contacts {
-        if is_standard(contacts) && is_standard(&args.out) {
-            bail!("--contacts - and --out - are both standard output; give one of them a file");
-        }
-        refuse_overwriting(("--out", &args.out), ("--contacts", contacts))?;
-        refuse_overwriting(("--contacts", contacts), ("--out", &args.out))?;
     }
     Ok(())
 }

@@ -1,10 +1,12 @@
 //! `ccd scene`: lists which bodies of a scene touch, in order of time.
 
-use super::files::{CannotWrite, Table, refuse_overwriting};
+use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::numbers::{not_negative, tolerance};
+use super::output::Output;
 use super::pieces::PiecesArgs;
 use super::scene_table::{self, SceneArgs};
+use super::table::Table;
 use super::{Exit, complain};
 use crate::picture::scene_verdict;
 use crate::table::results::Status;
@@ -118,6 +120,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     for (option, path) in table.files() {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
+    let out = Output::claim_table(&args.out)?;
     let config = Config {
         tolerance: args.tolerance,
         margin: args.margin,
@@ -129,7 +132,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         complain(&scene_verdict(&table.shown(), &contacts, args.duration));
     }
     let ids: Vec<&str> = table.ids().collect();
-    let mut out = Table::create(&args.out, &COLUMNS)?;
+    let mut out = Table::start(out, &COLUMNS)?;
     let mut exit = Exit::AllAnswered;
     for contact in &contacts {
         let row = Row::of(&ids, contact);
@@ -138,8 +141,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         }
         out.write(|writer| writer.serialize(row))?;
     }
-    let finished: Result<(), CannotWrite> = out.finish();
-    finished?;
+    out.finish()?;
     Ok(exit)
 }
 

@@ -2,6 +2,7 @@
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
+use super::tell;
 use crate::picture::Shown;
 use crate::table::motions::MotionTable;
 use crate::{Impact, PairError, Scene};
@@ -9,7 +10,6 @@ use anyhow::{Context, Result, bail};
 use ccd_core::{Body, Config, Motion};
 use ccd_decomp::BodySource;
 use std::collections::HashMap;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The column that names a body.
@@ -150,7 +150,7 @@ impl SceneTable {
     /// Prints what was found about each body.
     pub(super) fn report(&self) {
         for report in &self.reports {
-            let _ = writeln!(io::stderr(), "{report}");
+            tell(report);
         }
     }
 

@@ -7,9 +7,8 @@ use args::Subject;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::Chosen;
 
-use super::files::{
-    CannotWrite, input_name, open_courses, refuse_missing_folder, refuse_overwriting,
-};
+use super::files::{input_name, open_courses, refuse_overwriting};
+use super::output::Output;
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{Exit, complain};
@@ -19,7 +18,7 @@ use crate::table::courses::Course;
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Config, Instructions};
-use ccd_view::{Group, Page, PageError};
+use ccd_view::{Group, Page};
 use std::collections::{HashMap, VecDeque};
 use std::fs::File;
 use std::num::NonZeroUsize;
@@ -30,7 +29,6 @@ const LOOKED_AT: usize = 10_000;
 
 /// Writes the page.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
-    refuse_missing_folder(&args.out)?;
     match args.subject() {
         Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
         Some(Subject::Scene(path, how)) => {
@@ -49,6 +47,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let (rows, _) = open_courses(motions, Question::FirstContact.grouping())?;
+    let out = Output::claim(&args.out)?;
     let pair = Pair::load(Loading {
         bodies,
         method: SolverKind::default(),
@@ -101,7 +100,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         pair: &pair,
         asked,
     };
-    write_rows(subject, chosen, &args.out, args.quiet)
+    write_rows(subject, chosen, out, args.quiet)
 }
 
 /// What a page of rows is about.
@@ -143,7 +142,7 @@ pub(super) fn answered(
 pub(super) fn write_rows(
     Drawn { title, pair, asked }: Drawn<'_>,
     mut chosen: Chosen,
-    out: &Path,
+    out: Output,
     quiet: bool,
 ) -> Result<Exit> {
     let all_found = chosen.missing().next().is_none();
@@ -172,25 +171,14 @@ pub(super) fn write_rows(
     })
 }
 
-fn write_page(page: &Page<'_>, out: &Path, quiet: bool) -> Result<()> {
-    match page.write(out) {
-        Err(PageError::Write { path, source }) => Err(CannotWrite {
-            place: path.display().to_string(),
-            source,
-        }
-        .into()),
-        other => {
-            other?;
-            told(out, quiet);
-            Ok(())
-        }
+fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
+    let html = page.html()?;
+    let told = (!quiet && !out.is_stream()).then(|| out.name());
+    out.write(|writer| writer.write_all(html.as_bytes()))?;
+    if let Some(name) = told {
+        complain(&format!("open {name} in a browser"));
     }
-}
-
-fn told(out: &Path, quiet: bool) {
-    if !quiet {
-        complain(&format!("open {} in a browser", out.display()));
-    }
+    Ok(())
 }
 
 /// Reads a table of results, by id; rows of the same id stay in their order.
@@ -227,6 +215,7 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     for (option, path) in table.files() {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
+    let out = Output::claim(&args.out)?;
     let shown = table.shown();
     let contacts = table.contacts(settings(args).config, args.duration);
     let title = input_name(path);
@@ -242,5 +231,5 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
             views: vec![view],
         }],
     };
-    write_page(&page, &args.out, args.quiet)
+    write_page(&page, out, args.quiet)
 }

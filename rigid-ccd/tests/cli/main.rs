@@ -7,6 +7,7 @@ mod decompose;
 mod formats;
 mod manual;
 mod messages;
+mod outputs;
 mod questions;
 mod refusals;
 mod resume;

@@ -163,3 +163,47 @@ fn selected_rows_have_the_same_answers() {
     }
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }
+
+/// Cells and names of files come from anywhere: what they hold must not move the cursor of a terminal.
+#[test]
+fn nothing_in_a_file_controls_the_terminal() {
+    let scene = Scene::new("escapes");
+    let table = "id,a_px\n\"\u{1b}]0;owned\u{7}\",\u{1b}[2Jx\nb,\"1\n\rccd: all rows are free\"\n";
+    let motions = scene.file("\u{1b}[31mred.csv", table);
+    let mesh = [crate::TETRAHEDRON, "\u{1b}[5m 1\n"].concat();
+    let mesh = scene.file("part.obj", &mesh);
+    let output = Run::bare(&["query", "--b", "box:1,1,1"])
+        .args(&[
+            "--a",
+            mesh.to_str().unwrap(),
+            "--motions",
+            motions.to_str().unwrap(),
+        ])
+        .output();
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for escaped in ["\\u{1b}[31mred.csv", "\\u{1b}[2Jx", "\\u{1b}[5m"] {
+        assert!(message.contains(escaped), "{escaped}: {message}");
+    }
+    assert!(!message.contains("\nccd: all rows"), "{message}");
+    assert!(
+        message.chars().all(|c| c == '\n' || !c.is_control()),
+        "{message:?}"
+    );
+}
+
+#[test]
+fn what_is_not_read_is_told_to_quiet_users_too() {
+    let scene = Scene::new("unread");
+    let mesh = [crate::TETRAHEDRON, "l 1 2\n"].concat();
+    let mesh = scene.file("part.obj", &mesh);
+    let output = Run::query(&["--a", mesh.to_str().unwrap(), "--b", "box:1,1,1", "--quiet"])
+        .stdin("a_px\n9\n")
+        .output();
+    let message = stderr(&output);
+    assert!(
+        message.ends_with("part.obj: lines passed over: 1 (line 9)\n"),
+        "{message}"
+    );
+    assert_eq!(message.lines().count(), 1, "{message}");
+}

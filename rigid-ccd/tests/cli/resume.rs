@@ -16,7 +16,7 @@ const USUAL: [[&str; 2]; 5] = [
 ];
 const ROWS: usize = 20_000;
 
-fn motions() -> String {
+pub(crate) fn motions() -> String {
     let mut table = "id,a_px,a_pz,a_vz,a_wx\n".to_owned();
     for k in 0..ROWS {
         let bad = if k % 1000 == 7 { "x" } else { "" };
@@ -26,13 +26,13 @@ fn motions() -> String {
 }
 
 /// Creates an empty folder.
-fn fresh(name: &str) -> Scene {
+pub(crate) fn fresh(name: &str) -> Scene {
     let scene = Scene::new(name);
     fs::remove_dir_all(&scene.directory).unwrap();
     Scene::new(name)
 }
 
-fn query(scene: &Scene, options: &[&str]) -> Command {
+pub(crate) fn query(scene: &Scene, options: &[&str]) -> Command {
     let usual = USUAL.iter().filter(|[name, _]| !options.contains(name));
     let mut command = Command::new(crate::PROGRAM);
     command
@@ -46,14 +46,14 @@ fn query(scene: &Scene, options: &[&str]) -> Command {
     command
 }
 
-fn finished(mut command: Command, input: &str) -> Output {
+pub(crate) fn finished(mut command: Command, input: &str) -> Output {
     let mut child = command.spawn().unwrap();
     let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
     child.wait_with_output().unwrap()
 }
 
 /// Starts a run with a part of the table, and kills it after a few checkpoints.
-fn killed(scene: &Scene, options: &[&str], some: &str) {
+pub(crate) fn killed(scene: &Scene, options: &[&str], some: &str) {
     let marks = || {
         let journal = fs::read_to_string(path(scene, "results.csv.resume"));
         journal.unwrap_or_default().matches("\"rows\":").count()
@@ -71,11 +71,11 @@ fn killed(scene: &Scene, options: &[&str], some: &str) {
     child.wait().unwrap();
 }
 
-fn path(scene: &Scene, name: &str) -> PathBuf {
+pub(crate) fn path(scene: &Scene, name: &str) -> PathBuf {
     scene.directory.join(name)
 }
 
-fn read(path: &Path) -> String {
+pub(crate) fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 

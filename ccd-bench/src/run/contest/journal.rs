@@ -1,6 +1,7 @@
 //! Keeps measurements on disk, so that an interrupted evaluation resumes where it stopped.
 
 use crate::run::measured::{Cell, Trial, write};
+use ccd_file::Claim;
 use rigid_ccd::command::complain;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -15,6 +16,8 @@ pub struct Journal {
     trials: Vec<Trial>,
     done: HashSet<(String, String, u64)>,
     folder: PathBuf,
+    /// The folder, as long as no other process may write to it.
+    _claim: Option<Claim>,
 }
 
 /// A journal cannot be kept.
@@ -38,9 +41,11 @@ impl Journal {
     /// otherwise moves it aside together with the files named in `others`.
     ///
     /// # Errors
-    /// [`JournalError`] if the folder cannot be written to.
+    /// [`JournalError`] if the folder cannot be written to, or another process writes to it.
     pub fn open(folder: &Path, stamp: &str, others: &[&str]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|e| failed(folder)(e.into()))?;
+        let chart = folder.join(CHART);
+        let claim = Claim::new(chart.clone()).map_err(|e| failed(&chart)(e.into()))?;
         let stamp_file = folder.join(STAMP);
         if !fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp) {
             for name in [CHART, TRIALS].iter().chain(others) {
@@ -54,9 +59,13 @@ impl Journal {
                     ));
                 }
             }
-            fs::write(&stamp_file, stamp).map_err(|e| failed(&stamp_file)(e.into()))?;
+            ccd_file::write(&stamp_file, |out| out.write_all(stamp.as_bytes()))
+                .map_err(|e| failed(&stamp_file)(e.into()))?;
         }
-        let journal = Journal::read(folder);
+        let journal = Journal {
+            _claim: Some(claim),
+            ..Journal::read(folder)
+        };
         journal.write()?;
         Ok(journal)
     }
@@ -78,6 +87,7 @@ impl Journal {
             trials,
             done,
             folder: folder.to_owned(),
+            _claim: None,
         }
     }
 

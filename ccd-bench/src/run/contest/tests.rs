@@ -197,17 +197,23 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
     let trials = std::fs::read_to_string(folder.join("trials.csv")).unwrap();
     let cut = trials.trim_end().rfind('\n').unwrap();
     std::fs::write(folder.join("trials.csv"), &trials[..=cut]).unwrap();
+    // Two processes would mix their rows.
+    let second = Journal::open(&folder, "one", &[]).unwrap_err();
+    assert!(second.to_string().contains("another run"), "{second}");
+    drop(journal);
     let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     assert!(journal.has("santa", "C2A", 1e-3));
     assert!(!journal.has("santa", "CONTACT", 1e-3));
     assert_eq!((journal.cells().len(), journal.trials().len()), (1, 2));
     add(&mut journal, "CONTACT");
-    let again = Journal::open(&folder, "one", &[]).unwrap();
+    drop(journal);
+    let mut again = Journal::open(&folder, "one", &[]).unwrap();
     assert_eq!((again.cells().len(), again.trials().len()), (2, 4));
-    let mut again = again;
     again.forget("C2A").unwrap();
+    drop(again);
     let again = Journal::open(&folder, "one", &[]).unwrap();
     assert_eq!((again.cells().len(), again.trials().len()), (1, 2));
+    drop(again);
     let other = Journal::open(&folder, "other", &[]).unwrap();
     assert!(other.cells().is_empty());
     assert!(folder.join("chart.csv.old").exists());

@@ -7,7 +7,8 @@ use ccd_decomp::TriangleMesh;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::Progress;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::File;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// The known first contacts of all scenes, by scene, meshes and motions, and row.
@@ -44,11 +45,10 @@ impl Truths {
     /// # Errors
     /// If the file cannot be written.
     pub fn write(&self, file: &Path) -> Result<(), TruthsError> {
-        // Under another name first, since half a table would still be a valid table.
-        let part = file.with_extension("part");
-        let whole = File::create(&part).map_err(csv::Error::from)?;
-        write_truths(whole, self.known.values().cloned())?;
-        Ok(fs::rename(part, file).map_err(csv::Error::from)?)
+        let write = |out: &mut dyn Write| {
+            write_truths(out, self.known.values().cloned()).map_err(io::Error::other)
+        };
+        Ok(ccd_file::write(file, write).map_err(csv::Error::from)?)
     }
 
     /// Finds the unknown truths of some rows of a scene, on all processors. Returns their number.

@@ -13,7 +13,9 @@ use std::path::Path;
 pub fn splice(file: &Path, tables: &[TextTable]) -> Result<()> {
     let text = fs::read_to_string(file)?;
     let spliced = spliced(&text, tables)?;
-    Ok(fs::write(file, spliced)?)
+    Ok(ccd_file::write(file, |out| {
+        out.write_all(spliced.as_bytes())
+    })?)
 }
 
 fn spliced(text: &str, tables: &[TextTable]) -> Result<String> {

@@ -11,6 +11,7 @@ mod nodes;
 mod primitive;
 mod schema;
 mod transform;
+mod whole;
 
 use super::{Beside, Reference};
 use crate::mesh::content::allowance::Allowance;
@@ -37,7 +38,11 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault>
     let all_bytes = bytes.len() + beside.values().map(Vec::len).sum::<usize>();
     let allowance = Allowance::of(all_bytes as u64);
     let accessors = Accessors::new(&root, &buffers, allowance);
-    let Scene { objects, parts } = nodes::scene(&root, accessors)?;
+    let Scene {
+        objects,
+        parts,
+        remarks,
+    } = nodes::scene(&root, accessors)?;
     // A mesh has no members.
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
         MeshFault::syntax(None, format!("mesh {} holds itself", circle.object))
@@ -45,6 +50,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault>
     Ok(Content {
         unit: Some(Unit::Metre),
         layout: Layout::Assembly(assembly),
+        remarks,
     })
 }
 

@@ -4,7 +4,9 @@ use crate::mesh::content::groups::Groups;
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
+use crate::mesh::remark::Remarks;
 use ccd_core::glam::DVec3;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::io::{BufRead, Read};
@@ -18,7 +20,7 @@ use tobj::{LoadError, LoadOptions, Mesh};
 /// when it fails gives the line.
 pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
-    let statements = Statements::new(&text);
+    let statements = Statements::new(&text)?;
     let vertices = statements.vertex_lines.len();
     if vertices == 0 {
         return Err(MeshFault::NoVertices);
@@ -59,6 +61,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     Ok(Content {
         unit: None,
         layout: Layout::List(polygons, groups),
+        remarks: statements.remarks,
     })
 }
 
@@ -79,6 +82,7 @@ struct Statements {
     face_lines: Vec<usize>,
     objects: Labels,
     groups: Labels,
+    remarks: Remarks,
 }
 
 /// The names that one keyword gives to faces.
@@ -125,47 +129,51 @@ impl Labels {
 }
 
 impl Statements {
-    fn new(text: &str) -> Self {
+    fn new(text: &str) -> Result<Self, MeshFault> {
         let mut out = Statements::default();
         out.text.reserve(text.len());
         let mut lines = (1..).zip(text.lines());
+        // Whether the line before is one of numbers that goes on.
+        let mut goes_on = false;
         while let Some((number, whole)) = lines.next() {
-            let line = whole.split('#').next().unwrap_or_default().trim();
-            let start = out.text.len();
-            let lines_of_kind = match line.split_whitespace().next() {
-                Some("v") => {
-                    out.text.push_str(without_colour(line));
-                    &mut out.vertex_lines
+            let mut line = Cow::from(whole.split('#').next().unwrap_or_default().trim());
+            let continues = std::mem::replace(&mut goes_on, line.ends_with('\\'));
+            let keyword = line.split_whitespace().next().unwrap_or_default();
+            match keyword {
+                "v" | "f" => goes_on = false,
+                "o" => out.objects.set(name(whole)),
+                "g" => out.groups.set(name(whole)),
+                "" => {}
+                number if continues && number.parse::<f64>().is_ok() => {}
+                other => {
+                    let passed = pass_over(other, number, &mut out.remarks);
+                    passed.map_err(|fault| fault.at(format!("line {number}")))?;
                 }
-                Some("f") => {
-                    out.text.push_str(line);
-                    for labels in [&mut out.objects, &mut out.groups] {
-                        labels.of_face.push(labels.now);
-                    }
-                    &mut out.face_lines
-                }
-                Some("o") => {
-                    out.objects.set(name(whole));
-                    continue;
-                }
-                Some("g") => {
-                    out.groups.set(name(whole));
-                    continue;
-                }
-                _ => continue,
-            };
-            lines_of_kind.push(number);
+            }
+            let is_vertex = keyword == "v";
+            if !is_vertex && keyword != "f" {
+                continue;
+            }
             // A backslash at its end continues a line.
-            while out.text[start..].ends_with('\\') {
-                out.text.pop();
+            while line.ends_with('\\') {
                 let (_, next) = lines.next().unwrap_or_default();
                 let next = next.split('#').next().unwrap_or_default().trim();
-                out.text.push(' ');
-                out.text.push_str(next);
+                line.to_mut().pop();
+                line.to_mut().extend([" ", next]);
+            }
+            if is_vertex {
+                out.text.push_str(position(&line, number, &mut out.remarks));
+                out.vertex_lines.push(number);
+            } else {
+                out.text.push_str(&line);
+                out.face_lines.push(number);
+                for labels in [&mut out.objects, &mut out.groups] {
+                    labels.of_face.push(labels.now);
+                }
             }
             out.text.push('\n');
         }
-        out
+        Ok(out)
     }
 
     /// Translates the library's error, after it has read `read` bytes of the statements.
@@ -244,17 +252,88 @@ fn no_vertex_number(statement: &str) -> Option<&str> {
         .find(|corner| !matches!(number(corner), Some(Ok(_))))
 }
 
-/// Removes the three or more numbers that some programs put after the position of a vertex; a single number
-/// is a weight and stays.
-fn without_colour(line: &str) -> &str {
-    const KEYWORD_AND_POSITION: usize = 4;
-    if line.split_whitespace().count() < KEYWORD_AND_POSITION + 3 {
-        return line;
+/// Statements that change no shape: normals, texture coordinates, materials, settings of curves and of displays.
+const HARMLESS: [&str; 30] = [
+    "vn",
+    "vt",
+    "vp",
+    "s",
+    "mg",
+    "usemtl",
+    "mtllib",
+    "usemap",
+    "maplib",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+    "cstype",
+    "deg",
+    "bmat",
+    "step",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "curv2",
+    "sp",
+    "end",
+    "con",
+    "res",
+];
+
+/// Passes over a statement, and remarks upon it unless it is harmless.
+///
+/// # Errors
+/// It would have made faces.
+fn pass_over(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
+    let unsupported = |what: &str, instead| {
+        Err(MeshFault::Unsupported {
+            what: what.to_owned(),
+            instead,
+        })
+    };
+    match keyword {
+        "surf" | "bsp" | "bzp" | "cdp" => {
+            return unsupported("a free-form surface", "polygons");
+        }
+        "call" | "csh" => return unsupported("a call of another file", "one file"),
+        "l" => remarks.add("lines passed over", 1, Some(line)),
+        "p" => remarks.add("points passed over", 1, Some(line)),
+        "curv" | "cdc" => remarks.add("curves passed over", 1, Some(line)),
+        other if HARMLESS.contains(&other) => {}
+        other
+            if ["v", "f"]
+                .iter()
+                .any(|known| other.eq_ignore_ascii_case(known)) =>
+        {
+            let known = other.to_ascii_lowercase();
+            let problem = format!("{other:?} instead of {known:?}");
+            return Err(MeshFault::syntax(None, problem));
+        }
+        other => remarks.add_named("statements", other, 1, Some(line)),
     }
-    let mut words = line.split_whitespace();
-    match words.nth(KEYWORD_AND_POSITION) {
+    Ok(())
+}
+
+/// The position that a statement of a vertex has, with its weight, if any, but without the three or more numbers of a
+/// colour that some programs put there.
+fn position<'a>(line: &'a str, number: usize, remarks: &mut Remarks) -> &'a str {
+    const KEYWORD_AND_POSITION: usize = 4;
+    let mut words = line.split_whitespace().skip(KEYWORD_AND_POSITION);
+    match (words.next(), words.count()) {
+        (Some(weight), 0) => {
+            if weight.parse() != Ok(1.0) {
+                remarks.add("vertices divided by their fourth number", 1, Some(number));
+            }
+            line
+        }
         // Both are slices of one line, so that their distance is the length to keep.
-        Some(colour) => &line[..colour.as_ptr().addr() - line.as_ptr().addr()],
-        None => line,
+        (Some(colour), 2..) => &line[..colour.as_ptr().addr() - line.as_ptr().addr()],
+        _ => line,
     }
 }

@@ -35,7 +35,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         polygons.ends.push(polygons.corners.len());
         polygons.face_lines.push(line.number);
     }
-    Ok(polygons)
+    match lines.next() {
+        None => Ok(polygons),
+        Some(line) => Err(line.problem(&format!(
+            "goes on after the {vertices} vertices and {faces} faces that it announces"
+        ))),
+    }
 }
 
 /// Reads the numbers of vertices and faces: on the first line, after the keyword, or on the next.

@@ -1,5 +1,6 @@
 //! PLY, binary and text.
 
+use super::text;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
@@ -8,19 +9,24 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
     ScalarType,
 };
+use std::borrow::Cow;
+use std::collections::HashSet;
 use std::io::ErrorKind;
 
-/// Reads the vertices and faces of a PLY.
+/// Reads the vertices, faces and strips of a PLY.
 pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let mut reader = Reader::new(bytes);
+    let bytes = &with_line_feeds(bytes);
+    check_names(bytes)?;
+    let mut reader = Reader::new(&bytes[..]);
     let header = Parser::<Element>::new()
         .read_header(&mut reader)
         .map_err(|error| fault(&error, Encoding::Ascii))?;
     check_header(&header, bytes.len())?;
     let fault = |error: ParseError| fault(&error, header.encoding);
+    let (payload, first_line) = (*reader.get_ref(), reader.line());
     let mut polygons = Polygons::default();
     for element in header.elements.values() {
         let read: Vec<Element> = Parser::new()
@@ -28,16 +34,127 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
             .map_err(fault)?;
         match element.name.as_str() {
             "vertex" => polygons.vertices = read.into_iter().map(|vertex| vertex.point).collect(),
-            "face" => {
+            FACE => {
                 for face in read {
                     polygons.corners.extend(face.corners);
                     polygons.ends.push(polygons.corners.len());
                 }
             }
+            STRIPS => {
+                for triangle in read.iter().flat_map(|strip| triangles(&strip.corners)) {
+                    polygons.corners.extend(triangle);
+                    polygons.ends.push(polygons.corners.len());
+                }
+            }
+            other if element.count > 0 => {
+                let remarks = &mut polygons.remarks;
+                remarks.add_named("elements", other, element.count, None);
+            }
             _ => {}
         }
     }
+    check_end(reader.get_ref())?;
+    if header.encoding == Encoding::Ascii {
+        check_lines(payload, first_line, &header)?;
+    }
     Ok(polygons)
+}
+
+/// The element of polygons.
+const FACE: &str = "face";
+/// The element of strips of triangles, as scanners write them.
+const STRIPS: &str = "tristrips";
+
+/// The triangles of a strip, all turned alike: every other one is turned round. −1 begins another strip.
+fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
+    let runs = strip.split(|&corner| corner == -1);
+    let triangles = runs.flat_map(|run| run.array_windows().enumerate());
+    triangles.map(|(k, &[a, b, c])| if k % 2 == 0 { [a, b, c] } else { [b, a, c] })
+}
+
+/// The file with line feeds at the ends of its lines, also where it has carriage returns alone; numbers in binary stay.
+fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
+    const END: &[u8] = b"end_header\r";
+    let end = bytes.windows(END.len()).position(|window| window == END);
+    match (bytes, end.map(|end| end + END.len())) {
+        ([b'p', b'l', b'y', b'\r', next, ..], Some(end)) if *next != b'\n' => {
+            let mut header = text::lines(bytes[..end].into()).into_owned();
+            let is_text = header.windows(12).any(|window| window == b"format ascii");
+            match is_text {
+                true => header.extend_from_slice(&text::lines(bytes[end..].into())),
+                false => header.extend_from_slice(&bytes[end..]),
+            }
+            header.into()
+        }
+        _ => bytes.into(),
+    }
+}
+
+/// Checks that no two elements, and no two properties of an element, have one name: the library keeps the last alone.
+fn check_names(bytes: &[u8]) -> Result<(), MeshFault> {
+    let (mut elements, mut properties) = (HashSet::new(), HashSet::new());
+    for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
+        let line = String::from_utf8_lossy(line);
+        let mut words = line.split_whitespace();
+        let (kind, names) = match words.next() {
+            Some("end_header") => break,
+            Some(kind @ "element") => {
+                properties.clear();
+                (kind, &mut elements)
+            }
+            Some(kind @ "property") => (kind, &mut properties),
+            _ => continue,
+        };
+        let name = match kind {
+            "element" => words.next(),
+            _ => words.next_back(),
+        };
+        if let Some(name) = name
+            && !names.insert(name.to_owned())
+        {
+            let problem = format!("a second {kind} {name:?}; give each a name of its own");
+            return Err(MeshFault::syntax(Some(number), problem));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that nothing follows the elements.
+fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
+    match rest.trim_ascii().is_empty() {
+        true => Ok(()),
+        false => {
+            let more = rest.len();
+            let problem = format!("has {more} bytes more than its header announces");
+            Err(MeshFault::syntax(None, problem))
+        }
+    }
+}
+
+/// Checks that no line of a text has more numbers than its properties: the library passes over them.
+fn check_lines(payload: &[u8], first: usize, header: &Header) -> Result<(), MeshFault> {
+    let mut lines = (first..).zip(payload.split(|&byte| byte == b'\n'));
+    for element in header.elements.values() {
+        for (number, line) in lines.by_ref().take(element.count) {
+            let line = String::from_utf8_lossy(line);
+            let mut words = line.split_whitespace();
+            for property in element.properties.values() {
+                let listed = match property.data_type {
+                    PropertyType::Scalar(_) => {
+                        words.next();
+                        continue;
+                    }
+                    PropertyType::List(..) => words.next().and_then(|count| count.parse().ok()),
+                };
+                words.by_ref().take(listed.unwrap_or(0)).for_each(drop);
+            }
+            if let Some(word) = words.next() {
+                let problem = format!("{word:?} follows the last property of {:?}", element.name);
+                return Err(MeshFault::syntax(Some(number), problem));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Checks that the header describes a mesh of points and polygons, and no more elements than the file has bytes: elements without
@@ -49,26 +166,28 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
             return Err(MeshFault::Truncated { missing });
         }
     }
-    if header.elements.contains_key("tristrips") && !header.elements.contains_key("face") {
-        return Err(MeshFault::Unsupported {
-            what: "triangle strips".into(),
-            instead: "faces",
-        });
-    }
     let Some(vertex) = header.elements.get("vertex") else {
         return Err(MeshFault::NoVertices);
-    };
-    let Some(face) = header.elements.get("face") else {
-        return Err(MeshFault::NoFaces);
     };
     for coordinate in ["x", "y", "z"] {
         check_property(vertex, &[coordinate], "a number", |kind| {
             matches!(kind, PropertyType::Scalar(_))
         })?;
     }
-    check_property(face, &CORNERS, "a list of integers", |kind| match kind {
-        PropertyType::List(_, number) => !matches!(number, ScalarType::Float | ScalarType::Double),
-        PropertyType::Scalar(_) => false,
+    let mut faces = [FACE, STRIPS]
+        .into_iter()
+        .filter_map(|name| header.elements.get(name))
+        .peekable();
+    if faces.peek().is_none() {
+        return Err(MeshFault::NoFaces);
+    }
+    faces.try_for_each(|element| {
+        check_property(element, &CORNERS, "a list of integers", |kind| match kind {
+            PropertyType::List(_, number) => {
+                !matches!(number, ScalarType::Float | ScalarType::Double)
+            }
+            PropertyType::Scalar(_) => false,
+        })
     })
 }
 
@@ -98,21 +217,33 @@ fn check_property(
 }
 
 fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
-    // The library's messages are several lines, and count elements where there are no lines.
-    let mut problem = error.to_string().replace("\n\t", "; ").replace('\n', " ");
-    if let Some(line) = error.line() {
-        let prefix = format!("Line {line}: ");
-        problem = problem.replace(&prefix, "");
+    let text = error.to_string();
+    let line = error.line().filter(|_| encoding == Encoding::Ascii);
+    if error.kind() == ErrorKind::UnexpectedEof {
+        let prefix = error.line().map(|line| format!("Line {line}: "));
+        let problem = text.strip_prefix(prefix.as_deref().unwrap_or_default());
+        let problem = problem.unwrap_or(&text).trim_end_matches('.');
+        let missing = format!("what its header announces ({problem})");
+        return MeshFault::Truncated { missing };
     }
-    match error.kind() {
-        ErrorKind::UnexpectedEof => MeshFault::Truncated {
-            missing: format!("what its header announces ({problem})"),
-        },
-        _ => {
-            let line = error.line().filter(|_| encoding == Encoding::Ascii);
-            MeshFault::syntax(line, problem)
+    // The library quotes the line. What it says of it are names of its own types, or a list of all that it knows.
+    let quoted = text
+        .split("String: '")
+        .nth(1)
+        .and_then(|rest| rest.split('\'').next());
+    let problem = match quoted.map(str::trim) {
+        Some(line) if text.contains("element line") => {
+            format!("{line:?} does not hold the numbers that the header announces")
         }
-    }
+        Some(line) => format!("{line:?} is no line of a header"),
+        None => text
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .trim_end_matches('.')
+            .to_owned(),
+    };
+    MeshFault::syntax(line, problem)
 }
 
 /// An element of a PLY: a vertex, a face, or one that is passed over. A single type, because the library compiles

@@ -1,5 +1,6 @@
 //! STL, binary and text.
 
+use super::text;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use ccd_core::glam::{DVec3, Vec3};
@@ -18,22 +19,29 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    if is_binary(bytes) {
-        parse_binary(bytes)
-    } else {
-        parse_text(&String::from_utf8_lossy(bytes))
+    if is_whole(bytes) {
+        return parse_binary(bytes);
+    }
+    let plain = text::plain(bytes);
+    match is_text(&plain) {
+        true => parse_text(&String::from_utf8_lossy(&plain)),
+        false => parse_binary(bytes),
     }
 }
 
-/// Returns whether a file is binary. Many programs begin a binary file with `solid`, too; only a text has no
-/// zero byte.
-fn is_binary(bytes: &[u8]) -> bool {
-    let exact = announced(bytes).is_some_and(|facets| {
+/// Returns whether a file has the length of a binary one with the number of facets that it announces.
+fn is_whole(bytes: &[u8]) -> bool {
+    announced(bytes).is_some_and(|facets| {
         (bytes.len() - HEADER_BYTES - COUNT_BYTES) as u64 == facets as u64 * FACET_BYTES as u64
-    });
-    let first = bytes.trim_ascii_start();
+    })
+}
+
+/// Returns whether a file is a text. Many programs begin a binary file with `solid`, too; only a text has no
+/// zero byte.
+fn is_text(plain: &[u8]) -> bool {
+    let first = plain.trim_ascii_start();
     let solid = first.len() >= 5 && first[..5].eq_ignore_ascii_case(b"solid");
-    exact || !solid || bytes.contains(&0)
+    solid && !plain.contains(&0)
 }
 
 /// Reads the number of facets that a binary file announces.

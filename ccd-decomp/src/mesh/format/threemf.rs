@@ -14,6 +14,7 @@ use crate::mesh::content::assembly::{Assembly, Object, Part, Placed};
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, Quote};
 use crate::mesh::polygons::Polygons;
+use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
 use model::{Model, Shape, Use};
 use package::Package;
@@ -28,7 +29,18 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     let unit = models.list[0].model.unit.unwrap_or(Unit::Millimetre);
     let parts = models.parts()?;
     let objects = models.objects()?;
-    models.check_used(&objects, &parts)?;
+    let unused = models.check_used(&objects, &parts)?;
+    let mut remarks = Remarks::default();
+    for Named { model, .. } in &models.list {
+        remarks.append(&model.remarks);
+    }
+    if unused > 0 {
+        remarks.add(
+            "objects that the build does not place passed over",
+            unused,
+            None,
+        );
+    }
     let allowance = Allowance::of(models.package.unpacked() + bytes.len() as u64);
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
         let problem = "is a component of itself".into();
@@ -37,6 +49,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     Ok(Content {
         unit: Some(unit),
         layout: Layout::Assembly(assembly),
+        remarks,
     })
 }
 
@@ -196,8 +209,8 @@ impl<'a> Models<'a> {
         components.iter().enumerate().map(member).collect()
     }
 
-    /// Checks that every object that a part uses is one of triangles.
-    fn check_used(&self, objects: &[Object], parts: &[Part]) -> Result<(), MeshFault> {
+    /// Checks that every object that a part uses is one of triangles. Returns the number of those that none uses.
+    fn check_used(&self, objects: &[Object], parts: &[Part]) -> Result<usize, MeshFault> {
         let mut seen = vec![false; objects.len()];
         let mut waiting: Vec<usize> = parts.iter().map(|part| part.placed.object).collect();
         while let Some(number) = waiting.pop() {
@@ -214,7 +227,7 @@ impl<'a> Models<'a> {
             }
             waiting.extend(objects[number].members.iter().map(|member| member.object));
         }
-        Ok(())
+        Ok(seen.iter().filter(|seen| !**seen).count())
     }
 
     /// The name of an object in messages.

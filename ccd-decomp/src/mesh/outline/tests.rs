@@ -112,3 +112,45 @@ fn outlines_without_an_inside_are_not_filled() {
     ];
     assert_eq!(fill(&fine), None);
 }
+
+/// Outlines of many corners on or near a line, or in convex position, which a sweep takes minutes for.
+#[test]
+fn outlines_of_many_corners_take_no_longer_than_others() {
+    let count = 60_000;
+    let at = |k: usize| k as f64;
+    let chain = |height: fn(f64) -> f64| {
+        let mut points: Vec<DVec3> = (0..count)
+            .map(|k| DVec3::new(at(k), height(at(k)), 0.0))
+            .collect();
+        points.push(DVec3::new(at(count / 2), -1e5, 0.0));
+        points
+    };
+    let comb = (0..count / 2).flat_map(|k| {
+        let height = if k % 2 == 0 { 0.0 } else { 1e4 };
+        [at(2 * k), at(2 * k + 1)].map(|x| DVec3::new(x, height, 0.0))
+    });
+    let comb: Vec<DVec3> = comb
+        .chain([DVec3::new(at(count), -1.0, 0.0), DVec3::new(0.0, -1.0, 0.0)])
+        .collect();
+    for mut points in [
+        chain(|_| 0.0),
+        chain(|x| 1e-7 * x * x),
+        chain(|x| 1e-9 * (x % 13.0)),
+        comb,
+    ] {
+        let filled = fill(&points).expect("the outline does not meet itself");
+        assert_eq!(filled.len(), points.len() - 2);
+        let area = |[a, b, c]: [usize; 3]| (points[b] - points[a]).cross(points[c] - points[a]).z;
+        let pairs = points.iter().zip(points.iter().cycle().skip(1));
+        let whole: f64 = pairs.map(|(p, q)| p.cross(*q).z).sum();
+        let sum: f64 = filled.iter().map(|&triangle| area(triangle)).sum();
+        assert!((sum - whole).abs() < 1e-6 * whole.abs(), "{sum}, {whole}");
+        // With a corner twice, or an edge through another corner.
+        points.push(points[count / 3]);
+        assert_eq!(fill(&points), None);
+    }
+    let again: Vec<DVec3> = (0..count)
+        .map(|k| [DVec3::ZERO, DVec3::X, DVec3::Y][k % 3])
+        .collect();
+    assert_eq!(fill(&again), None);
+}

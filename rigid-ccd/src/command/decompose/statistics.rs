@@ -1,5 +1,6 @@
 //! Statistics of a prepared mesh.
 
+use crate::text::Printable;
 use ccd_core::{Body, Volume};
 use ccd_decomp::{Model, Unit};
 use indicatif::HumanCount;
@@ -69,7 +70,7 @@ impl fmt::Display for Statistics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let line = |f: &mut fmt::Formatter<'_>, name: &str, value: &str| match value {
             "" => Ok(()),
-            value => writeln!(f, "{name:<14}{value}"),
+            value => writeln!(f, "{name:<14}{}", Printable(value)),
         };
         let triangles = count(self.triangles);
         line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;

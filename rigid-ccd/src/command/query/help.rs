@@ -103,7 +103,7 @@ Long runs:
   Rows are written in order, batch by batch, to files that end in .partial. They are renamed when all
   rows are there; existing files are kept until then. Repeat the same command with --resume to
   continue an interrupted run. A file that ends in .resume, next to --out, records the options and
-  the progress. The number of threads, --rows and interruptions change no byte of a row, except in
+  the progress. One run at a time writes a file; others refuse. The number of threads, --rows and interruptions change no byte of a row, except in
   column `micros` (see --no-micros) and with --deadline.
 
 With --bound published, times are not certified: contacts may be late or missed.
@@ -111,8 +111,8 @@ With --bound published, times are not certified: contacts may be late or missed.
 Exit codes:
   0  every row has an answer; `unresolved` is an answer
   1  the results or the contacts cannot be written
-  2  bad input: a file or an option that cannot be used, rows of status `error`, or a row with more
-     contacts than --budget allows
+  2  bad input: a file or an option that cannot be used, an output that another run is writing, rows
+     of status `error`, or a row with more contacts than --budget allows
 
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv

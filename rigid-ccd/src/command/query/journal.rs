@@ -1,14 +1,16 @@
 //! The journal of a run: its options, and a checkpoint after each batch of rows.
 //!
-//! The file is next to the tables. It stays when the run has finished, so that the same command with
+//! The file is next to the tables. Each checkpoint ends with the checksum of all before it. It stays when the run has finished, so that the same command with
 //! `--resume` finds nothing left to do.
 
-use crate::command::files::CannotWrite;
+use crate::command::output::CannotWrite;
+use crate::command::table::Written;
 use crate::table::results::Status;
+use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The progress of a run.
@@ -21,14 +23,13 @@ pub(super) struct Checkpoint {
     /// The number of these rows without a complete answer.
     pub(super) bad: usize,
     /// The number of rows of each status in the results.
-    #[serde(default)]
     pub(super) counts: [usize; Status::ALL.len()],
-    /// The length of the results, set when they are flushed.
-    pub(super) results_bytes: u64,
-    /// The length of the contacts, set when they are flushed.
-    pub(super) contacts_bytes: u64,
+    /// What there is of the results, set when they are flushed.
+    pub(super) results: Written,
+    /// What there is of the contacts, set when they are flushed.
+    pub(super) contacts: Written,
     /// True when these are all rows.
-    #[serde(default, rename = "whole")]
+    #[serde(rename = "whole")]
     pub(super) finished: bool,
 }
 
@@ -43,6 +44,8 @@ pub(super) const CONTENT: &str = "content-of:";
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
+    /// The checksum of all that is in it.
+    sum: Hasher,
 }
 
 /// The separator in the journal between the options and the checkpoints.
@@ -86,32 +89,35 @@ impl Recorded {
 
 impl Journal {
     pub(super) fn create(path: PathBuf, recorded: &Recorded) -> Result<Self, CannotWrite> {
+        let head = format!("{}{CHECKPOINTS}", recorded.to_text());
+        let mut sum = Hasher::new();
+        sum.update(head.as_bytes());
         let create = || {
             let mut file = File::create(&path)?;
-            write!(file, "{}{CHECKPOINTS}", recorded.to_text())?;
+            file.write_all(head.as_bytes())?;
             Ok(file)
         };
         match create() {
-            Ok(file) => Ok(Journal { path, file }),
-            Err(source) => Err(Journal::failed(&path, source)),
+            Ok(file) => Ok(Journal { path, file, sum }),
+            Err(source) => Err(CannotWrite::at(&path, source)),
         }
     }
 
     /// Appends a checkpoint.
     pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
         let mut append = || {
-            let line = serde_json::to_string(&checkpoint)? + "\n";
+            let line = ended(serde_json::to_string(&checkpoint)?, &mut self.sum);
             self.file.write_all(line.as_bytes())
         };
-        append().map_err(|source| Journal::failed(&self.path, source))
+        append().map_err(|source| CannotWrite::at(&self.path, source))
     }
+}
 
-    fn failed(path: &Path, source: io::Error) -> CannotWrite {
-        CannotWrite {
-            place: path.display().to_string(),
-            source,
-        }
-    }
+/// Ends a checkpoint with a checksum, to which it is added.
+fn ended(mut line: String, sum: &mut Hasher) -> String {
+    sum.update(line.as_bytes());
+    let _ = writeln!(line, " {:08x}", sum.clone().finalize());
+    line
 }
 
 /// The journal of an earlier run.
@@ -123,6 +129,8 @@ pub(super) struct Earlier {
     pub(super) checkpoint: Checkpoint,
     /// The length of the journal without an incomplete last line.
     bytes: u64,
+    /// Its checksum.
+    sum: Hasher,
 }
 
 /// A journal that is missing or damaged.
@@ -141,14 +149,20 @@ impl Earlier {
             return Ok(None);
         };
         let complete = &checkpoints[..end + 1];
-        let mut lines = complete.lines().map(serde_json::from_str::<Checkpoint>);
-        let first = lines.next().ok_or(Lost)?.map_err(|_| Lost)?;
-        let checkpoint = lines.next_back().unwrap_or(Ok(first)).map_err(|_| Lost)?;
+        let mut sum = Hasher::new();
+        sum.update(recorded.as_bytes());
+        sum.update(CHECKPOINTS.as_bytes());
+        let mut lines = complete
+            .split_inclusive('\n')
+            .map(|line| checked(line, &mut sum));
+        let first = lines.next().ok_or(Lost)??;
+        let checkpoint = lines.try_fold(first, |_, next| next)?;
         Ok(Some(Earlier {
             recorded: recorded.to_owned(),
             rows: checkpoint.rows.saturating_sub(first.rows),
             checkpoint,
             bytes: (recorded.len() + CHECKPOINTS.len() + complete.len()) as u64,
+            sum,
         }))
     }
 
@@ -165,9 +179,21 @@ impl Earlier {
             Ok(file)
         };
         match open() {
-            Ok(file) => Ok(Journal { path, file }),
-            Err(source) => Err(Journal::failed(&path, source)),
+            Ok(file) => {
+                let sum = self.sum.clone();
+                Ok(Journal { path, file, sum })
+            }
+            Err(source) => Err(CannotWrite::at(&path, source)),
         }
+    }
+}
+
+/// Reads a checkpoint that [ends](ended) with its checksum.
+fn checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, Lost> {
+    let (checkpoint, _) = line.rsplit_once(' ').ok_or(Lost)?;
+    match ended(checkpoint.to_owned(), sum) == line {
+        true => serde_json::from_str(checkpoint).map_err(|_| Lost),
+        false => Err(Lost),
     }
 }
 

@@ -5,12 +5,13 @@
 
 use super::args::QueryArgs;
 use super::journal::{Checkpoint, Earlier, Journal, Lost, Recorded};
-use crate::command::files::CannotWrite;
-use crate::command::files::{PendingFile, RESUME, Table};
+use crate::command::output::{CannotWrite, Output, RESUME};
+use crate::command::table::{Table, Written, measure};
 use crate::table::contacts;
 use crate::table::results;
-use anyhow::{Result, bail};
-use std::path::{Path, PathBuf};
+use anyhow::{Context, Result, bail};
+use std::fs::File;
+use std::path::PathBuf;
 
 /// The tables of a run.
 pub(super) struct Outputs {
@@ -29,31 +30,38 @@ pub(super) enum Opened {
     Finished(Checkpoint),
 }
 
-/// The tables that are files; none where an output is a stream.
-struct PendingTables {
-    results: Option<PendingFile>,
-    contacts: Option<PendingFile>,
+/// The places of the tables, which no other run writes to meanwhile.
+pub(super) struct Places {
+    results: Output,
+    contacts: Option<Output>,
+}
+
+impl Places {
+    /// Claims both tables.
+    pub(super) fn claim(args: &QueryArgs) -> Result<Self> {
+        let contacts = args.contacts.as_deref();
+        let places = Places {
+            results: Output::claim(&args.out)?,
+            contacts: contacts.map(Output::claim_table).transpose()?,
+        };
+        let streams = [Some(&places.results), places.contacts.as_ref()];
+        if args.resume && streams.into_iter().flatten().any(Output::is_stream) {
+            bail!("--resume needs files; give --out (and --contacts) a file name");
+        }
+        Ok(places)
+    }
 }
 
 impl Opened {
     /// Creates the tables, or opens those of an earlier run with the same options.
-    pub(super) fn new(args: &QueryArgs, recorded: &Recorded) -> Result<Self> {
-        let pending = PendingTables::find(args)?;
-        let all = args.contacts.is_some() == pending.contacts.is_some();
-        if args.resume && !(all && pending.results.is_some()) {
-            bail!("--resume needs files; give --out (and --contacts) a file name");
-        }
-        let PendingTables {
-            results: Some(results),
-            contacts,
-        } = pending
-        else {
-            return Ok(Opened::New(Outputs::create(args, recorded, None)?));
+    pub(super) fn new(args: &QueryArgs, places: Places, recorded: &Recorded) -> Result<Self> {
+        let Output::File(results, _) = &places.results else {
+            return Ok(Opened::New(Outputs::create(args, places, recorded, None)?));
         };
         let journal = results.sibling(RESUME);
         let earlier = match Earlier::read(&journal) {
             Ok(earlier) => earlier,
-            Err(Lost) if results.partial().exists() => bail!(
+            Err(Lost) if results.left() > 0 => bail!(
                 "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
                  first to start over",
                 results.partial().display(),
@@ -61,39 +69,94 @@ impl Opened {
             ),
             Err(Lost) => None,
         };
-        if let Some(finished) = earlier
-            .as_ref()
-            .filter(|earlier| args.resume && earlier.checkpoint.finished)
-            && results.give_final_name(finished.checkpoint.results_bytes)?
+        let mut places = places;
+        if args.resume
+            && let Some(finished) = &earlier
+            && finished.checkpoint.finished
         {
-            check_options(
-                finished,
-                recorded,
-                "finished",
-                "omit --resume to start over",
-            )?;
-            let contacts = contacts.as_ref();
-            let named =
-                contacts.map(|table| table.give_final_name(finished.checkpoint.contacts_bytes));
-            if named.transpose()?.unwrap_or(true) {
+            if places.finished(finished, recorded)? {
                 return Ok(Opened::Finished(finished.checkpoint));
             }
+            places = Places::claim(args)?;
         }
-        match earlier.filter(|_| results.partial().exists()) {
-            Some(earlier) if args.resume => {
-                let advice = format!("delete {} to start over", results.partial().display());
+        places.begin(args, recorded, (earlier, journal))
+    }
+}
+
+impl Places {
+    /// Continues the tables of an interrupted run, or starts new ones.
+    fn begin(
+        self,
+        args: &QueryArgs,
+        recorded: &Recorded,
+        (earlier, journal): (Option<Earlier>, PathBuf),
+    ) -> Result<Opened> {
+        let left = match &self.results {
+            Output::File(results, _) if results.left() > 0 => {
+                earlier.map(|earlier| (earlier, results))
+            }
+            _ => None,
+        };
+        match left {
+            Some((earlier, results)) if args.resume => {
+                let rows = results.partial().display().to_string();
+                let advice = format!("delete {rows} to start over");
                 check_options(&earlier, recorded, "interrupted", &advice)?;
-                let outputs = Outputs::resume(results, contacts, &earlier, journal)?;
+                let outputs = Outputs::resume(self, &earlier, journal)?;
                 Ok(Opened::Resumed(outputs, earlier.checkpoint))
             }
-            Some(earlier) if earlier.rows > 0 => bail!(
+            Some((earlier, results)) if earlier.rows > 0 => bail!(
                 "{} has {} rows of an interrupted run; add --resume to continue it, or delete the file \
                  to start over",
                 results.partial().display(),
                 earlier.rows
             ),
-            _ => Ok(Opened::New(Outputs::create(args, recorded, Some(journal))?)),
+            _ => Ok(Opened::New(Outputs::create(
+                args,
+                self,
+                recorded,
+                Some(journal),
+            )?)),
         }
+    }
+
+    /// Returns whether the tables of a finished run are there, and names those that had no time to be named.
+    fn finished(self, run: &Earlier, recorded: &Recorded) -> Result<bool> {
+        let Checkpoint {
+            results, contacts, ..
+        } = run.checkpoint;
+        if !named(self.results, results)? {
+            return Ok(false);
+        }
+        check_options(run, recorded, "finished", "omit --resume to start over")?;
+        self.contacts
+            .map_or(Ok(true), |table| named(table, contacts))
+    }
+}
+
+/// Gives a complete table its final name, if it has none yet. Returns whether the table is there.
+fn named(table: Output, written: Written) -> Result<bool> {
+    let Output::File(mut claim, _) = table else {
+        return Ok(true);
+    };
+    let target = claim.target().to_owned();
+    let name_it = || {
+        if claim.left() == written.bytes && measure(claim.file(), u64::MAX)?.0 == written {
+            claim.place()?;
+        }
+        if !target.exists() {
+            return Ok(None);
+        }
+        let (found, _) = measure(File::open(&target)?, u64::MAX)?;
+        Ok(Some(found == written))
+    };
+    match name_it().map_err(|source| CannotWrite::at(&target, source))? {
+        Some(false) => bail!(
+            "--resume: {} has changed since the run finished; omit --resume to start over and \
+             overwrite it",
+            target.display()
+        ),
+        there => Ok(there.is_some()),
     }
 }
 
@@ -107,44 +170,22 @@ fn check_options(earlier: &Earlier, recorded: &Recorded, run: &str, advice: &str
     }
 }
 
-impl PendingTables {
-    fn find(args: &QueryArgs) -> Result<Self, CannotWrite> {
-        let pending = |path: &Path| {
-            PendingFile::find(path).map_err(|source| CannotWrite {
-                place: path.display().to_string(),
-                source,
-            })
-        };
-        let contacts = args.contacts.as_deref();
-        Ok(PendingTables {
-            results: pending(&args.out)?,
-            contacts: contacts.map(pending).transpose()?.flatten(),
-        })
-    }
-}
-
 impl Outputs {
-    fn resume(
-        results: PendingFile,
-        contacts: Option<PendingFile>,
-        earlier: &Earlier,
-        journal: PathBuf,
-    ) -> Result<Self, CannotWrite> {
+    fn resume(places: Places, earlier: &Earlier, journal: PathBuf) -> Result<Self> {
         let Checkpoint {
-            results_bytes,
-            contacts_bytes,
-            ..
+            results, contacts, ..
         } = earlier.checkpoint;
-        let contacts = contacts.map(|file| Table::resume(file, contacts_bytes));
+        let contacts = places.contacts.map(|table| continued(table, contacts));
         Ok(Outputs {
             contacts: contacts.transpose()?,
-            results: Table::resume(results, results_bytes)?,
+            results: continued(places.results, results)?,
             journal: Some(earlier.reopen(journal)?),
         })
     }
 
     fn create(
         args: &QueryArgs,
+        places: Places,
         recorded: &Recorded,
         journal: Option<PathBuf>,
     ) -> Result<Self, CannotWrite> {
@@ -152,9 +193,9 @@ impl Outputs {
         let journal = journal
             .map(|path| Journal::create(path, recorded))
             .transpose()?;
-        let results = Table::create(&args.out, &results::columns(args.extent()))?;
-        let contacts = args.contacts.as_deref();
-        let contacts = contacts.map(|path| Table::create(path, &contacts::COLUMNS));
+        let results = Table::start(places.results, &results::columns(args.extent()))?;
+        let contacts = places.contacts;
+        let contacts = contacts.map(|place| Table::start(place, &contacts::COLUMNS));
         let contacts = contacts.transpose()?;
         Ok(Outputs {
             results,
@@ -165,9 +206,9 @@ impl Outputs {
 
     /// Flushes the tables, and appends a checkpoint to the journal.
     pub(super) fn save(&mut self, mut checkpoint: Checkpoint) -> Result<(), CannotWrite> {
-        checkpoint.results_bytes = self.results.flush()?;
+        checkpoint.results = self.results.written()?;
         if let Some(contacts) = &mut self.contacts {
-            checkpoint.contacts_bytes = contacts.flush()?;
+            checkpoint.contacts = contacts.written()?;
         }
         match &mut self.journal {
             Some(journal) => journal.append(checkpoint),
@@ -188,4 +229,18 @@ impl Outputs {
             None => Ok(()),
         }
     }
+}
+
+/// Continues a table of an interrupted run.
+fn continued(table: Output, written: Written) -> Result<Table> {
+    let Output::File(claim, _) = table else {
+        bail!("--resume needs files");
+    };
+    let partial = claim.partial().display().to_string();
+    let table = Table::resume(claim, written)?;
+    table.with_context(|| {
+        format!(
+            "--resume: {partial} is not as the interrupted run left it; delete it to start over"
+        )
+    })
 }

@@ -6,12 +6,14 @@ use super::{element, extensions, name, primitive, transform};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Object, Part, Placed};
 use crate::mesh::error::MeshFault;
+use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
 /// The meshes that a scene uses, and its nodes that use them.
 pub(super) struct Scene {
     pub(super) objects: Vec<Object>,
     pub(super) parts: Vec<Part>,
+    pub(super) remarks: Remarks,
 }
 
 /// Reads the scene that is to be shown, or else the first one; without scenes, all nodes; without nodes, all meshes.
@@ -23,6 +25,7 @@ pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, Mesh
         (None, None) if root.nodes.is_empty() => walk.meshes_alone()?,
         (None, None) => walk.all()?,
     }
+    walk.remark();
     Ok(walk.scene)
 }
 
@@ -46,6 +49,7 @@ impl<'a> Walk<'a> {
             scene: Scene {
                 objects: Vec::new(),
                 parts: Vec::new(),
+                remarks: Remarks::default(),
             },
         }
     }
@@ -92,6 +96,40 @@ impl<'a> Walk<'a> {
 
     fn meshes_alone(&mut self) -> Result<(), MeshFault> {
         (0..self.root.meshes.len()).try_for_each(|mesh| self.place(mesh, None, AffineMap::IDENTITY))
+    }
+
+    /// Remarks upon all that was not read, or not as it is drawn.
+    fn remark(&mut self) {
+        let root = self.root;
+        let with_mesh = root
+            .nodes
+            .iter()
+            .zip(&self.visited)
+            .filter(|(node, _)| node.mesh.is_some());
+        let (shown, others): (Vec<_>, Vec<_>) = with_mesh.partition(|(_, visited)| **visited);
+        let skinned = shown.iter().filter(|(node, _)| node.skin.is_some());
+        let used = self
+            .known
+            .keys()
+            .flat_map(|&mesh| &root.meshes[mesh].primitives);
+        let thin = used.clone().filter(|primitive| primitive.is_thin());
+        let changing = used.filter(|primitive| !primitive.targets.is_empty());
+        for (what, count) in [
+            (
+                "nodes that the scene does not show passed over",
+                others.len(),
+            ),
+            ("primitives of points or lines passed over", thin.count()),
+            ("nodes taken without their skin", skinned.count()),
+            (
+                "primitives with morph targets taken at rest",
+                changing.count(),
+            ),
+        ] {
+            if count > 0 {
+                self.scene.remarks.add(what, count, None);
+            }
+        }
     }
 
     fn add(&mut self, node: &Node, map: AffineMap) -> Result<(), MeshFault> {

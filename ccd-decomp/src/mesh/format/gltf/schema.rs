@@ -1,5 +1,6 @@
 //! The parts of a glTF's JSON that tell shapes.
 
+use super::whole;
 use crate::mesh::error::MeshFault;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -11,6 +12,7 @@ pub(super) struct Root {
     asset: Asset,
     #[serde(default)]
     pub(super) extensions_required: Vec<String>,
+    #[serde(default, deserialize_with = "whole::maybe")]
     pub(super) scene: Option<usize>,
     #[serde(default)]
     pub(super) scenes: Vec<SceneNodes>,
@@ -40,16 +42,18 @@ struct Asset {
 
 #[derive(Deserialize)]
 pub(super) struct SceneNodes {
-    #[serde(default)]
+    #[serde(default, deserialize_with = "whole::list")]
     pub(super) nodes: Vec<usize>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Node {
     pub(super) name: Option<String>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "whole::list")]
     pub(super) children: Vec<usize>,
+    #[serde(default, deserialize_with = "whole::maybe")]
     pub(super) mesh: Option<usize>,
+    pub(super) skin: Option<IgnoredAny>,
     pub(super) matrix: Option<[f64; 16]>,
     pub(super) translation: Option<[f64; 3]>,
     pub(super) rotation: Option<[f64; 4]>,
@@ -74,8 +78,12 @@ pub(super) struct Mesh {
 #[derive(Deserialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
+    #[serde(default, deserialize_with = "whole::maybe")]
     pub(super) indices: Option<usize>,
+    #[serde(default, deserialize_with = "whole::maybe")]
     pub(super) mode: Option<u32>,
+    #[serde(default)]
+    pub(super) targets: Vec<IgnoredAny>,
     #[serde(default)]
     pub(super) extensions: PrimitiveExtensions,
 }
@@ -83,6 +91,7 @@ pub(super) struct Primitive {
 #[derive(Deserialize)]
 pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
+    #[serde(default, deserialize_with = "whole::maybe")]
     pub(super) position: Option<usize>,
 }
 
@@ -95,12 +104,15 @@ pub(super) struct PrimitiveExtensions {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
+    #[serde(default, deserialize_with = "whole::maybe")]
     pub(super) buffer_view: Option<usize>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "whole::one")]
     pub(super) byte_offset: u64,
+    #[serde(deserialize_with = "whole::one")]
     pub(super) component_type: u32,
     #[serde(default)]
     pub(super) normalized: bool,
+    #[serde(deserialize_with = "whole::one")]
     pub(super) count: u64,
     #[serde(rename = "type")]
     pub(super) kind: String,
@@ -109,6 +121,7 @@ pub(super) struct Accessor {
 
 #[derive(Deserialize)]
 pub(super) struct Sparse {
+    #[serde(deserialize_with = "whole::one")]
     pub(super) count: u64,
     pub(super) indices: SparseIndices,
     pub(super) values: SparseValues,
@@ -117,27 +130,33 @@ pub(super) struct Sparse {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseIndices {
+    #[serde(deserialize_with = "whole::one")]
     pub(super) buffer_view: usize,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "whole::one")]
     pub(super) byte_offset: u64,
+    #[serde(deserialize_with = "whole::one")]
     pub(super) component_type: u32,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseValues {
+    #[serde(deserialize_with = "whole::one")]
     pub(super) buffer_view: usize,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "whole::one")]
     pub(super) byte_offset: u64,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct BufferView {
+    #[serde(deserialize_with = "whole::one")]
     pub(super) buffer: usize,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "whole::one")]
     pub(super) byte_offset: u64,
+    #[serde(deserialize_with = "whole::one")]
     pub(super) byte_length: u64,
+    #[serde(default, deserialize_with = "whole::maybe")]
     pub(super) byte_stride: Option<u64>,
     #[serde(default)]
     pub(super) extensions: ViewExtensions,
@@ -153,7 +172,15 @@ pub(super) struct ViewExtensions {
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
     pub(super) uri: Option<String>,
+    #[serde(deserialize_with = "whole::one")]
     pub(super) byte_length: u64,
+}
+
+impl Primitive {
+    /// Returns whether it is of points or lines, by its mode.
+    pub(super) fn is_thin(&self) -> bool {
+        matches!(self.mode, Some(0..=3))
+    }
 }
 
 impl Root {

@@ -98,3 +98,60 @@ fn data_beside_a_compression_is_read() {
     gltf.json["bufferViews"][0]["extensions"] = json!({"EXT_meshopt_compression": {"buffer": 1}});
     assert_eq!(read(&gltf).faces().len(), 1);
 }
+
+/// The number 1 may be written 1.0 or 1e0, says the specification of JSON, and every count and index with it.
+#[test]
+fn whole_numbers_may_have_a_fraction_of_zero() {
+    fn with_fractions(value: &mut serde_json::Value) {
+        match value {
+            serde_json::Value::Number(number) => {
+                *value = json!(number.as_f64().expect("a number"));
+            }
+            serde_json::Value::Array(list) => list.iter_mut().for_each(with_fractions),
+            serde_json::Value::Object(fields) => fields.values_mut().for_each(with_fractions),
+            _ => {}
+        }
+    }
+    let mut gltf = square();
+    let indices = gltf.indices(&[0, 1, 2, 3]);
+    gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices, "mode": 6}));
+    let mut gltf = gltf.set("scene", json!(0));
+    let plain = read(&gltf);
+    gltf.json["buffers"] = json!([{"byteLength": gltf.binary.len()}]);
+    with_fractions(&mut gltf.json);
+    assert!(
+        gltf.json.to_string().contains("\"mode\":6.0"),
+        "{}",
+        gltf.json
+    );
+    assert_eq!(read(&gltf).faces(), plain.faces());
+    for (bad, expected) in [
+        (json!(0.5), "0.5"),
+        (json!(-1), "-1"),
+        (json!(1e300), "1e+300"),
+        (json!("0"), "\"0\""),
+        (json!(4294967296_u64), "4294967296"),
+    ] {
+        let mut gltf = Gltf::triangle();
+        gltf.json["meshes"][0]["primitives"][0]["mode"] = bad;
+        let message = error(&gltf).to_string();
+        assert!(
+            message.contains(expected) && message.contains("a whole number"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn what_is_not_read_is_remarked_upon() {
+    let mut gltf = Gltf::triangle();
+    gltf.primitive(json!({"attributes": {"POSITION": 0}, "mode": 1}));
+    gltf.primitive(json!({"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}]}));
+    gltf.json["nodes"] = json!([{"mesh": 0, "skin": 0}, {"mesh": 0}]);
+    let expected = "nodes that the scene does not show passed over: 1; \
+        primitives of points or lines passed over: 1; nodes taken without their skin: 1; \
+        primitives with morph targets taken at rest: 1";
+    assert_eq!(read(&gltf).repairs().remarks.to_string(), expected);
+    let part = file(&gltf).part("0").unwrap();
+    assert_eq!(part.repairs().remarks.to_string(), expected);
+}

@@ -5,6 +5,7 @@ use super::xml::{Element, Origin, Step, Xml};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::{MeshFault, Quote};
 use crate::mesh::polygons::Polygons;
+use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
 use ccd_core::glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,6 +18,7 @@ pub(super) struct Model {
     pub(super) unit: Option<Unit>,
     pub(super) objects: Vec<ModelObject>,
     pub(super) items: Vec<Use>,
+    pub(super) remarks: Remarks,
 }
 
 #[derive(Debug)]
@@ -207,8 +209,12 @@ impl Model {
     }
 
     /// Takes up an element of an extension: it may be the shape of an object, or make a mesh more than its triangles.
-    /// What else extensions say is passed over.
+    /// What else extensions say is passed over, with a remark where it is in a mesh.
     fn extension(&mut self, within: Option<Tag>, name: &str) -> Tag {
+        let of_shape = matches!(within, Some(Tag::Mesh | Tag::Vertices | Tag::Triangles));
+        if of_shape && name != "trianglesets" {
+            self.remarks.add_named("elements", name, 1, None);
+        }
         if let Some(ModelObject { shape, .. }) = self.objects.last_mut() {
             match (within, &shape) {
                 (Some(Tag::Object), Shape::Foreign(_)) => *shape = Shape::Foreign(name.into()),

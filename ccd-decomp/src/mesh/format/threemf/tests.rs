@@ -218,3 +218,16 @@ fn a_package_without_relationships_has_the_usual_model() {
     let bytes = package(&[("elsewhere.model", &model)]);
     assert_eq!(read(&bytes).faces().len(), 4);
 }
+
+#[test]
+fn what_is_not_read_is_remarked_upon() {
+    let objects = tetrahedron(r#"id="1""#) + &tetrahedron(r#"id="2""#);
+    let objects = objects.replacen("<triangles>", "<quads/><triangles>", 1);
+    let model = model("", &objects, r#"<item objectid="1"/>"#);
+    let mesh = read(&one(&model));
+    assert_eq!(mesh.faces(), FACES);
+    assert_eq!(
+        mesh.repairs().remarks.to_string(),
+        "elements \"quads\" passed over: 1; objects that the build does not place passed over: 1"
+    );
+}

@@ -1,0 +1,63 @@
+//! Whole numbers of a glTF's JSON, which may be written with a fraction of zero or an exponent: 1.0 is 1.
+
+use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// Reads one number.
+pub(super) fn one<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result<T, D::Error> {
+    Whole::deserialize(from).map(|Whole(number)| number)
+}
+
+/// Reads a number that may be left out.
+pub(super) fn maybe<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+    from: D,
+) -> Result<Option<T>, D::Error> {
+    let number = Option::<Whole<T>>::deserialize(from)?;
+    Ok(number.map(|Whole(number)| number))
+}
+
+/// Reads a list of numbers.
+pub(super) fn list<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+    from: D,
+) -> Result<Vec<T>, D::Error> {
+    let numbers = Vec::<Whole<T>>::deserialize(from)?.into_iter();
+    Ok(numbers.map(|Whole(number)| number).collect())
+}
+
+struct Whole<T>(T);
+
+impl<'de, T: TryFrom<u64>> Deserialize<'de> for Whole<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(Number(PhantomData))
+    }
+}
+
+struct Number<T>(PhantomData<T>);
+
+/// The first number that f64 does not tell from its neighbours.
+const FIRST_INEXACT: f64 = (1_u64 << 53) as f64;
+
+impl<T: TryFrom<u64>> Visitor<'_> for Number<T> {
+    type Value = Whole<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a whole number from 0 on")
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<Self::Value, E> {
+        let unexpected = |_| E::invalid_value(Unexpected::Unsigned(number), &self);
+        T::try_from(number).map(Whole).map_err(unexpected)
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Self::Value, E> {
+        Err(E::invalid_value(Unexpected::Signed(number), &self))
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
+        match number.fract() == 0.0 && (0.0..FIRST_INEXACT).contains(&number) {
+            true => self.visit_u64(number as u64),
+            false => Err(E::invalid_value(Unexpected::Float(number), &self)),
+        }
+    }
+}

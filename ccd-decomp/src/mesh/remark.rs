@@ -1,0 +1,85 @@
+//! Remarks of readers: what they passed over, or did not take as it stands.
+
+use super::error::Quote;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What a reader passed over in a file, or did not take as it stands: kinds of elements, and how many there were of each.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Remarks(Vec<Remark>);
+
+/// One kind of elements.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Remark {
+    /// The elements, and what became of them, such as `lines passed over`.
+    pub what: String,
+    /// Their number.
+    pub count: usize,
+    /// The line of the first one, in a text.
+    pub line: Option<usize>,
+}
+
+/// The most kinds that are told apart: a report that names more becomes a list nobody reads.
+const KINDS: usize = 8;
+
+impl Remarks {
+    /// The remarks, in the order in which they were first made.
+    pub fn iter(&self) -> std::slice::Iter<'_, Remark> {
+        self.0.iter()
+    }
+
+    /// Returns whether the whole file was read as it stands.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Adds elements of a kind.
+    pub(crate) fn add(&mut self, what: &str, count: usize, line: Option<usize>) {
+        let full = self.0.len() >= KINDS;
+        match self.0.iter_mut().find(|remark| remark.what == what) {
+            Some(remark) => remark.count += count,
+            None if full && what != OTHERS => self.add(OTHERS, count, line),
+            None => self.0.push(Remark {
+                what: what.to_owned(),
+                count,
+                line,
+            }),
+        }
+    }
+
+    /// Adds a kind that the file has a name for.
+    pub(crate) fn add_named(&mut self, kind: &str, name: &str, count: usize, line: Option<usize>) {
+        let what = format!("{kind} {:?} passed over", Quote(name));
+        self.add(&what, count, line);
+    }
+
+    /// Adds the remarks about another file.
+    pub(crate) fn append(&mut self, other: &Self) {
+        for Remark { what, count, .. } in other.iter() {
+            self.add(what, *count, None);
+        }
+    }
+}
+
+/// The kind of what is beyond [`KINDS`].
+const OTHERS: &str = "others passed over";
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.what, self.count)?;
+        match (self.line, self.count) {
+            (None, _) => Ok(()),
+            (Some(line), 1) => write!(f, " (line {line})"),
+            (Some(line), _) => write!(f, " (from line {line} on)"),
+        }
+    }
+}
+
+impl fmt::Display for Remarks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, remark) in self.iter().enumerate() {
+            write!(f, "{}{remark}", if k == 0 { "" } else { "; " })?;
+        }
+        Ok(())
+    }
+}

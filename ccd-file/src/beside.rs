@@ -1,0 +1,86 @@
+//! A file beside the one that it becomes.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A file with a temporary name of its own; it is removed unless it is placed.
+pub(crate) struct Beside {
+    pub(crate) file: File,
+    part: Option<PathBuf>,
+    target: PathBuf,
+}
+
+impl Beside {
+    /// Creates a file beside another, with a name that nothing has: threads and processes may write side by side.
+    pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        loop {
+            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            let part = sibling(&target, &format!(".{}-{count}.part", std::process::id()));
+            match File::create_new(&part) {
+                // Left behind by a process of the same number.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(naming(&part, &error)),
+                Ok(file) => {
+                    let part = Some(part);
+                    return Ok(Beside { file, part, target });
+                }
+            }
+        }
+    }
+
+    /// Puts the complete file in its place.
+    pub(crate) fn place(mut self) -> io::Result<()> {
+        if let Some(part) = &self.part {
+            place(&self.file, part, &self.target)?;
+            self.part = None;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        if let Some(part) = &self.part {
+            // What stays behind does no harm.
+            let _ = fs::remove_file(part);
+        }
+    }
+}
+
+/// Writes to a file or a stream through a buffer.
+pub(crate) fn buffered(
+    to: impl Write,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffer = BufWriter::new(to);
+    let filled = fill(&mut buffer).and_then(|()| buffer.flush());
+    // What is left of a failed write is not written on.
+    drop(buffer.into_parts());
+    filled
+}
+
+/// Gives a complete file its final name, once all of it is on the disk.
+pub(crate) fn place(file: &File, part: &Path, target: &Path) -> io::Result<()> {
+    if let Ok(there) = fs::metadata(target) {
+        // Some file systems have no permissions to set.
+        let _ = file.set_permissions(there.permissions());
+    }
+    // Some file systems find out only here that the disk is full.
+    file.sync_all()?;
+    fs::rename(part, target)
+}
+
+/// Returns the path of a file in the same folder, whose name has one more ending.
+pub(crate) fn sibling(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(ending);
+    path.with_file_name(name)
+}
+
+/// Names the file that an error is about, which is not the one that was asked for.
+pub(crate) fn naming(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,98 @@
+//! Where output goes: to a file, which can be replaced, or to a stream.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What an output path leads to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Destination {
+    /// A regular file, or none yet: its path without links at its end.
+    File(PathBuf),
+    /// A pipe, a terminal, a device, or an open file of this process such as `/dev/stdout`.
+    Stream,
+}
+
+/// The most links that are followed, as on Linux.
+const MOST_LINKS: usize = 40;
+
+impl Destination {
+    /// Finds out where a path leads to, and whether a file may be written there.
+    ///
+    /// # Errors
+    /// The path is that of a folder, of a file that must not be written, or of one in a folder that does not exist.
+    pub fn of(path: &Path) -> io::Result<Self> {
+        match fs::metadata(path) {
+            Ok(there) if there.is_dir() => {
+                let problem = "it is a folder; give a file name";
+                Err(io::Error::new(io::ErrorKind::IsADirectory, problem))
+            }
+            Ok(there) if !there.is_file() || is_open_file(path) => Ok(Destination::Stream),
+            Ok(_) => {
+                // A file that must not be written must not be replaced either.
+                File::options().write(true).open(path)?;
+                Ok(Destination::File(fs::canonicalize(path)?))
+            }
+            Err(_) => {
+                let target = end_of_links(path)?;
+                check_folder(&target)?;
+                if target.file_name().is_none() {
+                    let problem = "it is not a file name";
+                    return Err(io::Error::new(io::ErrorKind::InvalidFilename, problem));
+                }
+                Ok(Destination::File(target))
+            }
+        }
+    }
+}
+
+/// Checks that the folder of a new file exists.
+///
+/// # Errors
+/// It does not, or is no folder.
+pub fn check_folder(path: &Path) -> io::Result<()> {
+    let folder = path.parent().filter(|folder| *folder != "");
+    let Some(folder) = folder else {
+        return Ok(());
+    };
+    let (kind, problem) = match fs::metadata(folder) {
+        Ok(there) if there.is_dir() => return Ok(()),
+        Ok(_) => (io::ErrorKind::NotADirectory, "is not a folder"),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => (
+            error.kind(),
+            "is a folder that does not exist; create it first",
+        ),
+        Err(error) => return Err(error),
+    };
+    Err(io::Error::new(
+        kind,
+        format!("{} {problem}", folder.display()),
+    ))
+}
+
+/// Opens a stream. What an open file of this process holds already stays.
+pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
+    File::options().append(true).open(path)
+}
+
+/// Returns whether a path is a name of an open file: replacing the file would not reach who has it open.
+fn is_open_file(path: &Path) -> bool {
+    let named = ["/dev/stdout", "/dev/stderr"];
+    let in_proc = || path.starts_with("/proc") && path.parent().is_some_and(|p| p.ends_with("fd"));
+    named.iter().any(|name| path == Path::new(name)) || path.starts_with("/dev/fd") || in_proc()
+}
+
+/// Follows the links at the end of a path, also where no file is there yet.
+///
+/// # Errors
+/// The links lead to each other.
+pub fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&target) {
+            Ok(next) => target = target.parent().unwrap_or(Path::new("")).join(next),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(io::Error::other("it is a link that leads to itself"))
+}

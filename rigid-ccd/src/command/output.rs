@@ -1,0 +1,107 @@
+//! Outputs: files, each claimed for this process and written beside its name, or streams.
+
+use ccd_file::{Claim, Destination};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// An output that cannot be written; the input is not at fault.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {place}: {source}")]
+pub struct CannotWrite {
+    /// The file or stream.
+    pub place: String,
+    /// The reason.
+    pub source: io::Error,
+}
+
+impl CannotWrite {
+    pub(super) fn at(path: &Path, source: io::Error) -> Self {
+        let place = output_name(path);
+        CannotWrite { place, source }
+    }
+}
+
+/// The ending of the name of a query's journal, which is beside its results.
+pub(super) const RESUME: &str = ".resume";
+
+/// An output before it is written.
+pub(super) enum Output {
+    /// A file, by the path that was given, which other processes cannot claim meanwhile. An older file of its name is kept until it is complete.
+    File(Claim, PathBuf),
+    /// Standard output, a pipe, a terminal or a device.
+    Stream(PathBuf),
+}
+
+impl Output {
+    /// Claims an output: what takes long is not done for a file that cannot be written, or that another run writes.
+    pub(super) fn claim(path: &Path) -> Result<Self, CannotWrite> {
+        let claim = || {
+            if is_standard_output(path) {
+                return Ok(Output::Stream(path.to_owned()));
+            }
+            Ok(match Destination::of(path)? {
+                Destination::File(target) => Output::File(Claim::new(target)?, path.to_owned()),
+                Destination::Stream => Output::Stream(path.to_owned()),
+            })
+        };
+        claim().map_err(|source| CannotWrite::at(path, source))
+    }
+
+    /// Claims an output for a table that is not that of a query's results, which would be lost.
+    pub(super) fn claim_table(path: &Path) -> Result<Self, CannotWrite> {
+        let output = Output::claim(path)?;
+        match &output {
+            Output::File(claim, _) if claim.left() > 0 && claim.sibling(RESUME).exists() => {
+                let problem = format!(
+                    "{} has rows of an interrupted query; continue that with --resume, or delete the file",
+                    claim.partial().display()
+                );
+                let source = io::Error::new(io::ErrorKind::ResourceBusy, problem);
+                Err(CannotWrite::at(path, source))
+            }
+            _ => Ok(output),
+        }
+    }
+
+    /// The name for messages.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Output::File(_, path) | Output::Stream(path) => output_name(path),
+        }
+    }
+
+    pub(super) fn is_stream(&self) -> bool {
+        matches!(self, Output::Stream(_))
+    }
+
+    /// Writes all of it in one go.
+    pub(super) fn write(
+        self,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), CannotWrite> {
+        let place = self.name();
+        let written = match self {
+            Output::File(claim, _) => claim.write(fill),
+            Output::Stream(path) if is_standard_output(&path) => fill(&mut io::stdout().lock()),
+            Output::Stream(path) => ccd_file::write(path, fill),
+        };
+        written.map_err(|source| CannotWrite { place, source })
+    }
+}
+
+/// Returns whether a path stands for standard output, whatever that is: a file behind it is not replaced.
+pub(super) fn is_standard_output(path: &Path) -> bool {
+    is_standard(path) || path == Path::new("/dev/stdout")
+}
+
+/// Returns whether a path stands for a standard stream.
+pub(super) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+fn output_name(path: &Path) -> String {
+    match is_standard_output(path) {
+        true => "standard output".to_owned(),
+        false => path.display().to_string(),
+    }
+}

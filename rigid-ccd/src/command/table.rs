@@ -1,0 +1,191 @@
+//! Tables written row by row.
+
+use super::output::{CannotWrite, Output, is_standard_output};
+use ccd_file::Claim;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, Read, Seek, Write};
+use std::path::Path;
+
+/// A table that is written row by row.
+///
+/// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
+/// name ends in `.partial`, and which stays if the run is interrupted. A stream is written directly.
+pub struct Table {
+    name: String,
+    writer: csv::Writer<Measured>,
+    claim: Option<Claim>,
+}
+
+/// What has been written: its length in bytes, and its checksum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Written {
+    pub(super) bytes: u64,
+    pub(super) checksum: u32,
+}
+
+/// A writer that measures what it writes.
+pub struct Measured {
+    to: Box<dyn Write>,
+    bytes: u64,
+    checksum: crc32fast::Hasher,
+}
+
+impl Table {
+    /// Creates a table with its header; an existing file of that name is kept until the table is complete.
+    pub fn create(path: &Path, header: &[&str]) -> Result<Self, CannotWrite> {
+        Table::start(Output::claim_table(path)?, header)
+    }
+
+    /// Starts a table in an output, whatever an earlier run left there.
+    pub(super) fn start(output: Output, header: &[&str]) -> Result<Self, CannotWrite> {
+        let name = output.name();
+        let opened = match output {
+            Output::File(mut claim, _) => claim
+                .cut(0)
+                .and_then(|()| file_of(&mut claim))
+                .map(|to| (to, Some(claim))),
+            Output::Stream(path) if is_standard_output(&path) => {
+                Ok((Box::new(io::stdout().lock()) as Box<dyn Write>, None))
+            }
+            Output::Stream(path) => {
+                let file = File::options().append(true).open(path);
+                file.map(|file| (Box::new(file) as Box<dyn Write>, None))
+            }
+        };
+        let (to, claim) = opened.map_err(|source| CannotWrite {
+            place: name.clone(),
+            source,
+        })?;
+        let measured = Measured {
+            to,
+            bytes: 0,
+            checksum: crc32fast::Hasher::new(),
+        };
+        let mut table = Table::new(name, measured, claim);
+        table.write(|writer| writer.write_record(header))?;
+        Ok(table)
+    }
+
+    /// Continues a table behind what is written of it, and drops the rest. Returns none if that is not there any more
+    /// as it was written.
+    pub(super) fn resume(mut claim: Claim, written: Written) -> Result<Option<Self>, CannotWrite> {
+        let name = claim.target().display().to_string();
+        let opened = (|| {
+            claim.file().rewind()?;
+            let (found, checksum) = measure(claim.file(), written.bytes)?;
+            if found != written {
+                return Ok(None);
+            }
+            claim.cut(written.bytes)?;
+            let to = file_of(&mut claim)?;
+            Ok(Some(Measured {
+                to,
+                bytes: written.bytes,
+                checksum,
+            }))
+        })();
+        match opened {
+            Ok(measured) => Ok(measured.map(|measured| Table::new(name, measured, Some(claim)))),
+            Err(source) => Err(CannotWrite {
+                place: name,
+                source,
+            }),
+        }
+    }
+
+    fn new(name: String, measured: Measured, claim: Option<Claim>) -> Self {
+        let mut builder = csv::WriterBuilder::new();
+        let builder = builder.has_headers(false).buffer_capacity(1 << 16);
+        Table {
+            name,
+            writer: builder.from_writer(measured),
+            claim,
+        }
+    }
+
+    /// Adds a row.
+    pub fn write(
+        &mut self,
+        row: impl FnOnce(&mut csv::Writer<Measured>) -> Result<(), csv::Error>,
+    ) -> Result<(), CannotWrite> {
+        row(&mut self.writer).map_err(|error| self.failed(csv_cause(error)))
+    }
+
+    /// Flushes all rows, which are kept from then on if the run is interrupted.
+    pub fn flush(&mut self) -> Result<(), CannotWrite> {
+        self.written().map(|_| ())
+    }
+
+    /// Flushes all rows, and returns what there is of the table.
+    pub(super) fn written(&mut self) -> Result<Written, CannotWrite> {
+        let flushed = self.writer.flush();
+        flushed.map_err(|source| self.failed(source))?;
+        if let Some(claim) = &mut self.claim {
+            claim.keep();
+        }
+        let Measured {
+            bytes, checksum, ..
+        } = self.writer.get_ref();
+        Ok(Written {
+            bytes: *bytes,
+            checksum: checksum.clone().finalize(),
+        })
+    }
+
+    /// Gives the file its final name.
+    pub fn finish(mut self) -> Result<(), CannotWrite> {
+        self.flush()?;
+        match self.claim.take().map_or(Ok(()), Claim::place) {
+            Ok(()) => Ok(()),
+            Err(source) => Err(self.failed(source)),
+        }
+    }
+
+    fn failed(&self, source: io::Error) -> CannotWrite {
+        CannotWrite {
+            place: self.name.clone(),
+            source,
+        }
+    }
+}
+
+impl Write for Measured {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.to.write(bytes)?;
+        self.bytes += written as u64;
+        self.checksum.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
+
+fn file_of(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
+    Ok(Box::new(claim.file().try_clone()?))
+}
+
+/// Measures the first bytes of a table, or all of a shorter one.
+pub(super) fn measure(table: impl Read, bytes: u64) -> io::Result<(Written, crc32fast::Hasher)> {
+    let mut measured = Measured {
+        to: Box::new(io::sink()),
+        bytes: 0,
+        checksum: crc32fast::Hasher::new(),
+    };
+    io::copy(&mut table.take(bytes), &mut measured)?;
+    let checksum = measured.checksum;
+    let written = Written {
+        bytes: measured.bytes,
+        checksum: checksum.clone().finalize(),
+    };
+    Ok((written, checksum))
+}
+
+fn csv_cause(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
