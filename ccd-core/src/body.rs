@@ -16,6 +16,7 @@ pub(crate) mod round;
 pub(crate) mod shell;
 mod side_table;
 pub(crate) mod support;
+mod surroundings;
 mod threads;
 pub(crate) mod tree;
 

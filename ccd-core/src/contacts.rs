@@ -8,6 +8,7 @@ mod manifold;
 mod measure;
 mod near;
 mod skin;
+mod surface;
 
 use crate::motion::pose::Frame;
 use crate::problem::Problem;

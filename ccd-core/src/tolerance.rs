@@ -295,6 +295,25 @@ pub const RESTING: f64 = 4.0;
 /// again, and a slowly approaching pair would be looked at a million times before it is in contact.
 pub const RESTED: f64 = 1.0 / 16.0;
 
+/// The height up to which the surface around a point counts as level, in units of the distance's rounding: one for
+/// the point, and one for the corners around it.
+pub const LEVEL: f64 = 2.0;
+
+/// The distance up to which faces are around a point, in units of the distance's rounding: faces across an edge on
+/// which the point is, and whatever bridges cracks.
+pub const AROUND: f64 = 256.0;
+
+/// Returns whether rounding may turn the direction between two points by more than a millionth of a radian: it is no
+/// normal then. Directions that are more exact are kept to the bit.
+pub fn is_blurred(distance: f64, rounding: f64) -> bool {
+    // Written so that NaN is.
+    !(1e-6 * distance > rounding)
+}
+
+/// The least part of a unit vector across others whose direction counts. Rounding turns it by the inverse of the
+/// part, in units of [`U64`].
+pub const LEAST_SHARE: f64 = 1e-6;
+
 /// The distance of two nodes, in units of their radii, beyond which a second look at them is worth
 /// more than a split. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A
 /// smaller value makes large nodes creep past each other, a larger one splits nodes that only pass.

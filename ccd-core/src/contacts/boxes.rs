@@ -59,6 +59,44 @@ impl NearFaces {
     }
 }
 
+/// A tree over all faces of a skin.
+pub(super) struct FaceTree(FaceTrees);
+
+impl FaceTree {
+    pub(super) fn over(skin: &Skin<'_>) -> Self {
+        let mut faces: Vec<Boxed> = skin
+            .all_faces()
+            .map(|face| Boxed::new(skin, face))
+            .collect();
+        let mut tree = FaceTrees::new();
+        tree.add(&mut faces);
+        FaceTree(tree)
+    }
+
+    /// Returns the faces with boxes within `reach` of a point.
+    pub(super) fn near(&self, at: DVec3, reach: f64) -> Vec<u32> {
+        let point = Boxed {
+            low: at,
+            high: at,
+            below: Below::Face(0),
+        };
+        let mut near = Vec::new();
+        let mut stack: Vec<u32> = (!self.0.nodes.is_empty())
+            .then_some(0)
+            .into_iter()
+            .collect();
+        while let Some(id) = stack.pop() {
+            let node = self.0.get(id);
+            match node.below {
+                _ if node.apart(&point, reach) => {}
+                Below::Face(face) => near.push(face),
+                Below::Halves(right) => stack.extend([right, id + 1]),
+            }
+        }
+        near
+    }
+}
+
 impl FaceTrees {
     pub(super) fn new() -> Self {
         FaceTrees {

@@ -5,9 +5,11 @@ use super::closest::{Part, crossing, on_triangle};
 use super::feature_pair::FeaturePair;
 use super::measure::measure;
 use super::skin::{Skin, Spot, edge};
+use super::surface::Surface;
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use glam::DVec3;
+use std::cell::LazyCell;
 use std::collections::{HashMap, HashSet};
 
 /// All features found in contact, by the corner, edge or face on each body.
@@ -88,12 +90,14 @@ impl<'a> Manifold<'a> {
             }
             keep_nearest(&mut told, spots, candidate);
         }
-        let mut pairs: Vec<FeaturePair> = sorted(&told)
+        let surfaces = LazyCell::new(|| self.skins.map(Surface::new));
+        let common_normals =
+            |points| Surface::common_normals(&surfaces, points, self.problem.rounding);
+        let told = sorted(&told);
+        let measured = told
             .iter()
-            .map(|(spots, candidate)| {
-                measure(self.problem, self.skins, a_to_world, spots, candidate)
-            })
-            .collect();
+            .map(|found| measure(self.problem, self.skins, a_to_world, found, common_normals));
+        let mut pairs: Vec<FeaturePair> = measured.collect();
         pairs.sort_by(|one, other| {
             let names = |pair: &FeaturePair| (pair.feature_a, pair.feature_b);
             let upper = |pair: &FeaturePair| pair.separation.upper;

@@ -3,15 +3,21 @@
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
 use super::skin::{Skin, Spot};
+use crate::distance::common_normals::CommonNormals;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{self, normal, unit};
 use crate::motion::pose::Frame;
 use crate::outcome::Separation;
 use crate::problem::Problem;
+use crate::tolerance::is_blurred;
 use glam::DVec3;
 
+/// A spot of A and one of B.
+pub(super) type Spots = [Spot; 2];
+
 /// Bounds the distance of two features with known nearest points, in the world's coordinates;
-/// `a_to_world` is A's frame, relative to the problem's origin.
+/// `a_to_world` is A's frame, relative to the problem's origin. The `common_normals` of both surfaces at two points are
+/// asked for where the points are too near for a direction.
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper` for any points: the gap of the features' corners along any axis
@@ -20,8 +26,8 @@ pub(super) fn measure(
     problem: &Problem<'_>,
     skins: [&Skin<'_>; 2],
     a_to_world: &Frame,
-    spots: &[Spot; 2],
-    candidate: &Candidate,
+    (spots, candidate): &(Spots, Candidate),
+    common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
 ) -> FeaturePair {
     let face = |k: usize| skins[k].face(candidate.faces[k]);
     let points = [0, 1].map(|k| skins[k].points(spots[k], candidate.faces[k]));
@@ -41,6 +47,11 @@ pub(super) fn measure(
         if gap(&points, across) > gap(&points, normal) {
             normal = across;
         }
+    }
+    if is_blurred(distance, problem.rounding)
+        && let Some(common) = common_normals(candidate.points).along(normal, b - a)
+    {
+        normal = common;
     }
     let way = unit(b - a).unwrap_or(normal);
     let world = |x: DVec3| problem.world(a_to_world.point(x));

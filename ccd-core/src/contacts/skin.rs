@@ -170,6 +170,28 @@ impl<'a> Skin<'a> {
         }
     }
 
+    pub(super) fn all_faces(&self) -> Range<u32> {
+        0..self.faces.len() as u32
+    }
+
+    /// Calls `look` with the corners of a face, or all points of its piece if that has no facets, and with a point of
+    /// the solid below it.
+    pub(super) fn for_ends_around(&self, face: u32, look: impl FnMut(DVec3)) {
+        let index = self.face(face).piece;
+        let piece = self.body.pieces().get(index as usize);
+        let corners = self.triangle(face);
+        let points = match piece.facets.is_empty() {
+            true => piece.points,
+            false => &[],
+        };
+        let inside = self.body.point_inside(index);
+        let placed = points
+            .iter()
+            .chain(&inside)
+            .map(|&point| self.to_a.point(point));
+        corners.into_iter().chain(placed).for_each(look);
+    }
+
     /// Returns the middle of a piece's points.
     pub(super) fn middle(&self, piece: u32) -> DVec3 {
         let points = self.body.pieces().get(piece as usize).points;

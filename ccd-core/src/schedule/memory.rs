@@ -2,6 +2,7 @@
 
 use super::nearest::Lists;
 use super::nodes::screw::Profiles;
+use crate::distance::common_normals::CommonNormals;
 use crate::distance::overlap::Inner;
 
 /// The lists, made when they are first needed.
@@ -14,6 +15,8 @@ pub(crate) struct Memory {
     pub(crate) nearest: Lists,
     /// Of the decision whether two pieces intersect.
     pub(crate) inner: Inner,
+    /// Of the surfaces around two points.
+    pub(crate) normals: CommonNormals,
     /// Of the look along a screw.
     pub(crate) profiles: Profiles,
 }

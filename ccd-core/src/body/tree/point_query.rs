@@ -5,14 +5,52 @@ use super::{Below, Tree};
 use crate::body::pieces::Pieces;
 use crate::tolerance::SIGN_F64;
 use glam::DVec3;
+use std::ops::Range;
 
 /// Returns the pieces that are no triangles and whose boxes contain a point, or nearly.
 pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
+    leaves_near(tree, point, 0.0).filter_map(|leaf| match leaf {
+        Leaf::Piece(piece) => Some(piece),
+        Leaf::Triangles(_) => None,
+    })
+}
+
+/// Returns the pieces whose boxes are within about `reach` of a point; of triangles, all that share such a box.
+pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = u32> {
+    leaves_near(tree, point, reach).flat_map(|leaf| match leaf {
+        Leaf::Piece(piece) => piece..piece + 1,
+        Leaf::Triangles(triangles) => triangles,
+    })
+}
+
+/// Returns whether a point is certainly farther than `reach` from the surface: from the triangles,
+/// or the mesh's faces on the pieces.
+pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
+    leaves_near(tree, point, reach).all(|leaf| match leaf {
+        Leaf::Triangles(mut triangles) => {
+            triangles.all(|piece| is_past(pieces.triangle(piece as usize), point, reach))
+        }
+        Leaf::Piece(piece) => pieces
+            .get(piece as usize)
+            .mesh_triangles()
+            .all(|(_, triangle)| is_past(triangle, point, reach)),
+    })
+}
+
+/// What is at the end of a way down the tree.
+enum Leaf {
+    Piece(u32),
+    /// Some triangles, by the indices of their pieces.
+    Triangles(Range<u32>),
+}
+
+/// Returns the leaves whose boxes are within about `reach` of a point.
+fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Leaf> {
     let mut stack = Waiting::root();
     std::iter::from_fn(move || {
         while let Some(id) = stack.pop() {
             let node = &tree.nodes[id as usize];
-            if !node.holds(point, 0.0) {
+            if !node.holds(point, reach) {
                 continue;
             }
             match node.below {
@@ -20,50 +58,21 @@ pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> 
                     let members = &tree.boxes[group as usize].members;
                     stack.extend(members.first..members.first + members.count);
                 }
-                Below::Piece(piece) => return Some(piece),
-                Below::Triangles(_) => {}
+                Below::Piece(piece) => return Some(Leaf::Piece(piece)),
+                Below::Triangles(group) => {
+                    let members = tree.triangle_members(group);
+                    let first = members.first - tree.nodes.len() as u32;
+                    return Some(Leaf::Triangles(first..first + members.count));
+                }
             }
         }
         None
     })
 }
 
-/// Returns whether a point is certainly farther than `reach` from the surface: from the triangles,
-/// or the mesh's faces on the pieces.
-pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
-    let mut stack = Waiting::root();
-    while let Some(id) = stack.pop() {
-        let node = &tree.nodes[id as usize];
-        if !node.holds(point, reach) {
-            continue;
-        }
-        let clear = match node.below {
-            Below::Boxes(group) => {
-                let members = &tree.boxes[group as usize].members;
-                stack.extend(members.first..members.first + members.count);
-                true
-            }
-            Below::Triangles(group) => {
-                let members = tree.triangle_members(group);
-                let first = members.first as usize - tree.nodes.len();
-                (first..first + members.count as usize)
-                    .all(|piece| is_past(pieces.triangle(piece), point, reach))
-            }
-            Below::Piece(piece) => pieces
-                .get(piece as usize)
-                .mesh_triangles()
-                .all(|(_, triangle)| is_past(triangle, point, reach)),
-        };
-        if !clear {
-            return false;
-        }
-    }
-    true
-}
-
 /// Returns whether an axis shows that a point is farther than `reach` from a triangle: the normal
 /// of its plane, or the direction from an edge or a corner.
-fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
+pub(crate) fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();
     let separates = |axis: DVec3| {

@@ -2,11 +2,15 @@
 
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
-use crate::outcome::{Contact, Outcome, Overlap};
+use crate::math::order::lesser;
+use crate::math::vector::{distance, unit};
+use crate::outcome::{Contact, Outcome, Overlap, Separation};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
+use crate::schedule::pieces::meeting::Meeting;
 use crate::schedule::pieces::pair;
 use crate::schedule::pieces::snapshot::Snapshot;
+use crate::tolerance::{RESTING, is_blurred};
 
 /// Returns the outcome for the given bodies. The normal, the witnesses and the bounds of a contact
 /// are those of the pieces that it names.
@@ -46,9 +50,56 @@ pub(in crate::schedule) fn contact_of_given<O: DistanceOracle>(
     within: f64,
     time: f64,
 ) -> Contact {
+    let s = problem.clock(time);
     match problem.given() {
-        Some(given) => of_pieces(&given, oracle, meter, contact, within, given.clock(time)),
-        None => contact,
+        Some(given) => {
+            let contact = of_pieces(&given, oracle, meter, contact, within, s);
+            along_common_normal(&given, meter, contact, s)
+        }
+        None => along_common_normal(problem, meter, contact, s),
+    }
+}
+
+/// Returns the contact along a common normal of both surfaces, where its own normal is mostly rounding: pieces that
+/// touch may do so in directions in which the rest of the surfaces does not.
+fn along_common_normal(
+    problem: &Problem<'_>,
+    meter: &mut Meter,
+    contact: Contact,
+    s: f64,
+) -> Contact {
+    let Separation {
+        lower,
+        normal,
+        witness_a,
+        witness_b,
+        ..
+    } = contact.separation;
+    // Pieces that overlap have no direction between them. Written so that NaN is an overlap.
+    let touches = lower >= -RESTING * problem.rounding;
+    if !(touches && is_blurred(distance(witness_a, witness_b), problem.rounding)) {
+        return contact;
+    }
+    let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, s);
+    let pieces = &snapshot.pieces;
+    // The cores of rounded pieces are apart.
+    if pieces.a.radius + pieces.b.radius > 0.0 {
+        return contact;
+    }
+    let [frame, _] = &snapshot.frames;
+    let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.local(at)));
+    let meeting = Meeting::at(&snapshot, points, meter);
+    let Some(axis) = meeting.normal(frame.inverse_vector(normal)) else {
+        return contact;
+    };
+    let gap = support_gap(pieces, axis, points[0]) - problem.rounding;
+    Contact {
+        separation: Separation {
+            lower: lesser(lower, gap),
+            normal: unit(frame.rotation * axis).unwrap_or(normal),
+            ..contact.separation
+        },
+        ..contact
     }
 }
 

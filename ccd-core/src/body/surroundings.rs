@@ -1,0 +1,58 @@
+//! The surface around one of its points.
+
+use super::Body;
+use super::piece::Piece;
+use super::tree::point_query::{is_past, pieces_near};
+use glam::DVec3;
+
+impl Body {
+    /// Calls `add` with the ways of the surface around a point of it, in the body's frame: the vectors to the corners
+    /// of all faces that are nearer than about `reach`, to the points of pieces without known faces, and into the
+    /// solid.
+    ///
+    /// # Complexity
+    /// Linear in the faces of the pieces that are so near.
+    pub(crate) fn ways_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+        for k in pieces_near(self.tree(), at, reach) {
+            let piece = self.pieces().get(k as usize);
+            let mut is_near = false;
+            for_each_face(&piece, |face| {
+                let near = match *face {
+                    [a] => !is_past([a; 3], at, reach),
+                    [a, b] => !is_past([a, b, b], at, reach),
+                    [a, b, c] => !is_past([a, b, c], at, reach),
+                    // Its box is.
+                    _ => true,
+                };
+                if near {
+                    is_near = true;
+                    face.iter().for_each(|&corner| add(corner - at));
+                }
+            });
+            if let Some(inside) = self.point_inside(k).filter(|_| is_near) {
+                add(inside - at);
+            }
+        }
+    }
+}
+
+/// Calls `look` with the mesh's triangles on a piece. If there are none, calls it with those of its facets, or with all
+/// its points.
+fn for_each_face(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
+    let mut is_on_mesh = false;
+    for (_, triangle) in piece.mesh_triangles() {
+        is_on_mesh = true;
+        look(&triangle);
+    }
+    if is_on_mesh {
+        return;
+    }
+    for corners in piece.facets.iter() {
+        for k in 2..corners.len() {
+            look(&[0, k - 1, k].map(|k| piece.points[corners[k] as usize]));
+        }
+    }
+    if piece.facets.is_empty() {
+        look(piece.points);
+    }
+}

@@ -1,0 +1,49 @@
+//! The surface of a body around its points, by a tree over all faces of its skin.
+
+use super::boxes::FaceTree;
+use super::closest::on_triangle;
+use super::skin::Skin;
+use crate::distance::common_normals::CommonNormals;
+use crate::tolerance::{AROUND, LEVEL};
+use glam::DVec3;
+
+/// The unpacked part of a body's surface, ready for points on it.
+pub(super) struct Surface<'a> {
+    skin: &'a Skin<'a>,
+    tree: FaceTree,
+}
+
+impl<'a> Surface<'a> {
+    pub(super) fn new(skin: &'a Skin<'a>) -> Self {
+        Surface {
+            skin,
+            tree: FaceTree::over(skin),
+        }
+    }
+
+    /// Returns the common normals of two surfaces at a point of each, in A's frame.
+    pub(super) fn common_normals(
+        surfaces: &[Surface<'_>; 2],
+        points: [DVec3; 2],
+        rounding: f64,
+    ) -> CommonNormals {
+        let reach = AROUND * rounding;
+        let mut normals = CommonNormals::default();
+        normals.begin(LEVEL * rounding);
+        surfaces[0].ways_around(points[0], reach, |way| normals.add_a(way));
+        surfaces[1].ways_around(points[1], reach, |way| normals.add_b(way));
+        normals.sort();
+        normals
+    }
+
+    /// Calls `add` with the vectors from a point to the corners of the faces around, and into the solid.
+    fn ways_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+        for face in self.tree.near(at, reach) {
+            let (_, nearest) = on_triangle(at, self.skin.triangle(face), 0.0);
+            // Written so that NaN is near.
+            if !(nearest.distance(at) > reach) {
+                self.skin.for_ends_around(face, |end| add(end - at));
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The directions along which two surfaces are apart at two of their points: the common normals of both.
+
+use crate::math::vector::{across, length, unit};
+use crate::tolerance::LEAST_SHARE;
+use glam::DVec3;
+
+/// The common normals of surfaces A and B at a point of each: the unit vectors `n` from A to B in the normal cone of A,
+/// with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes nearer around the two points.
+///
+/// Each surface is given by its ways: vectors from its point to the corners of the faces around. `n` is a common
+/// normal if no way of A rises along it, and none of B falls, by more than a slack.
+#[derive(Debug, Default)]
+pub(crate) struct CommonNormals {
+    /// The ways of A backwards, and those of B: none of them falls along a common normal.
+    ways: Vec<DVec3>,
+    /// The height by which ways may fall.
+    slack: f64,
+}
+
+impl CommonNormals {
+    /// Begins anew.
+    pub(crate) fn begin(&mut self, slack: f64) {
+        self.ways.clear();
+        self.ways.shrink_to(MOST_KEPT);
+        self.slack = slack;
+    }
+
+    /// Adds a way of A.
+    pub(crate) fn add_a(&mut self, way: DVec3) {
+        self.ways.push(-way);
+    }
+
+    /// Adds a way of B.
+    pub(crate) fn add_b(&mut self, way: DVec3) {
+        self.ways.push(way);
+    }
+
+    /// Sorts the ways once all are there. The longest are the most exact, and come first.
+    pub(crate) fn sort(&mut self) {
+        let length = |way: &DVec3| way.length_squared();
+        self.ways
+            .sort_unstable_by(|one, other| length(other).total_cmp(&length(one)));
+    }
+
+    /// Returns the common normal that is nearest to a direction, or one that is near it if there are several; none if
+    /// there is no common normal.
+    pub(crate) fn near(&self, towards: DVec3) -> Option<DVec3> {
+        let [x, y, z] = DVec3::AXES;
+        // If there is only one, one of these is less than 55 degrees from it.
+        let axes = [x, y, z, -x, -y, -z];
+        let nearer = |one: DVec3, other: DVec3| match other.dot(towards) > one.dot(towards) {
+            true => other,
+            false => one,
+        };
+        let others = || {
+            axes.into_iter()
+                .filter_map(|axis| self.nearest(axis))
+                .reduce(nearer)
+        };
+        self.nearest(towards).or_else(others)
+    }
+
+    /// Like [`CommonNormals::near`], if the way between the two points is along it, up to the slack.
+    pub(crate) fn along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
+        let n = self.near(towards)?;
+        let ahead = n.dot(between);
+        let aside = length(between - n * ahead);
+        // Written so that NaN is not along it.
+        (ahead >= -self.slack && aside <= self.slack).then_some(n)
+    }
+
+    /// Returns the unit vector along the projection of a direction on the cone: ways that it falls along become level
+    /// one by one, as in linear programs of few unknowns `[SEIDEL91]`. None if it is not distinctly less
+    /// than a right angle from the cone.
+    fn nearest(&self, towards: DVec3) -> Option<DVec3> {
+        let towards = unit(towards)?;
+        let mut best = towards;
+        for (k, way) in self.ways.iter().copied().enumerate() {
+            if self.falls(best, way) {
+                best = self.nearest_across(towards, way, k)?;
+            }
+        }
+        Some(best)
+    }
+
+    /// Like [`CommonNormals::nearest`], across a way and with regard to the first of the others only.
+    fn nearest_across(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
+        let level = unit(level)?;
+        let mut best = distinct(towards - level * level.dot(towards))?;
+        let before = || self.ways.iter().copied().take(count);
+        for (k, way) in before().enumerate() {
+            if self.falls(best, way) {
+                let line = unit(across(level, way))?;
+                best = distinct(line * line.dot(towards))?;
+                if before().take(k).any(|way| self.falls(best, way)) {
+                    return None;
+                }
+            }
+        }
+        Some(best)
+    }
+
+    fn falls(&self, n: DVec3, way: DVec3) -> bool {
+        // Written so that NaN falls.
+        !(n.dot(way) >= -self.slack)
+    }
+}
+
+/// The most ways for which the memory is kept.
+const MOST_KEPT: usize = 1 << 20;
+
+/// Returns the unit vector along a part of a unit vector that is more than rounding.
+fn distinct(part: DVec3) -> Option<DVec3> {
+    (length(part) > LEAST_SHARE).then(|| unit(part))?
+}
+
+#[cfg(test)]
+mod tests;

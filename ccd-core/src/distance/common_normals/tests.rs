@@ -1,0 +1,105 @@
+use super::*;
+use crate::math::order::greater;
+use crate::tests::scene::{Pcg64, RngExt, direction, rng, rotation, within};
+use glam::DQuat;
+
+const SLACK: f64 = 1e-13;
+
+fn common(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
+    let mut normals = CommonNormals::default();
+    normals.begin(SLACK);
+    a.iter().for_each(|&way| normals.add_a(way));
+    b.iter().for_each(|&way| normals.add_b(way));
+    normals.sort();
+    normals
+}
+
+/// The ways from a corner of a cube, which has its other corners on that side of it.
+fn corner(side: DVec3) -> Vec<DVec3> {
+    vec![side.x * DVec3::X, side.y * DVec3::Y, side.z * DVec3::Z]
+}
+
+fn turned(turn: DQuat, ways: &[DVec3]) -> Vec<DVec3> {
+    ways.iter().map(|&way| turn * way).collect()
+}
+
+/// The ways from a point within a side.
+fn level() -> Vec<DVec3> {
+    vec![DVec3::X, -DVec3::X, 0.1 * DVec3::Y, -3.0 * DVec3::Y]
+}
+
+#[test]
+fn cubes_that_stand_on_each_other_have_one_normal() {
+    let rng = &mut rng(81);
+    for _ in 0..200 {
+        let turn = rotation(rng);
+        let below = turned(turn, &corner(DVec3::new(1.0, 1.0, -1.0)));
+        let above = turned(turn, &corner(DVec3::new(1.0, 1.0, 1.0)));
+        let normals = common(&above, &below);
+        let expected = -(turn * DVec3::Z);
+        for towards in [direction(rng), expected, direction(rng)] {
+            // A direction away from it is turned, unless there is none but the opposite.
+            let found = normals.near(towards).unwrap();
+            assert!(found.distance(expected) < 1e-14, "{found} {expected}");
+        }
+        assert_eq!(normals.along(expected, 1e-12 * direction(rng)), None);
+        assert!(normals.along(expected, 1e-12 * expected).is_some());
+    }
+}
+
+/// Some ways within a cone about an axis, so that normals of both are the opposite.
+fn bundle(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
+    let count = rng.random_range(1..12);
+    let ways = (0..count).map(|_| (about + within(rng, 1.5)) * rng.random_range(0.01..10.0));
+    ways.collect()
+}
+
+/// The projection on a cone is the best of those on its sides and on the lines between them.
+#[test]
+fn the_nearest_normal_is_the_best_of_all_candidates() {
+    let rng = &mut rng(82);
+    let (mut some, mut none) = (0, 0);
+    for _ in 0..2000 {
+        let [a, b] = [-DVec3::Z, DVec3::Z].map(|about| bundle(rng, about));
+        let normals = common(&a, &b);
+        let towards = direction(rng);
+        let ways = normals.ways.clone();
+        let flat = |way: DVec3| towards.reject_from(way);
+        let line = |one: DVec3, other: DVec3| towards.project_onto(one.cross(other));
+        let lines = ways
+            .iter()
+            .flat_map(|&one| ways.iter().map(move |&other| line(one, other)));
+        let all = ways
+            .iter()
+            .map(|&way| flat(way))
+            .chain(lines)
+            .chain([towards]);
+        let good = all.filter(|n| {
+            n.is_finite() && ways.iter().all(|way| n.dot(*way) >= -1e-12 * way.length())
+        });
+        let best = good.map(|n| n.length()).fold(0.0, greater);
+        match normals.nearest(towards) {
+            Some(n) => {
+                assert!(
+                    (n.dot(towards) - best).abs() < 1e-9,
+                    "{} {best}",
+                    n.dot(towards)
+                );
+                assert!((n.length() - 1.0).abs() < 1e-15);
+                some += 1;
+            }
+            None => {
+                assert!(best < 1e-5, "{best}");
+                none += 1;
+            }
+        }
+    }
+    assert!(some > 300 && none > 300, "{some} {none}");
+}
+
+#[test]
+fn surfaces_that_enclose_each_other_have_no_common_normal() {
+    let normals = common(&level(), &[DVec3::Z, -DVec3::Z]);
+    assert_eq!(normals.near(DVec3::Z), None);
+    assert_eq!(common(&[DVec3::NAN], &[]).near(DVec3::X), None);
+}

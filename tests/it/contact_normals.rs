@@ -1,0 +1,294 @@
+//! The normal of a contact is in the normal cones of both surfaces, also where the bodies have no gap.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Config, Motion, Outcome, Pose, Separation};
+use ccd_tests::backends::{Backend, for_each_setup};
+use ccd_tests::models::{Mesh, Shape, cuboid, dented_cube, l_prism};
+use ccd_tests::query::{Actor, Query};
+use ccd_tests::referee::point_triangle;
+use ccd_tests::strategies::runner;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::f64::consts::TAU;
+
+/// The angle from the cone that rounding may leave: coordinates near 1, on faces of 0.3 and more.
+const FLUSH: f64 = 1e-12;
+
+/// The error of the direction between two points, times their distance. It is left in directions of longer ways.
+const BETWEEN: f64 = 4e-15;
+
+/// Ways from which on the direction between two points may be the normal.
+const WAY: f64 = 1e-8;
+
+const GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
+
+#[test]
+fn normals_are_in_the_cones_of_both_surfaces() {
+    let rng = &mut Pcg64::seed_from_u64(45);
+    let (mut checked, mut blurred) = ([0; 3], 0);
+    for round in 0..runner(150).config().cases {
+        let touch = Touch::draw(rng);
+        for bodies in touch.query.all_bodies() {
+            let problem = touch.query.problem(&bodies, &touch.config());
+            let pairs = problem.contacts_at(0.0).unwrap();
+            assert!(!pairs.is_empty(), "{round} {:?}", bodies.kinds);
+            for pair in &pairs {
+                if let Some(way) = touch.check(&pair.separation) {
+                    checked[touch.size_of_support] += 1;
+                    blurred += usize::from(way < WAY);
+                }
+            }
+            touch.check_answer(Backend::DEFAULT.solve(&problem).outcome);
+        }
+    }
+    assert!(
+        checked.iter().all(|&count| count > 100) && blurred > 1000,
+        "{checked:?} {blurred}"
+    );
+}
+
+/// Every backend finds the normal that the surfaces have, whatever axis its claim has.
+#[test]
+fn answers_of_all_backends_have_a_common_normal() {
+    let rng = &mut Pcg64::seed_from_u64(46);
+    for _ in 0..runner(25).config().cases {
+        let touch = Touch::draw(rng);
+        for_each_setup(&touch.query, &touch.config(), |_, _, answer| {
+            touch.check_answer(answer.outcome)
+        });
+    }
+}
+
+/// Two bodies at a gap along a direction that is in the normal cones of a feature of either.
+struct Touch {
+    query: Query,
+    gap: f64,
+    /// 0 for vertices, 1 for edges, 2 for faces: the larger one of both.
+    size_of_support: usize,
+}
+
+impl Touch {
+    fn draw(rng: &mut Pcg64) -> Self {
+        let shape_b = shape(rng);
+        let same = rng.random_bool(0.4);
+        let shape_a = if same { shape_b.clone() } else { shape(rng) };
+        let [a, b] = [&shape_a, &shape_b].map(|shape| Support::draw(rng, shape));
+        let gap = GAPS[rng.random_range(0..GAPS.len())];
+        let frame = match rng.random_bool(0.3) {
+            true => Pose::IDENTITY,
+            false => Pose::new(direction(rng), rotation(rng)).unwrap(),
+        };
+        // A's support meets B's from the other side; its edge is along B's, or anyhow.
+        let aligned = b.basis() * a.basis().conjugate();
+        let facing = DQuat::from_axis_angle(b.along, TAU / 2.0) * aligned;
+        let twist = match rng.random_range(0..3) {
+            0 => rng.random_range(0.0..TAU),
+            quarters => TAU / 4.0 * f64::from(quarters),
+        };
+        let turn = (DQuat::from_axis_angle(b.normal, twist) * facing).normalize();
+        let place = b.point + gap * b.normal - turn * a.point;
+        let start = frame_of(&frame, turn, place);
+        let still = |shape, pose| Actor {
+            shape,
+            motion: Motion::still(pose),
+        };
+        Touch {
+            query: Query {
+                a: still(shape_a, start),
+                b: still(shape_b, frame),
+                duration: 1.0,
+            },
+            gap,
+            size_of_support: a.size.max(b.size),
+        }
+    }
+
+    fn config(&self) -> Config {
+        Config {
+            tolerance: 2e-3,
+            ..Config::default()
+        }
+    }
+
+    fn check_answer(&self, outcome: Outcome) {
+        let Outcome::Touching { contact } = outcome else {
+            panic!("{outcome:?} at {}", self.gap);
+        };
+        // Of pieces that are as near, to a share of their distance, any is the answer.
+        let way = self.check(&contact.separation);
+        assert!(
+            way.is_some() || self.gap > 1e-9,
+            "{contact:?} at {}",
+            self.gap
+        );
+    }
+
+    /// Checks the normal at the nearest points of the bodies, and returns their distance. Features that are farther
+    /// apart have a normal of their own.
+    fn check(&self, separation: &Separation) -> Option<f64> {
+        let Separation {
+            normal,
+            witness_a,
+            witness_b,
+            ..
+        } = *separation;
+        let way = witness_a.distance(witness_b);
+        if way > self.gap + 1e-13 {
+            return None;
+        }
+        let allowed = match way < WAY {
+            true => FLUSH,
+            false => FLUSH + BETWEEN / way,
+        };
+        let off_a = off_cone(&self.query.a, witness_a, normal);
+        let off_b = off_cone(&self.query.b, witness_b, -normal);
+        assert!(
+            off_a <= allowed && off_b <= allowed,
+            "{off_a:e} {off_b:e} at {:e}: {separation:?}\n{:?}\n{:?}",
+            self.gap,
+            self.query.a,
+            self.query.b
+        );
+        Some(way)
+    }
+}
+
+/// Returns the sine of the largest angle by which a direction from a point is nearer to the surface there than a right
+/// angle: a normal of the surface is none.
+fn off_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
+    let mesh = &actor.shape.mesh;
+    let pose = actor.motion.start();
+    let placed = |p: DVec3| pose.transform_point(p);
+    let off = |p: DVec3| {
+        let way = p - at;
+        // A corner at the point itself has no direction.
+        if way.length() > 1e-4 {
+            n.dot(way) / way.length()
+        } else {
+            0.0
+        }
+    };
+    let largest =
+        |ways: &mut dyn Iterator<Item = DVec3>| ways.map(off).fold(0.0, ccd_core::order::greater);
+    if actor.shape.is_convex() {
+        return largest(&mut mesh.vertices.iter().map(|&p| placed(p)));
+    }
+    let triangles = (0..mesh.faces.len()).map(|face| mesh.triangle(face).map(placed));
+    let around = triangles.filter(|&triangle| point_triangle(at, triangle).distance(at) < 1e-9);
+    // The solid is below the middle of each face.
+    let ends = around.flat_map(|[a, b, c]| {
+        let inward = -(b - a).cross(c - a).normalize();
+        [a, b, c, (a + b + c) / 3.0 + 1e-3 * inward]
+    });
+    largest(&mut ends.collect::<Vec<_>>().into_iter())
+}
+
+/// A point of a shape beyond which nothing of it is along a direction.
+struct Support {
+    normal: DVec3,
+    point: DVec3,
+    /// A direction across the normal, along an edge if there is one.
+    along: DVec3,
+    size: usize,
+}
+
+impl Support {
+    fn draw(rng: &mut Pcg64, shape: &Shape) -> Self {
+        let mesh = &shape.mesh;
+        let normal = |face: usize| {
+            let [a, b, c] = mesh.triangle(face);
+            (b - a).cross(c - a).normalize()
+        };
+        let supports = |n: DVec3, p: DVec3| mesh.vertices.iter().all(|x| n.dot(x - p) < 1e-12);
+        let outer: Vec<usize> = (0..mesh.faces.len())
+            .filter(|&k| supports(normal(k), mesh.triangle(k)[0]))
+            .collect();
+        let face = outer[rng.random_range(0..outer.len())];
+        let [a, b, c] = mesh.triangle(face);
+        let share = [0.0, 1.0, 0.5, rng.random_range(0.1..0.9)][rng.random_range(0..4)];
+        let on_edge = a + share * (b - a);
+        let size = rng.random_range(0..3);
+        let [normal, point] = match size {
+            0 => {
+                let n = direction(rng);
+                let higher = |p: &&DVec3, q: &&DVec3| n.dot(**p).total_cmp(&n.dot(**q));
+                [n, *mesh.vertices.iter().max_by(higher).unwrap()]
+            }
+            1 => {
+                // Between its two faces, or across the face if that one lies on.
+                let at = |v: &DVec3| *v == a || *v == b;
+                let holds = |k: &&usize| mesh.triangle(**k).iter().filter(|v| at(v)).count() == 2;
+                let sides: Vec<DVec3> = outer.iter().filter(holds).map(|&k| normal(k)).collect();
+                let s = rng.random_range(0.2..0.8);
+                let (one, other) = (sides[0], sides[sides.len() - 1]);
+                [(s * one + (1.0 - s) * other).normalize(), on_edge]
+            }
+            _ => {
+                let inner = on_edge + rng.random_range(0.1..0.9) * (c - on_edge);
+                [
+                    normal(face),
+                    if rng.random_bool(0.5) { on_edge } else { inner },
+                ]
+            }
+        };
+        let along = match size {
+            0 => normal.any_orthonormal_vector(),
+            _ => (b - a).reject_from(normal).normalize(),
+        };
+        Support {
+            normal,
+            point,
+            along,
+            size,
+        }
+    }
+
+    /// Returns the turn of x and z to the edge and the normal.
+    fn basis(&self) -> DQuat {
+        let aside = self.normal.cross(self.along);
+        DQuat::from_mat3(&ccd_core::glam::DMat3::from_cols(
+            self.along,
+            aside,
+            self.normal,
+        ))
+    }
+}
+
+/// A box, a cube, a skewed box, or a shape that is not convex.
+fn shape(rng: &mut Pcg64) -> Shape {
+    let mut half = || rng.random_range(0.3..1.0);
+    let half = DVec3::new(half(), half(), half());
+    match rng.random_range(0..5) {
+        0 => cuboid(DVec3::splat(0.5)),
+        1 => cuboid(half),
+        2 => {
+            let Mesh { vertices, faces } = cuboid(half).mesh;
+            let lean = 0.5 * direction(rng);
+            let vertices = vertices
+                .into_iter()
+                .map(|p| p + p.z * lean.with_z(0.0))
+                .collect();
+            Shape::convex(Mesh { vertices, faces })
+        }
+        3 => l_prism(),
+        _ => dented_cube(0.5, 0.2),
+    }
+}
+
+fn frame_of(frame: &Pose, turn: DQuat, place: DVec3) -> Pose {
+    let rotation = (frame.rotation() * turn).normalize();
+    Pose::new(frame.transform_point(place), rotation).unwrap()
+}
+
+fn direction(rng: &mut Pcg64) -> DVec3 {
+    loop {
+        let v = DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
+        if (0.1..1.0).contains(&v.length()) {
+            return v.normalize();
+        }
+    }
+}
+
+fn rotation(rng: &mut Pcg64) -> DQuat {
+    DQuat::from_axis_angle(direction(rng), rng.random_range(0.0..TAU))
+}
