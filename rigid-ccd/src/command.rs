@@ -25,6 +25,7 @@ pub use files::{CannotWrite, Table, input_name, open_motions, refuse_overwriting
 pub use progress::{Progress, Total};
 pub use size::Size;
 
+use crate::Remark;
 use audit::AuditArgs;
 use clap::{Parser, Subcommand};
 use completions::CompletionsArgs;
@@ -121,6 +122,13 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
 pub fn complain(message: &str) {
     // A message that cannot be written is not a failure.
     let _ = writeln!(io::stderr(), "{}: {message}", program());
+}
+
+/// Says what is odd about a question, one line for each.
+fn complain_of(remarks: impl IntoIterator<Item = Remark>) {
+    for remark in remarks {
+        complain(&remark.to_string());
+    }
 }
 
 /// Returns the name of this program, without folder and extension.

@@ -16,7 +16,7 @@ use super::files::{
     Rows, input_name, is_standard, open_courses, refuse_missing_folder, refuse_overwriting,
 };
 use super::view::{Chosen, Drawn, title, write_rows};
-use super::{Exit, complain};
+use super::{Exit, complain, complain_of};
 use crate::batch::{
     BatchSize, BoundKind, Question, ScheduleKind, Settings, SolverKind, on_threads,
 };
@@ -89,6 +89,11 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     }
     if !args.quiet {
         print_summary(args, &answering.summary);
+        complain_of(
+            pair.remark(args.tolerance)
+                .into_iter()
+                .chain(rows.remarks()),
+        );
     }
     Ok(match exit(end) {
         Exit::AllAnswered => shown,
