@@ -32,6 +32,27 @@ pub enum InputError {
         /// The least and the greatest position.
         limits: [f64; 2],
     },
+    /// A chain has no such link.
+    NoSuchLink {
+        /// The link's number.
+        link: usize,
+        /// The number of joints: links count from 0, the base, to this.
+        joints: usize,
+    },
+    /// A link is seen only from links nearer to the base, or from itself.
+    NotSeenFrom {
+        /// The link to see from.
+        from: usize,
+        /// The link that is seen.
+        link: usize,
+    },
+    /// Each joint of a chain has a position, fixed ones included.
+    JointCount {
+        /// The number of positions.
+        positions: usize,
+        /// The number of joints.
+        joints: usize,
+    },
     /// A body needs at least one piece.
     NoPieces,
     /// A piece needs at least one point.
@@ -51,6 +72,8 @@ pub enum InputError {
     BadRadius {
         /// The piece's index.
         piece: usize,
+        /// The radius.
+        radius: f64,
     },
     /// A face names a vertex that does not exist.
     VertexOutOfRange {
@@ -122,18 +145,30 @@ impl fmt::Display for InputError {
                     " is at {position}, but its limits are {least} and {greatest}"
                 )
             }
+            Self::NoSuchLink { link, joints } => write!(
+                f,
+                "there is no link {link}: a chain of {joints} joints has the links 0 to {joints}"
+            ),
+            Self::NotSeenFrom { from, link } => write!(
+                f,
+                "link {link} cannot be seen from link {from}, which is farther from the base: see link {from} from \
+                 link {link}"
+            ),
+            Self::JointCount { positions, joints } => write!(
+                f,
+                "there are {positions} positions of {joints} joints: each joint needs one, fixed ones included"
+            ),
             Self::NoPieces => write!(f, "a body needs at least one piece"),
             Self::EmptyPiece { piece } => write!(f, "piece {piece} has no points"),
             Self::BadPoint { piece, point } => write!(
                 f,
                 "point {point} of piece {piece} has a coordinate that is not within {MAX_COORDINATE:e} of 0"
             ),
-            Self::BadRadius { piece } => {
-                write!(
-                    f,
-                    "the radius of piece {piece} is not from 0 to {MAX_COORDINATE:e}"
-                )
-            }
+            Self::BadRadius { piece, radius } => write!(
+                f,
+                "the radius of piece {piece} is {}, but must be from 0 to {MAX_COORDINATE:e}",
+                Short(*radius)
+            ),
             Self::VertexOutOfRange {
                 face,
                 vertex,
@@ -167,6 +202,30 @@ impl fmt::Display for InputError {
 }
 
 impl std::error::Error for InputError {}
+
+/// Refuses a quantity that is not allowed: that has to be computed so that NaN makes it false.
+pub(crate) fn check(
+    what: &'static str,
+    value: f64,
+    allowed: bool,
+    words: &'static str,
+) -> Result<(), InputError> {
+    if allowed {
+        Ok(())
+    } else {
+        Err(InputError::OutOfRange {
+            what,
+            value,
+            allowed: words,
+        })
+    }
+}
+
+/// Refuses what is no length of a shape.
+pub(crate) fn check_length(what: &'static str, length: f64) -> Result<(), InputError> {
+    let allowed = (0.0..=MAX_COORDINATE).contains(&length);
+    check(what, length, allowed, "from 0 to 1e12")
+}
 
 /// A number in as few digits as identify it: those with many places by a power of ten.
 struct Short(f64);

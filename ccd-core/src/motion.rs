@@ -83,8 +83,14 @@ impl Motion {
     ) -> Result<Self, InputError> {
         let [velocity, spin, centre] =
             [velocity.into(), spin.into(), centre.into()].map(DVec3::from_array);
-        if !(velocity.is_finite() && spin.is_finite() && centre.is_finite()) {
-            return Err(InputError::NotFinite { what: "motion" });
+        for (what, part) in [
+            ("velocity", velocity),
+            ("angular velocity", spin),
+            ("centre", centre),
+        ] {
+            if !part.is_finite() {
+                return Err(InputError::NotFinite { what });
+            }
         }
         Ok(Motion {
             start,

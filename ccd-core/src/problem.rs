@@ -3,7 +3,7 @@
 use crate::body::Body;
 use crate::body::piece::Piece;
 use crate::config::{Config, StartPolicy};
-use crate::error::InputError;
+use crate::error::{InputError, check};
 use crate::limits::{LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
@@ -410,24 +410,6 @@ pub(crate) fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), 
         allowed,
         "within 1e12 of 0 in every coordinate",
     )
-}
-
-/// `allowed` must be computed so that NaN makes it false.
-pub(crate) fn check(
-    what: &'static str,
-    value: f64,
-    allowed: bool,
-    words: &'static str,
-) -> Result<(), InputError> {
-    if allowed {
-        Ok(())
-    } else {
-        Err(InputError::OutOfRange {
-            what,
-            value,
-            allowed: words,
-        })
-    }
 }
 
 #[cfg(test)]

@@ -1,15 +1,15 @@
 //! Bodies.
 
 use crate::arrays::{rows, triangles};
-use crate::errors::{InputError, input, of_file, wrong_type};
+use crate::errors::{InputError, input, of_file, warn, wrong_type};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
-    Adjustments, Axis, Detail, MeshSource, Model, STORED_EXTENSION, SourceError, StoreFault, TriangleMesh,
-    Unit, prepare,
+    Adjustments, Axis, Detail, MeshSource, Model, STORED_EXTENSION, SourceError, StoreFault,
+    TriangleMesh, Unit, prepare,
 };
-use rigid_ccd::{Body, Round, Volume};
+use rigid_ccd::{Body, Remark, Round, Volume};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -33,6 +33,8 @@ use std::path::{Path, PathBuf};
 #[pyclass(name = "Body", module = "rigid_ccd", frozen)]
 pub(crate) struct PyBody {
     pub(crate) body: Body,
+    /// The largest side of the box about it.
+    size: f64,
     made: Made,
     #[pyo3(get)]
     /// What was found about the mesh, in words.
@@ -68,6 +70,18 @@ pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&
         Ok(body) => Ok(&body.get().body),
         Err(_) => Err(wrong_type(what, needed, given)),
     }
+}
+
+/// Warns of a tolerance that is large against the smaller of two bodies.
+pub(crate) fn warn_of_tolerance(
+    bodies: [&Bound<'_, PyAny>; 2],
+    tolerance: f64,
+    calls_up: i32,
+) -> PyResult<()> {
+    let size =
+        |given: &Bound<'_, PyAny>| given.cast::<PyBody>().map_or(0.0, |body| body.get().size);
+    let remark = Remark::of_tolerance(tolerance, bodies.map(size));
+    warn(bodies[0].py(), remark, calls_up)
 }
 
 #[pymethods]
@@ -312,8 +326,10 @@ impl PyBody {
 
 impl PyBody {
     fn of(model: Model) -> PyResult<Self> {
+        let body = model.body().map_err(input)?;
         Ok(PyBody {
-            body: model.body().map_err(input)?,
+            size: Remark::size(&body),
+            body,
             report: model.report.to_string(),
             sticks_out: model.report.sticks_out,
             made: Made::Mesh(Box::new(model)),
@@ -321,21 +337,14 @@ impl PyBody {
     }
 
     fn simple(shape: Shape, report: String) -> PyResult<Self> {
-        let (body, lengths) = match shape {
-            Shape::Box(sides) => (Body::cuboid(sides), sides.to_vec()),
-            Shape::Sphere(radius) => (Body::ball(radius), vec![radius]),
-            Shape::Capsule(radius, half) => (Body::capsule(radius, half), vec![radius, half]),
+        let body = match shape {
+            Shape::Box(sides) => Body::cuboid(sides),
+            Shape::Sphere(radius) => Body::ball(radius),
+            Shape::Capsule(radius, half_height) => Body::capsule(radius, half_height),
         };
-        if let Some(length) = lengths
-            .iter()
-            .find(|length| !(length.is_finite() && **length >= 0.0))
-        {
-            return Err(input(format!(
-                "a length is {length}, but must be finite and at least 0"
-            )));
-        }
         let (body, made) = (body.map_err(input)?, Made::Shape(shape));
         Ok(PyBody {
+            size: Remark::size(&body),
             body,
             made,
             report,
@@ -348,8 +357,10 @@ impl PyBody {
         let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()));
         let enclosure = enclosure.map_err(input)?;
         let sticks_out = enclosure.excess();
+        let body = enclosure.body().map_err(input)?;
         Ok(PyBody {
-            body: enclosure.body().map_err(input)?,
+            size: Remark::size(&body),
+            body,
             made: Made::Round(name, sizes),
             report: format!(
                 "{name} of radius {radius} and half height {half_height}, sticking out by up to {sticks_out:.3e}"

@@ -1,11 +1,12 @@
 //! Serial chains: the links of an arm.
 
 use crate::arrays::{any_numbers, finite, index, numbers};
-use crate::errors::input;
+use crate::errors::{input, warn};
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::trajectory::{Chain, Joint, Link, Trajectory};
+use rigid_ccd::{InputError, Remark};
 
 /// A joint of a `Chain`, as in URDF: `Joint.revolute`, `Joint.prismatic` or `Joint.fixed`.
 #[pyclass(name = "Joint", module = "rigid_ccd", frozen)]
@@ -237,12 +238,21 @@ impl PyChain {
         end: &Bound<'_, PyAny>,
         duration: f64,
     ) -> PyResult<PyLink> {
+        let (start, end) = (any_numbers(start, "start")?, any_numbers(end, "end")?);
+        let joints = slf.get().joints.iter();
+        let turning = joints.map(|joint| matches!(joint.get().kind, Kind::Revolute(_)));
+        let ends = turning.zip(start.iter().zip(&end));
+        let mut remarks = ends
+            .filter(|(turns, _)| *turns)
+            .flat_map(|(_, (start, end))| [*start, *end])
+            .filter_map(Remark::of_joint);
+        warn(slf.py(), remarks.next(), 1)?;
         PyLink {
             chain: slf.unbind(),
             link: index(link, "link")?,
             seen_from: None,
-            start: any_numbers(start, "start")?,
-            end: any_numbers(end, "end")?,
+            start,
+            end,
             duration,
         }
         .checked()
@@ -343,10 +353,9 @@ impl PyLink {
         let joints = self.chain.get().chain.joints().len();
         for (what, positions) in [("start", &self.start), ("end", &self.end)] {
             if positions.len() != joints {
-                let given = positions.len();
-                return Err(input(format!(
-                    "{what}: {given} positions, but the chain has {joints} joints, fixed ones included"
-                )));
+                let positions = positions.len();
+                let error = InputError::JointCount { positions, joints };
+                return Err(input(format!("{what}: {error}")));
             }
         }
         self.link()?;

@@ -6,7 +6,7 @@ use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
 use rigid_ccd::trajectory::{Link, Poses, Trajectory};
-use rigid_ccd::{Body, Motion, Moving, Travelling};
+use rigid_ccd::{Body, Motion, Moving, Remark, Travelling};
 
 /// How a body moves.
 pub(crate) enum Course<'c> {
@@ -99,6 +99,15 @@ impl Pair<'_> {
             }
         }
         Ok(duration)
+    }
+
+    /// Remarks upon what turns a body, in a duration.
+    pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
+        let courses = [&self.a.1, &self.b.1].into_iter();
+        courses.filter_map(move |course| match course {
+            Course::Motion(motion) => Remark::of_spin(motion.spin(), duration),
+            Course::Link(..) | Course::Path(_) => None,
+        })
     }
 
     pub(crate) fn moved(&self) -> Moved<'_> {

@@ -1,11 +1,15 @@
 //! The exceptions.
 
 use pyo3::exceptions::{
-    PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
+    PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyUserWarning,
+    PyValueError,
 };
 use pyo3::prelude::*;
-use rigid_ccd::Limit;
+use rigid_ccd::{Limit, Remark, advice};
+use std::any::Any;
+use std::ffi::CString;
 use std::fmt::Display;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pyo3::create_exception!(
     rigid_ccd,
@@ -17,7 +21,7 @@ pyo3::create_exception!(
     rigid_ccd,
     Unresolved,
     PyRuntimeError,
-    "A limit was reached first. Attribute `safe_until`: no contact happens before this time; or, of a distance, `lower` and `upper`: what is known of it."
+    "A limit was reached first. Attribute `safe_until`: no contact happens before this time; or, of a distance, `lower` and `upper`: what is known of it. The others are None."
 );
 pyo3::create_exception!(
     rigid_ccd,
@@ -26,9 +30,66 @@ pyo3::create_exception!(
     "Ctrl-C ended a table. Attribute `results`: the rows answered by then, from the first on."
 );
 
+/// Adds the exceptions to the module, with the attributes that some of them lack.
+pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    let classes = [
+        ("InputError", py.get_type::<InputError>(), &["results"][..]),
+        (
+            "Unresolved",
+            py.get_type::<Unresolved>(),
+            &["safe_until", "lower", "upper"],
+        ),
+        ("Interrupted", py.get_type::<Interrupted>(), &["results"]),
+    ];
+    for (name, class, attributes) in classes {
+        for attribute in attributes {
+            class.setattr(attribute, py.None())?;
+        }
+        module.add(name, class)?;
+    }
+    Ok(())
+}
+
+/// Does work of libraries that panic on what some table or array holds: that is an `InputError`.
+///
+/// A panic would be an exception that `except Exception` does not catch.
+pub(crate) fn guarded<T>(what: &str, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    let done = catch_unwind(AssertUnwindSafe(work));
+    done.unwrap_or_else(|panic| Err(input(format!("{what}: {}", said(panic.as_ref())))))
+}
+
+/// Makes a `RuntimeError` of a panic that no input is known to cause.
+pub(crate) fn fault(panic: &(dyn Any + Send)) -> PyErr {
+    PyRuntimeError::new_err(format!(
+        "a fault of rigid_ccd, please report it: {}",
+        said(panic)
+    ))
+}
+
+/// Returns the message of a panic.
+fn said(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("it is not supported")
+}
+
 /// Turns an error of the library into an `InputError`.
 pub(crate) fn input(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
+}
+
+/// Turns what is wrong with a table into an exception.
+///
+/// A stream hands over the text of an exception, not the exception: that of Ctrl-C stays what it is.
+pub(crate) fn of_table(error: impl Display) -> PyErr {
+    let text = error.to_string();
+    let last = text.trim_end().lines().next_back().unwrap_or_default();
+    let raised = last.rsplit("Python exception: ").next().unwrap_or_default();
+    match text.contains("Python exception: ") && raised.starts_with("KeyboardInterrupt") {
+        true => PyKeyboardInterrupt::new_err(raised.to_owned()),
+        false => input(text),
+    }
 }
 
 /// Turns an exception of somebody else into an `InputError`, with it as the cause. Those that are to end the program,
@@ -71,7 +132,7 @@ pub(crate) fn query(py: Python<'_>, error: rigid_ccd::Error) -> PyErr {
 pub(crate) fn unresolved(py: Python<'_>, safe_until: f64, reason: Limit) -> PyErr {
     let error = Unresolved::new_err(format!(
         "{}; no contact happens before {safe_until}",
-        ended_by(reason)
+        advice(reason)
     ));
     with_attribute(py, error, "safe_until", safe_until)
 }
@@ -82,19 +143,10 @@ pub(crate) fn unresolved_distance(
     [lower, upper]: [f64; 2],
     reason: Limit,
 ) -> PyErr {
-    let reason = ended_by(reason);
+    let reason = advice(reason);
     let error = Unresolved::new_err(format!("{reason}; the distance is from {lower} to {upper}"));
     let error = with_attribute(py, error, "lower", lower);
     with_attribute(py, error, "upper", upper)
-}
-
-/// Says what ended a query, and what to do.
-fn ended_by(limit: Limit) -> String {
-    match limit {
-        Limit::Budget => "the budget is spent (pass a larger one)".to_owned(),
-        Limit::Deadline => "the deadline has passed (pass a later one)".to_owned(),
-        other => other.to_string(),
-    }
 }
 
 /// Makes an `Interrupted` of Ctrl-C; other exceptions of a signal, or of a callback, stay what they are. Either has
@@ -114,6 +166,20 @@ pub(crate) fn interrupted<'py>(
         false => cause,
     };
     with_attribute(py, error, "results", results)
+}
+
+/// Warns of what is valid, and hardly what is meant. The warning is about the line of Python that is so many calls up;
+/// Python shows one of each text for a line, so that numbers would make it many.
+pub(crate) fn warn(
+    py: Python<'_>,
+    remarks: impl IntoIterator<Item = Remark>,
+    calls_up: i32,
+) -> PyResult<()> {
+    for remark in remarks {
+        let text = CString::new(remark.in_general())?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, calls_up)?;
+    }
+    Ok(())
 }
 
 /// Says that an object is of the wrong type.

@@ -27,10 +27,7 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<chain::PyChain>()?;
     module.add_class::<chain::PyLink>()?;
     module.add_class::<table::PyTable>()?;
-    let py = module.py();
-    module.add("InputError", py.get_type::<errors::InputError>())?;
-    module.add("Unresolved", py.get_type::<errors::Unresolved>())?;
-    module.add("Interrupted", py.get_type::<errors::Interrupted>())?;
+    errors::add_to(module)?;
     module.add_function(wrap_pyfunction!(queries::first_contact, module)?)?;
     module.add_function(wrap_pyfunction!(queries::is_free, module)?)?;
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;

@@ -1,11 +1,11 @@
 //! Motions, and the forms that poses and rotations come in.
 
 use crate::arrays::{finite, shape};
-use crate::errors::input;
+use crate::errors::{input, warn};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
-use rigid_ccd::{Motion, Pose};
+use rigid_ccd::{Motion, Pose, Remark};
 
 /// How far a rotation matrix may be from orthonormal: matrices of float32 that come from a few products are this far
 /// off. The rotation is that of the quaternion that fits it.
@@ -217,6 +217,9 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     match shape(value, "rotation")?[..] {
         [4] => {
             let [w, x, y, z] = finite(value, "rotation")?;
+            let is_zero = [w, x, y, z] == [0.0; 4];
+            let remark = Remark::of_quaternion([w, x, y, z]).filter(|_| !is_zero);
+            warn(value.py(), remark, 1)?;
             Ok(DQuat::from_xyzw(x, y, z, w))
         }
         [3, 3] => matrix(value, "rotation"),

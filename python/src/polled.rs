@@ -1,8 +1,8 @@
 //! Long work without the GIL, which Ctrl-C ends.
 
+use crate::errors::fault;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -15,7 +15,7 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Does work on a thread of its own, without the GIL, and returns its result.
 ///
 /// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
-/// soon; it comes back beside the result. Without a thread to spare there is an exception alone.
+/// soon; it comes back beside the result. Without a thread to spare, or after a panic, there is an exception alone.
 pub(crate) fn polled<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
@@ -43,7 +43,7 @@ pub(crate) fn polled<T: Send>(
                     stop.store(seen.is_err(), Ordering::Relaxed);
                 }
             }
-            let result = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+            let result = worker.join().map_err(|panic| fault(panic.as_ref()))?;
             Ok((result, seen))
         })
     })

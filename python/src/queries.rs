@@ -1,9 +1,9 @@
 //! One query at a time.
 
 use crate::answers;
-use crate::body::body_of;
+use crate::body::{body_of, warn_of_tolerance};
 use crate::course::{Course, Moved, Pair};
-use crate::errors::{input, query, unresolved_distance};
+use crate::errors::{fault, input, query, unresolved_distance, warn};
 use crate::motion::pose_of;
 use crate::polled::polled;
 use crate::settings::{OF_CONTACTS, OF_DISTANCES, config};
@@ -12,6 +12,7 @@ use pyo3::types::PyDict;
 use rigid_ccd::schedule::ClosestApproach;
 use rigid_ccd::{Config, Error, Limit, Solver};
 use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 /// The work of about a tenth of a second. A query with more to do is asked again on a thread of its own, while this one
@@ -47,12 +48,15 @@ fn ask<T: Send>(
         ..config
     };
     let first = py.detach(|| {
-        let mut solver = SOLVER.take();
-        solver.set_config(short);
-        let found = question(&mut solver);
-        SOLVER.set(solver);
-        found
+        catch_unwind(AssertUnwindSafe(|| {
+            let mut solver = SOLVER.take();
+            solver.set_config(short);
+            let found = question(&mut solver);
+            SOLVER.set(solver);
+            found
+        }))
     });
+    let first = first.map_err(|panic| fault(panic.as_ref()))?;
     let until = match reached(&first) {
         Some((Limit::Budget, until)) if config.budget > SHORT => until,
         Some((Limit::Deadline, until))
@@ -137,6 +141,8 @@ pub(crate) fn first_contact<'py>(
     let config = config(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
+    warn(py, pair.remarks(duration), 1)?;
+    warn_of_tolerance([a, b], config.tolerance, 1)?;
     let found = ask(py, config, safe_until, |solver| match pair.moved() {
         Moved::Steadily(a, b) => solver.first_contact(a, b, duration),
         Moved::Along(a, b) => solver.first_contact_along(a, b, duration),
@@ -165,6 +171,8 @@ pub(crate) fn is_free(
     let config = config(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
+    warn(py, pair.remarks(duration), 1)?;
+    warn_of_tolerance([a, b], config.tolerance, 1)?;
     let found = ask(py, config, safe_until, |solver| match pair.moved() {
         Moved::Steadily(a, b) => solver.is_free(a, b, duration),
         Moved::Along(a, b) => solver.is_free_along(a, b, duration),
@@ -189,6 +197,8 @@ pub(crate) fn closest_approach<'py>(
     let config = config(settings, OF_DISTANCES)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
+    warn(py, pair.remarks(duration), 1)?;
+    warn_of_tolerance([a, b], config.tolerance, 1)?;
     measure(py, config, |solver| {
         let found = match pair.moved() {
             Moved::Steadily(a, b) => solver.closest_approach(a, b, duration),
@@ -219,8 +229,10 @@ pub(crate) fn distance<'py>(
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
+    let config = config(settings, OF_DISTANCES)?;
+    warn_of_tolerance([a, b], config.tolerance, 1)?;
     let (a, b) = (body_of(a, "a")?, body_of(b, "b")?);
-    measure(py, config(settings, OF_DISTANCES)?, |solver| {
+    measure(py, config, |solver| {
         Ok(solver.distance((a, pose_a), (b, pose_b))?.outcome)
     })
 }

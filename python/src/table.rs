@@ -7,14 +7,13 @@ pub(crate) mod input;
 mod numpy_column;
 mod pieces;
 mod results;
+mod stored;
 
 use crate::arrays::row_numbers;
-use crate::errors::input as refuse;
+use crate::errors::{guarded, input as refuse, of_table};
 use crate::polled::polled;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
-use arrow_ipc::reader::StreamReader;
-use arrow_ipc::writer::StreamWriter;
 use arrow_schema::Field;
 use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
@@ -46,7 +45,7 @@ impl PyTable {
         }
         let (found, seen) = polled(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
         seen?;
-        let batch = found.map_err(|error| refuse(format!("table: {error}")))?;
+        let batch = found.map_err(|error| of_table(format!("table: {error}")))?;
         Ok(PyTable { batch })
     }
 
@@ -69,34 +68,29 @@ impl PyTable {
             return Err(refuse(format!("row {wrong}: the table has {all} rows")));
         }
         let rows = arrow_array::Int64Array::from(rows);
-        let batch = arrow_select::take::take_record_batch(&self.batch, &rows).map_err(refuse)?;
+        let batch = guarded("rows", || {
+            arrow_select::take::take_record_batch(&self.batch, &rows).map_err(refuse)
+        })?;
         Ok(PyTable { batch })
     }
 
     /// Makes a table of what pickle has kept of it.
     #[classmethod]
-    fn _from_bytes(_class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
-        let batches = StreamReader::try_new(stored, None).and_then(Iterator::collect);
-        let batches: Vec<RecordBatch> = batches.map_err(refuse)?;
-        match batches.as_slice() {
-            [batch] => Ok(PyTable {
-                batch: batch.clone(),
-            }),
-            _ => Err(refuse(format!("table: {} batches, not one", batches.len()))),
-        }
+    fn _from_bytes(
+        class: &Bound<'_, PyType>,
+        stored: &Bound<'_, PyBytes>,
+        checksum: u32,
+    ) -> PyResult<Self> {
+        let (py, stored) = (class.py(), stored.as_bytes());
+        let batch = guarded("table", || py.detach(|| stored::read(stored, checksum)))?;
+        Ok(PyTable { batch })
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
         let (py, batch) = (slf.py(), &slf.get().batch);
-        let stored = py.detach(|| {
-            let mut writer = StreamWriter::try_new(Vec::new(), &batch.schema())?;
-            writer.write(batch)?;
-            writer.into_inner()
-        });
+        let stored = guarded("table", || py.detach(|| stored::write(batch)))?;
         let make = slf.get_type().getattr("_from_bytes")?;
-        Ok((make, (PyBytes::new(py, &stored.map_err(refuse)?),)))
+        Ok((make, (PyBytes::new(py, &stored), stored::checksum(&stored))))
     }
 
     fn __len__(&self) -> usize {
@@ -113,7 +107,9 @@ impl PyTable {
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         match self.batch.column_by_name(name) {
-            Some(column) => numpy_column::to_numpy(py, column),
+            Some(column) => guarded(&format!("column {name}"), || {
+                numpy_column::to_numpy(py, column)
+            }),
             None => {
                 let names = self.column_names().join(", ");
                 Err(PyKeyError::new_err(format!(
@@ -167,6 +163,9 @@ impl PyTable {
         Ok(to_stream_pycapsule(py, Box::new(reader), requested_schema)?)
     }
 }
+
+/// What pickle keeps of a table, and its checksum.
+type Stored<'py> = (Bound<'py, PyBytes>, u32);
 
 impl PyTable {
     fn as_struct(&self) -> (Arc<Field>, StructArray) {

@@ -1,11 +1,12 @@
 //! A question about each row of a table.
 
-use crate::body::body_of;
-use crate::errors::{input as refuse, interrupted, with_attribute, wrong_type};
+use crate::body::{body_of, warn_of_tolerance};
+use crate::errors::{input as refuse, interrupted, of_table, warn, with_attribute, wrong_type};
 use crate::polled::polled;
 use crate::settings::{self, CONTACTS_OF_TABLES, DISTANCES_OF_TABLES, config};
 use crate::table::answering::{Answered, Asked, Micros, answer};
 use crate::table::{PyTable, input};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::batch::{Bodies, Question};
@@ -43,6 +44,7 @@ pub(crate) fn answer_table(
             false => Micros::LeftOut,
         },
     };
+    let config = asked.config;
     // One query shows whether the settings can be used: an error of each row would only repeat it.
     check(asked)?;
     if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
@@ -63,14 +65,31 @@ pub(crate) fn answer_table(
     };
     let work = |stop: &_| answer(asked, reader, stop, &done);
     let (found, seen) = polled(py, work, &mut tell)?;
-    let Answered { results, fault } = found.map_err(|error| table_error(&error))?;
+    let found = found.map_err(|error| table_error(&error))?;
+    let Answered {
+        results,
+        fault,
+        remarks,
+    } = found;
     let table = PyTable { batch: results };
     match (seen.and_then(|()| tell(py)), fault) {
         (Err(cause), _) => Err(interrupted(py, cause, table)),
-        (Ok(()), Some(fault)) => Err(with_attribute(py, table_error(&fault), "results", table)),
-        (Ok(()), None) => Ok(table),
+        (Ok(()), Some(fault)) => Err(match table_error(&fault) {
+            error if error.is_instance_of::<PyKeyboardInterrupt>(py) => {
+                interrupted(py, error, table)
+            }
+            error => with_attribute(py, error, "results", table),
+        }),
+        (Ok(()), None) => {
+            warn(py, remarks, CALLS_UP)?;
+            warn_of_tolerance([a, b], config.tolerance, CALLS_UP)?;
+            Ok(table)
+        }
     }
 }
+
+/// From `answer_table` up to who calls `rigid_ccd.first_contacts`.
+const CALLS_UP: i32 = 3;
 
 fn question(name: &str) -> PyResult<Question> {
     let found = Question::ALL
@@ -113,7 +132,7 @@ fn check(asked: Asked<'_>) -> PyResult<()> {
 }
 
 fn table_error(error: &TableError) -> PyErr {
-    refuse(match error {
+    of_table(match error {
         TableError::Empty => "motions: there is no column".to_owned(),
         TableError::Unreadable(why) => format!("motions: {why}"),
         other => format!("motions: {other}"),

@@ -65,7 +65,7 @@ def test_names_are_checked() -> None:
     with pytest.raises(InputError, match="pieces"):
         Body(CORNERS, FACES, pieces="cubes")  # type: ignore[arg-type]
     for wrong in (-1.0, float("nan"), float("inf")):
-        message = r"length is (-1|NaN|inf), but must"
+        message = r"is (-1|NaN|inf), but must be from 0 to 1e12"
         with pytest.raises(InputError, match=message):
             Body.box(1, wrong, 1)
         with pytest.raises(InputError, match=message):

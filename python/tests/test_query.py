@@ -33,7 +33,7 @@ def test_tables_are_pickled() -> None:
     for table in (expected(), expected().take([]), first_contacts(BALL, WALL, some), Table(some)):
         assert pyarrow.table(pickle.loads(pickle.dumps(table))).equals(pyarrow.table(table))
     with pytest.raises(InputError):
-        Table._from_bytes(b"no table")
+        Table._from_bytes(b"no table", 0)
 
 
 def test_bodies_are_saved_with_the_same_answers(tmp_path: Path) -> None:

@@ -201,7 +201,6 @@ def test_rows_of_a_path_need_names_that_can_be_told_apart() -> None:
     for ids in (
         pyarrow.array([["a, b"], ["a", "b"]]),
         pyarrow.array([{"a": None}, {"a": ""}]),
-        pyarrow.RunEndEncodedArray.from_arrays([2], pyarrow.array([None], pyarrow.string())),
         pyarrow.array([(1, 2, 3), (1, 2, 3)], pyarrow.month_day_nano_interval()),
     ):
         with pytest.raises(InputError, match="column id: text, numbers or times are needed"):
@@ -215,6 +214,7 @@ def test_a_batch_that_does_not_fit_its_stream_ends_it() -> None:
     reader = pyarrow.RecordBatchReader.from_batches(good.schema, iter([good, bad]))
     with pytest.raises(InputError, match="does not fit the schema") as error:
         first_contacts(BALL, WALL, reader)
+    assert error.value.results is not None
     assert error.value.results["status"].tolist() == ["contact"] * 4
 
 
@@ -350,6 +350,7 @@ def test_a_stream_that_fails_leaves_what_is_done() -> None:
     reader = pyarrow.RecordBatchReader.from_batches(table.schema, batches())
     with pytest.raises(InputError, match="the disk is gone") as error:
         first_contacts(BALL, WALL, reader, micros=False)
+    assert error.value.results is not None
     same(error.value.results, first_contacts(BALL, WALL, table, micros=False))
 
 
@@ -623,6 +624,7 @@ def test_ctrl_c_ends_a_table_with_what_is_done(rows: int) -> None:
         first_contacts(body, body, columns, tolerance=1e-9, budget=2**60)
     assert isinstance(error.value, KeyboardInterrupt)
     done = error.value.results
+    assert done is not None
     assert len(done) < rows and "unresolved" not in done["status"]
     assert done["id"].tolist() == list(range(len(done)))
 

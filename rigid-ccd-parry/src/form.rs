@@ -341,7 +341,7 @@ impl Form {
     fn named(&self, error: InputError) -> ShapeError {
         let piece = match error {
             InputError::BadPoint { piece, .. }
-            | InputError::BadRadius { piece }
+            | InputError::BadRadius { piece, .. }
             | InputError::EmptyPiece { piece }
             | InputError::FacetOutOfRange { piece, .. }
             | InputError::BadFace { piece, .. } => Some(piece),

@@ -29,6 +29,7 @@ pub use progress::{Progress, Total};
 pub use size::Size;
 pub use table::Table;
 
+use crate::Remark;
 use crate::text::Printable;
 use audit::AuditArgs;
 use clap::{Parser, Subcommand};
@@ -134,6 +135,13 @@ pub fn complain(message: &str) {
 pub(crate) fn tell(line: &str) {
     // A message that cannot be written is not a failure.
     let _ = writeln!(io::stderr(), "{}", Printable(line));
+}
+
+/// Says what is odd about a question, one line for each.
+fn complain_of(remarks: impl IntoIterator<Item = Remark>) {
+    for remark in remarks {
+        complain(&remark.to_string());
+    }
 }
 
 /// Returns the name of this program, without folder and extension.

@@ -105,6 +105,7 @@ mod load;
 mod parallel;
 #[cfg(feature = "pages")]
 pub mod picture;
+mod remark;
 #[cfg(feature = "scenes")]
 mod scene;
 mod solver;
@@ -131,13 +132,14 @@ pub use ccd_decomp::BodyError;
 pub use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 #[cfg(feature = "vmarch")]
 pub use ccd_distance_vmarch::Vmarch;
-pub use error::Error;
+pub use error::{Error, advice};
 pub use hit::{Hit, HitKind};
 #[cfg(feature = "meshes")]
 pub use load::{load, load_adjusted, load_in, load_parts};
 pub use parallel::{ParallelSolver, QueryError, first_contacts};
+pub use remark::Remark;
 #[cfg(feature = "scenes")]
-pub use scene::{Groups, Impact, PairError, Scene, Stop};
+pub use scene::{FixedBody, Groups, Impact, PairError, Scene, Stop};
 pub use solver::{Solver, first_contact};
 
 /// The example in the README.

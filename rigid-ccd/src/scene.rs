@@ -69,6 +69,16 @@ enum Mobility {
     Moving,
 }
 
+/// A fixed body cannot move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "body {index} is fixed and cannot move; add it with Scene::add, or give it a motion at rest"
+)]
+pub struct FixedBody {
+    /// The index of the body.
+    pub index: usize,
+}
+
 /// The pairs that are worth another thread. To start one takes as long as a few tens of pairs do.
 const PAIRS_A_THREAD: usize = 32;
 
@@ -143,12 +153,21 @@ impl<'a> Scene<'a> {
         self.members.len() - 1
     }
 
-    /// Changes the motion of a body, for the next step.
+    /// Changes the motion of a body, for the next step. A fixed body takes one at rest: it is put elsewhere.
+    ///
+    /// # Errors
+    /// [`FixedBody`] for a fixed body that would move: pairs of two fixed bodies are not looked at.
     ///
     /// # Panics
     /// No body has the index.
-    pub fn set_motion(&mut self, index: usize, motion: Motion) {
-        self.members[index].motion = motion;
+    pub fn set_motion(&mut self, index: usize, motion: Motion) -> Result<(), FixedBody> {
+        let member = &mut self.members[index];
+        let rests = [motion.velocity(), motion.spin()] == [DVec3::ZERO; 2];
+        if member.mobility == Mobility::Fixed && !rests {
+            return Err(FixedBody { index });
+        }
+        member.motion = motion;
+        Ok(())
     }
 
     /// Returns the motion of a body.

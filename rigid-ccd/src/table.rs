@@ -11,6 +11,7 @@ mod error;
 mod foreign;
 mod lines;
 pub mod motions;
+mod oddities;
 pub mod paths;
 mod position;
 mod quotes;

@@ -29,15 +29,19 @@ fn poses_and_motions_are_finite() {
     for bad in BAD {
         let v = DVec3::new(0.0, bad, 0.0);
         let turned = DQuat::from_xyzw(0.0, 0.0, bad, 1.0);
-        for pose in [Pose::at(v), Pose::new(DVec3::ZERO, turned)] {
-            assert_eq!(pose, Err(InputError::NotFinite { what: "pose" }));
-        }
-        for motion in [
-            Motion::new(Pose::IDENTITY, v, DVec3::ZERO),
-            Motion::new(Pose::IDENTITY, DVec3::ZERO, v),
-            Motion::about(Pose::IDENTITY, DVec3::ZERO, DVec3::ZERO, v),
+        let zero = DVec3::ZERO;
+        for (what, pose) in [
+            ("position", Pose::at(v)),
+            ("quaternion", Pose::new(zero, turned)),
         ] {
-            assert_eq!(motion, Err(InputError::NotFinite { what: "motion" }));
+            assert_eq!(pose, Err(InputError::NotFinite { what }));
+        }
+        for (what, motion) in [
+            ("velocity", Motion::new(Pose::IDENTITY, v, zero)),
+            ("angular velocity", Motion::new(Pose::IDENTITY, zero, v)),
+            ("centre", Motion::about(Pose::IDENTITY, zero, zero, v)),
+        ] {
+            assert_eq!(motion, Err(InputError::NotFinite { what }));
         }
     }
 }
@@ -102,7 +106,7 @@ fn durations_tolerances_and_margins_have_their_range() {
 fn velocities_that_overflow_are_refused() {
     let end = Pose::at(1e300 * DVec3::X).expect("finite");
     let motion = Motion::between(Pose::IDENTITY, end, DVec3::ZERO, 1e-100);
-    assert_eq!(motion, Err(InputError::NotFinite { what: "motion" }));
+    assert_eq!(motion, Err(InputError::NotFinite { what: "velocity" }));
 }
 
 #[test]
@@ -180,10 +184,10 @@ fn polytopes_name_their_bad_element() {
             radius,
             ..good.clone()
         });
-        assert_eq!(result, Err(InputError::BadRadius { piece: 1 }));
-        let alone = Err(InputError::BadRadius { piece: 0 });
-        assert_eq!(Body::ball(radius).map(drop), alone);
-        assert_eq!(Body::capsule(radius, 1.0).map(drop), alone);
+        assert!(matches!(
+            result,
+            Err(InputError::BadRadius { piece: 1, .. })
+        ));
     }
     for corners in [vec![0, 1], vec![], vec![0, 1, 3]] {
         let facets = vec![Facet {
@@ -211,8 +215,34 @@ fn polytopes_name_their_bad_element() {
         });
         assert_eq!(result, Err(InputError::BadFace { piece: 1, face: 0 }));
     }
-    let flat = Body::cuboid(DVec3::new(1.0, f64::NAN, 1.0)).map(drop);
-    assert_eq!(flat, Err(InputError::BadPoint { piece: 0, point: 0 }));
+}
+
+/// A box with a negative side would have its faces inside out, and a capsule would be one of another height.
+#[test]
+fn shapes_name_the_bad_length() {
+    let shapes: [(&str, fn(f64) -> Result<Body, InputError>); 6] = [
+        ("radius", Body::ball),
+        ("radius", |bad| Body::capsule(bad, 1.0)),
+        ("half height", |bad| Body::capsule(1.0, bad)),
+        ("half extent x", |bad| Body::cuboid([bad, 1.0, 1.0])),
+        ("half extent y", |bad| Body::cuboid([1.0, bad, 1.0])),
+        ("half extent z", |bad| Body::cuboid([1.0, 1.0, bad])),
+    ];
+    let negative = [-1.0, -f64::MIN_POSITIVE, -5e-324, 2.0 * MAX_COORDINATE];
+    for (name, shape) in shapes {
+        for bad in negative.into_iter().chain(BAD) {
+            match shape(bad).map(drop) {
+                Err(InputError::OutOfRange { what, value, .. }) => {
+                    assert_eq!((what, value.to_bits()), (name, bad.to_bits()));
+                }
+                other => panic!("{name} {bad}: {other:?}"),
+            }
+        }
+        // A point, a disc and a rod of no width are shapes.
+        for good in [0.0, -0.0, 5e-324, MAX_COORDINATE] {
+            assert!(shape(good).is_ok(), "{name} {good}");
+        }
+    }
 }
 
 #[test]

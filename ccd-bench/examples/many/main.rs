@@ -64,7 +64,7 @@ impl Row {
         let mut impacts = Vec::new();
         for step in 0..steps {
             for (k, (_, motion)) in flight.step(step)?.into_iter().enumerate() {
-                scene.set_motion(k + 1, motion);
+                scene.set_motion(k + 1, motion)?;
             }
             let least = |question: &mut dyn FnMut()| {
                 let times = (0..5).map(|_| {

@@ -23,7 +23,7 @@ pub(crate) fn step(
         scene.set_motion(
             index,
             Motion::between(start, pose(body)?, centre, duration)?,
-        );
+        )?;
     }
     let stops = scene.stops(duration)?;
     for &(index, body) in moving {

@@ -130,7 +130,7 @@ impl Pieces {
             }
             let radius = self.radius(piece);
             if !(0.0..=MAX_COORDINATE).contains(&radius) {
-                return Err(InputError::BadRadius { piece });
+                return Err(InputError::BadRadius { piece, radius });
             }
         }
         Ok(self)

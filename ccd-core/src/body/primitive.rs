@@ -3,15 +3,17 @@
 use super::pieces::Pieces;
 use super::polytope::{Facet, Origin, Polytope};
 use super::{Body, Volume};
-use crate::error::InputError;
+use crate::error::{InputError, check_length};
 use glam::DVec3;
 
 impl Body {
     /// A ball about the origin; exact, not a mesh.
     ///
     /// # Errors
-    /// [`InputError::BadRadius`].
+    /// [`InputError::OutOfRange`] for a radius that is not from 0 to
+    /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn ball(radius: f64) -> Result<Self, InputError> {
+        check_length("radius", radius)?;
         Body::polytope(Polytope {
             points: vec![DVec3::ZERO],
             radius,
@@ -23,8 +25,11 @@ impl Body {
     /// z.
     ///
     /// # Errors
-    /// [`InputError::BadRadius`], [`InputError::BadPoint`].
+    /// [`InputError::OutOfRange`] for a length that is not from 0 to
+    /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn capsule(radius: f64, half_height: f64) -> Result<Self, InputError> {
+        check_length("radius", radius)?;
+        check_length("half height", half_height)?;
         Body::polytope(Polytope {
             points: vec![-half_height * DVec3::Z, half_height * DVec3::Z],
             radius,
@@ -38,9 +43,17 @@ impl Body {
     /// outward normals −x, +x, −y, +y, −z, +z.
     ///
     /// # Errors
-    /// [`InputError::BadPoint`].
+    /// [`InputError::OutOfRange`] for a half extent that is not from 0 to
+    /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn cuboid(half_extents: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let half_extents = DVec3::from_array(half_extents.into());
+        let half_extents = half_extents.into();
+        for (what, length) in ["half extent x", "half extent y", "half extent z"]
+            .into_iter()
+            .zip(half_extents)
+        {
+            check_length(what, length)?;
+        }
+        let half_extents = DVec3::from_array(half_extents);
         let sign = |corner: u32, bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let corner = |k| half_extents * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
         let loops = [

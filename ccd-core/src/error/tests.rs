@@ -24,10 +24,13 @@ fn numbers_with_many_digits_are_printed_with_an_exponent() {
 
 #[test]
 fn too_large_numbers_are_reported_with_the_range() {
-    let radius = InputError::BadRadius { piece: 3 };
+    let radius = InputError::BadRadius {
+        piece: 3,
+        radius: -1.0,
+    };
     assert_eq!(
         radius.to_string(),
-        "the radius of piece 3 is not from 0 to 1e12"
+        "the radius of piece 3 is -1, but must be from 0 to 1e12"
     );
     let point = InputError::BadPoint { piece: 3, point: 4 };
     let printed = point.to_string();

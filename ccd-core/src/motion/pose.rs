@@ -38,8 +38,11 @@ impl Pose {
     ) -> Result<Self, InputError> {
         let translation = DVec3::from_array(translation.into());
         let rotation = DQuat::from_array(rotation.into());
-        if !(translation.is_finite() && rotation.is_finite()) {
-            return Err(InputError::NotFinite { what: "pose" });
+        if !translation.is_finite() {
+            return Err(InputError::NotFinite { what: "position" });
+        }
+        if !rotation.is_finite() {
+            return Err(InputError::NotFinite { what: "quaternion" });
         }
         match unit(rotation) {
             Some(rotation) => Ok(Pose::from_unit(translation, rotation)),

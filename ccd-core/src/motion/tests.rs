@@ -97,13 +97,13 @@ fn motions_that_are_not_finite_are_refused() {
         let mut vector = within(&mut rng, 1.0);
         vector[rng.random_range(0..3)] = bad;
         let none = DVec3::ZERO;
-        for (velocity, spin, centre) in [
-            (vector, none, none),
-            (none, vector, none),
-            (none, none, vector),
+        for (what, velocity, spin, centre) in [
+            ("velocity", vector, none, none),
+            ("angular velocity", none, vector, none),
+            ("centre", none, none, vector),
         ] {
             let made = Motion::about(Pose::IDENTITY, velocity, spin, centre);
-            assert_eq!(made, Err(InputError::NotFinite { what: "motion" }));
+            assert_eq!(made, Err(InputError::NotFinite { what }));
         }
         let between = Motion::between(Pose::IDENTITY, Pose::IDENTITY, none, bad);
         assert!(matches!(
@@ -124,5 +124,5 @@ fn motions_that_are_not_finite_are_refused() {
     ));
     let far = Pose::at(DVec3::X).unwrap();
     let overflow = Motion::between(Pose::IDENTITY, far, DVec3::ZERO, 1e-320);
-    assert_eq!(overflow, Err(InputError::NotFinite { what: "motion" }));
+    assert_eq!(overflow, Err(InputError::NotFinite { what: "velocity" }));
 }

@@ -15,9 +15,10 @@ mod stretches;
 use crate::body::Body;
 use crate::config::Config;
 use crate::error::InputError;
+use crate::error::check;
 use crate::limits::MAX_DURATION;
 use crate::motion::trajectory::Trajectory;
-use crate::problem::{check, check_config};
+use crate::problem::check_config;
 use std::fmt;
 use std::sync::atomic::AtomicBool;
 

@@ -27,7 +27,7 @@ pub enum MeshFault {
     #[error("is a folder; name a mesh in it, such as a .glb, .3mf, .obj, .stl, .ply or .off")]
     Folder,
     /// The file's extension names no known format.
-    #[error("{}; use .gltf, .glb, .3mf, .obj, .stl, .ply or .off", Extension(.extension))]
+    #[error("{}", Extension(.extension))]
     UnknownExtension {
         /// The text after the last dot; empty without a dot.
         extension: String,
@@ -209,10 +209,40 @@ struct Extension<'a>(&'a str);
 impl fmt::Display for Extension<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            "" => write!(f, "has no extension, which tells the format of a mesh"),
-            other => write!(f, "{other:?} is not the extension of a mesh"),
+            "" => write!(f, "has no extension, which tells the format of a mesh; ")?,
+            other => write!(f, "{other:?} is not the extension of a mesh; ")?,
+        }
+        match conversion(self.0) {
+            Some(advice) => f.write_str(advice),
+            None => write!(f, "use .gltf, .glb, .3mf, .obj, .stl, .ply or .off"),
         }
     }
+}
+
+/// Says how a file of a well-known format becomes a mesh.
+fn conversion(extension: &str) -> Option<&'static str> {
+    Some(match extension {
+        "step" | "stp" | "iges" | "igs" | "brep" => {
+            "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
+             `gmsh part.step -2 -o part.stl`"
+        }
+        "sldprt" | "ipt" | "catpart" | "prt" | "f3d" | "fcstd" | "x_t" | "jt" | "sat" | "dwg" => {
+            "it is a file of a CAD system: export it there as .stl or .3mf"
+        }
+        "dae" | "fbx" | "3ds" | "x3d" | "wrl" => {
+            "it holds a scene: run `assimp export scene.dae scene.glb`, or export it as .glb"
+        }
+        "blend" | "usd" | "usda" | "usdc" | "usdz" => {
+            "it holds a scene: open it in Blender, and export it as .glb"
+        }
+        "urdf" | "xacro" | "sdf" | "srdf" | "mjcf" | "xml" => {
+            "it describes links and joints: give the mesh of one link, which it names"
+        }
+        "vtk" | "vtu" | "msh" | "inp" | "nas" | "bdf" => {
+            "it holds a mesh for simulation: run `meshio convert part.msh part.stl`"
+        }
+        _ => return None,
+    })
 }
 
 /// The most parts that a message names.

@@ -21,7 +21,10 @@ fn a_closed_mesh_is_solid() {
 #[test]
 fn a_closed_mesh_inside_out_is_solid_and_says_so() {
     let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 3 1\nf 4 2 1\nf 4 3 2\nf 4 1 3\n";
-    assert_eq!(report(file), "1 convex hull, solid (closed, inside out)");
+    assert_eq!(
+        report(file),
+        "1 convex hull, solid (closed, inside out: taken as turned outward)"
+    );
 }
 
 #[test]

@@ -172,7 +172,7 @@ impl fmt::Display for Topology {
         if !self.flipped.is_empty() {
             write!(f, ", not all faces turned the same way")?;
         } else if self.is_closed() && self.orientation() == Orientation::Inward {
-            write!(f, ", inside out")?;
+            write!(f, ", inside out: taken as turned outward")?;
         }
         let shells = [
             (&self.wrong_way, "shells wound the wrong way, turned"),

@@ -45,15 +45,15 @@ _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
 _Course: TypeAlias = Motion | Path | Link
 
 class InputError(ValueError):
-    results: Table
+    results: Table | None
 
 class Unresolved(RuntimeError):
-    safe_until: float
-    lower: float
-    upper: float
+    safe_until: float | None
+    lower: float | None
+    upper: float | None
 
 class Interrupted(KeyboardInterrupt):
-    results: Table
+    results: Table | None
 
 @final
 class Body:
@@ -167,8 +167,8 @@ class Table:
     def keys(self) -> list[str]: ...
     def take(self, rows: ArrayLike) -> Table: ...
     @classmethod
-    def _from_bytes(cls, stored: bytes) -> Table: ...
-    def __reduce__(self) -> tuple[Callable[[bytes], Table], tuple[bytes]]: ...
+    def _from_bytes(cls, stored: bytes, checksum: int) -> Table: ...
+    def __reduce__(self) -> tuple[Callable[[bytes, int], Table], tuple[bytes, int]]: ...
     def __len__(self) -> int: ...
     def __contains__(self, name: str, /) -> bool: ...
     def __iter__(self) -> Iterator[str]: ...

@@ -58,6 +58,10 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
         Interrupted: Ctrl-C; its `results` has the rows answered by then, from the first on. A stream that waits for its
             next batch is waited for.
 
+    Warns:
+        UserWarning: a tolerance of more than a tenth of the smaller body, angular velocities that are round numbers of
+            degrees and make many turns, or a quaternion whose length is not within a tenth of 1. They change no answer.
+
     >>> import numpy as np
     >>> from rigid_ccd import Body, first_contacts
     >>> ball, wall = Body.sphere(0.5), Body.box(0.1, 5, 5)

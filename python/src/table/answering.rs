@@ -11,7 +11,7 @@ use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow};
 use rigid_ccd::table::motions::{RowError, RowProblem, TableError};
 use rigid_ccd::table::results::ResultRow;
-use rigid_ccd::{Answer, Config, InputError, Limit, Solver};
+use rigid_ccd::{Answer, Config, InputError, Limit, Remark, Solver};
 use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -41,6 +41,8 @@ pub(crate) enum Micros {
 pub(crate) struct Answered {
     pub(crate) results: RecordBatch,
     pub(crate) fault: Option<TableError>,
+    /// What is odd about the rows.
+    pub(crate) remarks: Vec<Remark>,
 }
 
 /// Answers the rows of a table until the flag is set. Counts them in `done` meanwhile.
@@ -83,6 +85,7 @@ pub(crate) fn answer(
         .collect();
     Ok(Answered {
         results: results::joined(&schema, &answered).map_err(unreadable)?,
+        remarks: pieces.remarks(&columns),
         fault: pieces.fault,
     })
 }

@@ -89,12 +89,32 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
     }
 }
 
-/// The type of values: dictionaries of parts of a table may not fit into one.
+/// The type of values: dictionaries of parts of a table may not fit into one, and NumPy knows neither them nor runs.
 fn unpacked(kind: &DataType) -> &DataType {
     match kind {
         DataType::Dictionary(_, values) => unpacked(values),
+        DataType::RunEndEncoded(_, values) => unpacked(values.data_type()),
         other => other,
     }
+}
+
+/// Makes an array of that type. One of nulls, or of runs, says how long it is in a few bytes, and becomes longer.
+fn flat(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
+    if column.data_type() == kind {
+        return Ok(Arc::clone(column));
+    }
+    let is_short = matches!(
+        column.data_type(),
+        DataType::Null | DataType::RunEndEncoded(..)
+    );
+    // Text of runs takes more than this, but not by much more than there are rows.
+    let rows = column.len();
+    if is_short && Vec::<f64>::new().try_reserve_exact(rows).is_err() {
+        return Err(ArrowError::MemoryError(format!(
+            "{rows} rows do not fit into memory"
+        )));
+    }
+    cast(column, kind)
 }
 
 fn is_numeric(kind: &DataType) -> bool {
@@ -118,7 +138,7 @@ impl Batch {
         let schema = batch.schema();
         let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
-            let column = cast(column, unpacked(field.data_type())).map_err(unreadable)?;
+            let column = flat(column, unpacked(field.data_type())).map_err(unreadable)?;
             columns.push(match field.name() == ID {
                 true => {
                     id = Some(column);
@@ -166,7 +186,7 @@ impl Numbers {
                 &cast(column, &DataType::Utf8).map_err(unreadable)?,
                 &DataType::Float64,
             ),
-            false => cast(column, &DataType::Float64),
+            false => flat(column, &DataType::Float64),
         };
         let values = values.map_err(unreadable)?;
         Ok(Numbers {
@@ -276,12 +296,7 @@ pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, Ar
 /// Makes values of dictionaries: those of several batches may be too many for the type of their keys.
 fn unpacked_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let columns = schema.fields().iter().zip(batch.columns());
-    let columns = columns.map(
-        |(field, column)| match column.data_type() == field.data_type() {
-            true => Ok(Arc::clone(column)),
-            false => cast(column, field.data_type()),
-        },
-    );
+    let columns = columns.map(|(field, column)| flat(column, field.data_type()));
     RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 

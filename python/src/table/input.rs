@@ -2,7 +2,7 @@
 
 use super::capsule;
 use crate::arrays::{kind, plain};
-use crate::errors::{caused, input, wrong_type};
+use crate::errors::{caused, guarded, input, wrong_type};
 use arrow_array::{
     Array, ArrayRef, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray,
 };
@@ -21,16 +21,21 @@ pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 /// Opens anything that speaks the Arrow PyCapsule protocol, or a dict of arrays. Columns are not copied, except for
 /// arrays that are not contiguous float64.
 pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
+    guarded("motions", || opened(motions))
+}
+
+fn opened(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     let failed = |error| caused(motions.py(), "motions", error);
     if motions.hasattr("__arrow_c_stream__")? {
         let read = |table: &Bound<'_, PyAny>| {
             let reader = table.extract::<PyRecordBatchReader>();
             let reader = reader.and_then(PyRecordBatchReader::into_reader);
-            reader.map(guarded).map_err(failed)
+            reader.map(steady).map_err(failed)
         };
-        return match is_frame_of_pandas(motions)? {
-            true => read(&without_index(motions)?),
-            false => read(motions),
+        return match library_of_frame(motions)?.as_deref() {
+            Some("pandas") => read(&without_index(motions)?),
+            Some("polars") => read(&without_nulls(motions)?),
+            _ => read(motions),
         };
     }
     if motions.hasattr("__arrow_c_array__")? {
@@ -46,29 +51,48 @@ pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-/// Ends a stream with an error where a batch does not fit its schema: the reader panics.
-fn guarded(mut reader: Reader) -> Reader {
+/// Ends a stream with an error where a batch does not fit its schema, or an error has no words: the reader panics.
+fn steady(mut reader: Reader) -> Reader {
     let schema = reader.schema();
     let next = move || {
         let batch = catch_unwind(AssertUnwindSafe(|| reader.next()));
         batch.unwrap_or_else(|_| {
-            let text = "a batch does not fit the schema of its stream".to_owned();
+            let text = "a batch does not fit the schema of its stream, or the stream failed";
+            let text = text.to_owned();
             Some(Err(ArrowError::SchemaError(text)))
         })
     };
     Box::new(RecordBatchIterator::new(from_fn(next), schema))
 }
 
-/// Whether a table is a frame of pandas, or of a class made from it.
-fn is_frame_of_pandas(motions: &Bound<'_, PyAny>) -> PyResult<bool> {
+/// Returns the library of a table that is a frame, or of a class made from one.
+fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     for class in motions.get_type().mro() {
         let module: String = class.getattr("__module__")?.extract()?;
         let name: String = class.getattr("__name__")?.extract()?;
-        if module.split('.').next() == Some("pandas") && name == "DataFrame" {
-            return Ok(true);
+        if name == "DataFrame" {
+            return Ok(module.split('.').next().map(str::to_owned));
         }
     }
-    Ok(false)
+    Ok(None)
+}
+
+/// Gives columns of a frame of polars that hold nothing a type: Arrow arrays of nulls have no buffers, and polars makes
+/// them with one.
+fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let polars = frame.py().import("polars")?;
+    let types = PyDict::new(frame.py());
+    for column in frame.getattr("schema")?.call_method0("items")?.try_iter()? {
+        let (name, kind): (String, Bound<'_, PyAny>) = column?.extract()?;
+        if kind.eq(polars.getattr("Null")?)? {
+            let as_kind = if name == ID { "String" } else { "Float64" };
+            types.set_item(name, polars.getattr(as_kind)?)?;
+        }
+    }
+    match types.is_empty() {
+        true => Ok(frame.clone()),
+        false => frame.call_method1("cast", (types,)),
+    }
 }
 
 /// Drops the index of a frame of pandas, which would be a column, unless it has a name.

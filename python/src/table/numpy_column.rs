@@ -1,6 +1,6 @@
 //! A column as an array of NumPy.
 
-use crate::errors::input as refuse;
+use crate::errors::{caused, input as refuse};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{
     Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
@@ -9,6 +9,7 @@ use arrow_array::types::{
 use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array};
 use arrow_cast::cast;
 use arrow_schema::DataType;
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3_arrow::PyArray;
 use pyo3_arrow::buffer::PyArrowBuffer;
@@ -86,12 +87,58 @@ fn texts<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>>
 }
 
 fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
+    if let Some(kind) = without_objects(column.data_type()) {
+        return Err(refuse(format!(
+            "there are no objects of Python for values of type {kind}; take the table through Arrow, as pyarrow.table(t)"
+        )));
+    }
+    // All of it is allocated at once. An array of nulls may say that it is longer than memory.
+    let mut room = Vec::<usize>::new();
+    if room.try_reserve_exact(column.len()).is_err() {
+        let rows = column.len();
+        return Err(PyMemoryError::new_err(format!(
+            "{rows} rows do not fit into memory"
+        )));
+    }
     let array = Bound::new(py, PyArray::from_array_ref(ArrayRef::clone(column)))?;
-    let values = array.call_method0("to_pylist")?;
+    let values = array
+        .call_method0("to_pylist")
+        .map_err(|error| caused(py, "a value", error))?;
     // NumPy would make lists of lists an array of more dimensions.
     let objects = py
         .import("numpy")?
         .call_method1("empty", (column.len(), "object"))?;
     objects.set_item(pyo3::types::PySlice::full(py), values)?;
     Ok(objects)
+}
+
+/// Returns the part of a type whose values `to_pylist` makes no objects of.
+fn without_objects(kind: &DataType) -> Option<&DataType> {
+    match kind {
+        DataType::ListView(_)
+        | DataType::LargeListView(_)
+        | DataType::Interval(_)
+        | DataType::RunEndEncoded(..) => Some(kind),
+        DataType::Map(entries, _) => match entries.data_type() {
+            DataType::Struct(fields)
+                if ["key", "value"]
+                    .iter()
+                    .all(|name| fields.find(name).is_some()) =>
+            {
+                without_objects(entries.data_type())
+            }
+            _ => Some(kind),
+        },
+        DataType::List(values)
+        | DataType::LargeList(values)
+        | DataType::FixedSizeList(values, _) => without_objects(values.data_type()),
+        DataType::Dictionary(_, values) => without_objects(values),
+        DataType::Struct(fields) => fields
+            .iter()
+            .find_map(|field| without_objects(field.data_type())),
+        DataType::Union(fields, _) => fields
+            .iter()
+            .find_map(|(_, field)| without_objects(field.data_type())),
+        _ => None,
+    }
 }

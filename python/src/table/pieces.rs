@@ -3,6 +3,7 @@
 use super::batch::{Batch, Batches, Names, Row, Rows, check_types, header, whole};
 use super::input::Reader;
 use arrow_array::ArrayRef;
+use rigid_ccd::Remark;
 use rigid_ccd::batch::Question;
 use rigid_ccd::table::columns::{Columns, Form};
 use rigid_ccd::table::courses::{Course, CourseRow, Courses};
@@ -114,6 +115,16 @@ impl<'p> Pieces<'p> {
             stop,
             fault: None,
         })
+    }
+}
+
+impl Pieces<'_> {
+    /// Returns what is odd about the rows read so far; those of motions are read by their columns.
+    pub(crate) fn remarks(&self, columns: &Columns) -> Vec<Remark> {
+        match &self.source {
+            Source::Motions { .. } => columns.remarks(),
+            Source::Paths(courses, _) => courses.remarks(),
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::pair::{BodiesArgs, Loading, Pair};
 use super::progress::{Progress, Total};
 use super::table::Table;
 use super::view::{answered, title};
-use super::{Exit, complain};
+use super::{Exit, complain, complain_of};
 use crate::ParallelSolver;
 use crate::batch::{BatchSize, Bodies, Question, Settings, Solve, SolverKind, on_threads};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
@@ -71,7 +71,8 @@ Examples:
 The table of motions or paths and the columns of the output are those of `ccd query`, see its --help. Rows that are
 proven free are counted, and left out. The others are:
   contact, touching, overlapping    missed by the checker: within margin + tolerance; `time` and witnesses tell where
-  unresolved                        not proven: a limit was reached; raise --budget
+  unresolved                        not proven: a limit was reached; a larger --tolerance decides sooner, a larger
+                                    --budget or --deadline takes longer
   error                             no valid motion; column `reason` tells why
 
 Exit code: 0 if all rows are proven free, 3 if some are not, 2 for bad input, 1 if nothing can be written.";
@@ -118,7 +119,15 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
         },
     };
     audit.all(&mut rows)?;
-    audit.finish()
+    let exit = audit.finish()?;
+    if !args.quiet {
+        complain_of(
+            pair.remark(args.tolerance)
+                .into_iter()
+                .chain(rows.remarks()),
+        );
+    }
+    Ok(exit)
 }
 
 fn settings(args: &AuditArgs) -> Settings {

@@ -2,6 +2,7 @@
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
+use crate::Remark;
 use crate::batch::{Bodies, SolverKind};
 use crate::command::files::same_file;
 use crate::command::progress::Progress;
@@ -84,6 +85,12 @@ impl Pair {
         let checksums = [("--a", &source_a), ("--b", &source_b)]
             .map(|(option, source)| (option, format!("{:08x}", checksum(source))));
         Ok(Pair { a, b, checksums })
+    }
+
+    /// Remarks upon a tolerance that is large against the smaller body.
+    pub(super) fn remark(&self, tolerance: f64) -> Option<Remark> {
+        let Bodies { a, b } = self.bodies();
+        Remark::of_tolerance(tolerance, [a, b].map(Remark::size))
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {

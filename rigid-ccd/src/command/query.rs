@@ -15,7 +15,7 @@ use super::bad_rows::BadRows;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{Chosen, Drawn, title, write_rows};
-use super::{Exit, complain};
+use super::{Exit, complain, complain_of};
 use crate::batch::{
     BatchSize, BoundKind, Question, ScheduleKind, Settings, SolverKind, on_threads,
 };
@@ -90,6 +90,11 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     }
     if !args.quiet {
         print_summary(args, &answering.summary);
+        complain_of(
+            pair.remark(args.tolerance)
+                .into_iter()
+                .chain(rows.remarks()),
+        );
     }
     Ok(match exit(end) {
         Exit::AllAnswered => shown,

@@ -81,11 +81,22 @@ impl Event {
 
     /// Returns the event of bodies that were asked from a time on; rounded so that it is never late.
     pub(super) fn later(self, from: f64) -> Self {
-        let time = match from > 0.0 {
-            true => greater(from, (from + self.time).next_down()),
-            false => self.time,
+        let later = |time: f64| match from > 0.0 {
+            true => greater(from, (from + time).next_down()),
+            false => time,
         };
-        Event { time, ..self }
+        let what = match self.what {
+            What::Hit(hit) => What::Hit(Hit {
+                time: later(hit.time),
+                ..hit
+            }),
+            what => what,
+        };
+        Event {
+            time: later(self.time),
+            what,
+            ..self
+        }
     }
 
     /// Returns the event at the start.

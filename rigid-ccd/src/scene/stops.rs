@@ -1,10 +1,11 @@
 //! Bodies that stop where they touch, each at its own time.
 
-use super::event::Event;
+use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::ordered;
 use super::settings::Clock;
 use super::{Mobility, PairError, Scene};
+use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::{BestFirst, Schedule};
@@ -22,6 +23,38 @@ pub struct Stop {
     pub time: f64,
     /// The body that stops it, by index; none if nothing does.
     pub by: Option<usize>,
+    /// The contact with that body, which would be at the time of its hit; none if nothing stops it, or if a limit was
+    /// reached before a contact was found. Bodies that rest on each other stop at once, before that time.
+    pub contact: Option<Impact>,
+}
+
+impl Stop {
+    /// Returns the unit normal of the contact, from this body to the one that stops it; none without a
+    /// [contact](Stop::contact).
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Pose, Scene};
+    /// let (ball, ground) = (Body::ball(0.5)?, Body::cuboid([5.0, 5.0, 1.0])?);
+    /// let mut scene = Scene::new();
+    /// scene.add_fixed(&ground, Pose::at([0.0, 0.0, -1.0])?);
+    /// let falls = Motion::new(Pose::at([0.0, 0.0, 2.0])?, [1.0, 0.0, -3.0], [0.0; 3])?;
+    /// let ball = scene.add(&ball, falls);
+    /// let stop = scene.stops(1.0)?[ball];
+    /// // It may slide on along the ground.
+    /// let down = stop.normal().expect("the ground stops it");
+    /// let slides = falls.velocity() - falls.velocity().dot(down) * down;
+    /// assert!((slides.x - 1.0).abs() < 1e-12 && slides.z.abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn normal(&self) -> Option<DVec3> {
+        let Impact { bodies, hit } = self.contact?;
+        let normal = hit.contact?.separation.normal;
+        // That of a hit is from the lower index to the higher one.
+        match self.by == Some(bodies[0]) {
+            true => Some(-normal),
+            false => Some(normal),
+        }
+    }
 }
 
 impl Scene<'_> {
@@ -106,6 +139,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         let goes_on = Stop {
             time: clock.duration,
             by: None,
+            contact: None,
         };
         Stopping {
             scene,
@@ -135,15 +169,17 @@ impl<'s, 'a> Stopping<'s, 'a> {
             if event.bodies.map(|index| self.moves(index)) != moving {
                 continue;
             }
-            if event.is_refused() {
-                event.impact()?;
-            }
+            let contact = match event.impact() {
+                Err(error) if event.is_refused() => return Err(error),
+                impact => impact.ok(),
+            };
             let [a, b] = event.bodies;
             for (index, other) in [(a, b), (b, a)] {
                 if self.moves(index) {
                     self.stops[index] = Stop {
                         time: event.time,
                         by: Some(other),
+                        contact,
                     };
                 }
             }

@@ -246,7 +246,7 @@ fn a_step_begins_where_the_last_one_ended() {
     };
     let falling = scene.add(&ball, falls(3.0));
     assert!(scene.first_contact(1.0).unwrap().is_none());
-    scene.set_motion(falling, falls(2.0));
+    scene.set_motion(falling, falls(2.0)).unwrap();
     assert!(scene.first_contact(0.5).unwrap().is_none());
     let time = scene.first_contact(1.0).unwrap().unwrap().hit.time;
     assert!(time <= 1.0 && time > 0.998, "{time}");
@@ -411,4 +411,24 @@ fn the_shortest_durations_end() {
         assert_eq!(scene.first_contact_of_each(duration).len(), 8);
     }
     assert!(met > 50, "{met}");
+}
+
+/// Two fixed bodies are no pair: one that moved would pass through the other without a word.
+#[test]
+fn a_fixed_body_takes_no_motion() {
+    let ball = Body::ball(0.5).unwrap();
+    let mut scene = Scene::new();
+    let fixed = scene.add_fixed(&ball, Pose::IDENTITY);
+    let other = scene.add_fixed(&ball, Pose::at([3.0, 0.0, 0.0]).unwrap());
+    let pose = Pose::at([0.0, 2.0, 0.0]).unwrap();
+    for (velocity, spin) in [([1.0, 0.0, 0.0], [0.0; 3]), ([0.0; 3], [0.0, 0.0, 1e-300])] {
+        let moves = Motion::new(pose, velocity, spin).unwrap();
+        let refused = scene.set_motion(fixed, moves).unwrap_err();
+        assert_eq!(refused, FixedBody { index: fixed });
+        assert!(refused.to_string().starts_with("body 0 is fixed"));
+        assert_eq!(scene.motion(fixed), Motion::STILL);
+    }
+    // It may be put elsewhere.
+    scene.set_motion(other, Motion::still(pose)).unwrap();
+    assert_eq!(scene.motion(other), Motion::still(pose));
 }

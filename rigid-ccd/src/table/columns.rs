@@ -1,7 +1,9 @@
 //! The columns of tables of motions and of paths.
 
+use crate::Remark;
 use crate::table::error::TableError;
 use crate::table::foreign;
+use crate::table::oddities::Oddities;
 use std::ops::Range;
 
 /// One of the two bodies.
@@ -121,6 +123,7 @@ pub struct Columns {
     /// The cell of each known column.
     cells: Vec<Option<usize>>,
     len: usize,
+    oddities: Oddities,
 }
 
 impl Columns {
@@ -165,6 +168,7 @@ impl Columns {
             names,
             cells,
             len: header.len(),
+            oddities: Oddities::default(),
         };
         columns.check_whole()?;
         Ok(columns)
@@ -196,6 +200,15 @@ impl Columns {
     /// Returns what a row of the table is.
     pub fn form(&self) -> Form {
         self.form
+    }
+
+    /// Returns what is odd about the rows read so far, each kind once.
+    pub fn remarks(&self) -> Vec<Remark> {
+        self.oddities.remarks()
+    }
+
+    pub(in crate::table) fn oddities(&self) -> &Oddities {
+        &self.oddities
     }
 
     /// The slots of a quantity.
@@ -250,6 +263,10 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
         return TableError::IndexOfPandas { column };
     }
     let lower = column.to_ascii_lowercase();
+    if let Some(prefix) = prefix_of_angle(&lower) {
+        let column = column.to_owned();
+        return TableError::Angle { column, prefix };
+    }
     let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
     let names = form.names();
     let nearest = names.iter().min_by_key(edit_distance);
@@ -265,6 +282,24 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
             .cloned(),
     }
 }
+
+/// Returns what the columns of a body begin with, if a name is one of Euler angles or of a rotation vector.
+fn prefix_of_angle(lower: &str) -> Option<&'static str> {
+    let prefixes = ["a_end_", "b_end_", "a_", "b_"];
+    let found = prefixes
+        .into_iter()
+        .find(|prefix| lower.starts_with(prefix));
+    let prefix = found.unwrap_or("a_");
+    let name = lower.strip_prefix(prefix).unwrap_or(lower);
+    ANGLES.contains(&name).then_some(prefix)
+}
+
+/// What columns of angles are called, without the prefix of a body.
+const ANGLES: [&str; 27] = [
+    "rx", "ry", "rz", "roll", "pitch", "yaw", "heading", "rpy", "euler", "alpha", "beta", "gamma",
+    "phi", "theta", "psi", "rot_x", "rot_y", "rot_z", "rotx", "roty", "rotz", "euler_x", "euler_y",
+    "euler_z", "angle_x", "angle_y", "angle_z",
+];
 
 /// The slot of the id.
 pub(in crate::table) const ID: usize = 0;

@@ -7,6 +7,7 @@ use super::motions::{MotionRows, Query};
 use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;
+use crate::Remark;
 use ccd_core::{InputError, Pose};
 use std::io;
 
@@ -123,6 +124,14 @@ impl<S: Records> Courses<S> {
         match self {
             Courses::Motions(table) => table.bytes(),
             Courses::Paths(table) => table.bytes(),
+        }
+    }
+
+    /// Returns what is odd about the rows so far, each kind once.
+    pub fn remarks(&self) -> Vec<Remark> {
+        match self {
+            Courses::Motions(table) => table.remarks(),
+            Courses::Paths(table) => table.remarks(),
         }
     }
 

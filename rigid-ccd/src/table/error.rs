@@ -62,6 +62,17 @@ pub enum TableError {
         /// The known column with the most similar name.
         nearest: Option<String>,
     },
+    /// A column is named like an angle: orientations are quaternions.
+    #[error(
+        "header: column `{column}` is named like an angle, and orientations are quaternions: columns {prefix}qw {prefix}qx \
+         {prefix}qy {prefix}qz, w first; of scipy, Rotation.from_euler(…).as_quat(scalar_first=True) makes them of angles"
+    )]
+    Angle {
+        /// The name of the column.
+        column: String,
+        /// What the names of the body's columns begin with.
+        prefix: &'static str,
+    },
     /// A column has no name, as the index of a frame of pandas.
     #[error(
         "header: column `{column}` has no name; an index of pandas is written so: write the table with index=False, \

@@ -10,6 +10,7 @@ pub use super::position::RowPosition;
 pub use row::query;
 pub use write::write;
 
+use crate::Remark;
 use crate::table::columns::{Columns, Form};
 use crate::table::csv_records::CsvRecords;
 use crate::table::records::Records;
@@ -104,6 +105,11 @@ impl<S: Records> MotionRows<S> {
     /// Returns the number of bytes of the input up to the end of the last row.
     pub fn bytes(&self) -> u64 {
         self.records.bytes()
+    }
+
+    /// Returns what is odd about the rows so far, each kind once.
+    pub fn remarks(&self) -> Vec<Remark> {
+        self.columns.remarks()
     }
 
     /// Returns a checksum of the header and of all rows so far.

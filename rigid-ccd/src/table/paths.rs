@@ -8,6 +8,7 @@ use super::error::{RowError, RowProblem, TableError};
 use super::motions::row::{self, Posed, Poses};
 use super::position::RowPosition;
 use super::records::Records;
+use crate::Remark;
 use crate::trajectory;
 use crate::trajectory::poses::{MOST_LEFT, left_over};
 use ccd_core::glam::DVec3;
@@ -107,6 +108,11 @@ impl<S: Records> PathRows<S> {
     /// Returns the number of bytes of the input up to the end of the last path.
     pub fn bytes(&self) -> u64 {
         self.bytes
+    }
+
+    /// Returns what is odd about the rows so far, each kind once.
+    pub fn remarks(&self) -> Vec<Remark> {
+        self.columns.remarks()
     }
 
     /// Returns a checksum of the header and of all rows of the paths so far.

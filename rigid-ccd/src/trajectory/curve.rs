@@ -222,11 +222,11 @@ fn checked(points: &[[f64; 3]], least: usize, duration: f64) -> Result<Vec<DVec3
         })
     };
     if points.len() < least {
-        return refuse(
-            "number of points",
-            points.len() as f64,
-            "at least 1; at least 4 of a B-spline",
-        );
+        let allowed = match least {
+            1 => "at least 1",
+            _ => "at least 4, of a B-spline",
+        };
+        return refuse("number of points", points.len() as f64, allowed);
     }
     if !(duration > 0.0 && duration.is_finite()) {
         return refuse("duration", duration, "positive and finite");

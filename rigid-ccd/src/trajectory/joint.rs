@@ -110,11 +110,20 @@ impl Joint {
     /// to another one at the time `duration`, at a constant rate.
     ///
     /// # Errors
-    /// [`InputError::JointPosition`] outside of the limits, [`InputError::NotFinite`], also for a duration of 0
-    /// between different positions.
+    /// [`InputError::JointPosition`] outside of the limits, [`InputError::OutOfRange`] for a duration that is not
+    /// positive and finite, [`InputError::NotFinite`].
     pub fn motion(&self, from: f64, to: f64, duration: f64) -> Result<Motion, InputError> {
         self.check(to, None)?;
         let start = self.pose(from)?;
+        // A joint at rest may take no time.
+        let least = if from == to { 0.0 } else { f64::from_bits(1) };
+        if !(least..=f64::MAX).contains(&duration) {
+            return Err(InputError::OutOfRange {
+                what: "duration",
+                value: duration,
+                allowed: "positive and finite",
+            });
+        }
         let rate = match from == to {
             true => 0.0,
             false => (to - from) / duration,

@@ -52,8 +52,9 @@ impl Chain {
     /// each joint, fixed ones included.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a link that does not exist, for another number of positions, and for a duration
-    /// that is not positive; [`InputError::JointPosition`] for a position outside of its joint's limits.
+    /// [`InputError::NoSuchLink`], [`InputError::JointCount`] for more or fewer positions than joints,
+    /// [`InputError::OutOfRange`] for a duration that is not positive, [`InputError::JointPosition`] for a position
+    /// outside of its joint's limits.
     pub fn link<'c>(
         &'c self,
         link: usize,
@@ -73,28 +74,30 @@ impl<'c> Link<'c> {
         to: &'c [f64],
         duration: f64,
     ) -> Result<Self, InputError> {
-        let out_of_range = |what, value, allowed| {
-            Err(InputError::OutOfRange {
-                what,
-                value,
-                allowed,
-            })
-        };
         let joints = chain.joints();
         if link > joints.len() {
-            return out_of_range("link", link as f64, "at most the number of joints");
+            return Err(InputError::NoSuchLink {
+                link,
+                joints: joints.len(),
+            });
         }
         for positions in [from, to] {
             if positions.len() != joints.len() {
-                let given = positions.len() as f64;
-                return out_of_range("the number of joint positions", given, "that of the joints");
+                return Err(InputError::JointCount {
+                    positions: positions.len(),
+                    joints: joints.len(),
+                });
             }
             for (k, (joint, &position)) in joints.iter().zip(positions).enumerate() {
                 joint.check(position, Some(k))?;
             }
         }
         if !(duration > 0.0 && duration.is_finite()) {
-            return out_of_range("duration", duration, "positive and finite");
+            return Err(InputError::OutOfRange {
+                what: "duration",
+                value: duration,
+                allowed: "positive and finite",
+            });
         }
         Ok(Link {
             chain,
@@ -110,17 +113,16 @@ impl<'c> Link<'c> {
     /// against that link at rest, [`Motion::STILL`]: what moves both links costs nothing then.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] if the other link is farther from the base.
+    /// [`InputError::NotSeenFrom`] if the other link is farther from the base.
     pub fn seen_from(self, link: usize) -> Result<Self, InputError> {
         match link <= self.link {
             true => Ok(Link {
                 seen_from: Some(link),
                 ..self
             }),
-            false => Err(InputError::OutOfRange {
-                what: "link to see from",
-                value: link as f64,
-                allowed: "no farther from the base than the link that is seen",
+            false => Err(InputError::NotSeenFrom {
+                from: link,
+                link: self.link,
             }),
         }
     }

@@ -50,11 +50,15 @@ impl Poses {
             Err(InputError::OutOfRange {
                 what: "time of a pose",
                 value,
-                allowed: "finite and later than the one before; at least one",
+                allowed: "finite and later than the one before",
             })
         };
         if poses.is_empty() {
-            return refuse(f64::NAN);
+            return Err(InputError::OutOfRange {
+                what: "number of poses",
+                value: 0.0,
+                allowed: "at least 1",
+            });
         }
         for (k, &(time, _)) in poses.iter().enumerate() {
             // Written so that NaN is refused.

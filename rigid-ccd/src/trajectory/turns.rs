@@ -197,7 +197,7 @@ fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
         Err(InputError::OutOfRange {
             what: "time of an orientation",
             value,
-            allowed: "finite and later than the one before; at least one",
+            allowed: "finite and later than the one before",
         })
     };
     let mut units: Vec<(f64, DQuat)> = Vec::new();
@@ -212,7 +212,11 @@ fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
         units.push((time, if turned { -unit } else { unit }));
     }
     match units.is_empty() {
-        true => refuse(f64::NAN),
+        true => Err(InputError::OutOfRange {
+            what: "number of orientations",
+            value: 0.0,
+            allowed: "at least 1",
+        }),
         false => Ok(units),
     }
 }

@@ -1,6 +1,7 @@
 //! Messages about input, and about bodies of different size.
 
 use crate::command::{Run, Scene, parse, stderr};
+use crate::{DROP, FALLING_CUBE};
 
 const SPHERES: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
@@ -206,4 +207,44 @@ fn what_is_not_read_is_told_to_quiet_users_too() {
         "{message}"
     );
     assert_eq!(message.lines().count(), 1, "{message}");
+}
+
+/// One line for each trap, once, and nothing of it where nothing is to be said, in the table, or in the exit code.
+#[test]
+fn traps_are_remarked_upon_once() {
+    let spins = |rates: &str| {
+        let rows = rates.split(' ').map(|rate| format!("1,{rate}\n"));
+        format!("a_px,a_wz\n{}", rows.collect::<String>())
+    };
+    let quaternions = "a_px,a_qw,a_qx,a_qy,a_qz\n1,1,1,0,0\n1,1,1,0,0\n".to_owned();
+    let coarse = ["--a", "sphere:.0005", "--b", "box:9,9,1"];
+    for (bodies, motions, words) in [
+        (FALLING_CUBE, spins("90 180 -45"), "makes 14.3 turns"),
+        (FALLING_CUBE, quaternions, "has the length 1.414"),
+        (coarse, DROP.to_owned(), "the tolerance is large against"),
+    ] {
+        for command in ["query", "audit"] {
+            let tolerance = ["--tolerance", "0.001"];
+            let bare = [command, "--motions", "-"];
+            let run = || {
+                Run::bare(&bare)
+                    .args(&bodies)
+                    .args(&tolerance)
+                    .stdin(&motions)
+            };
+            let (loud, quiet) = (run().output(), run().args(&["--quiet"]).output());
+            let message = stderr(&loud);
+            let remarks = message
+                .lines()
+                .filter(|line| line.starts_with("ccd: ") && line.contains(words));
+            assert_eq!(remarks.count(), 1, "{command}: {message}");
+            assert_eq!(stderr(&quiet), "");
+            assert_eq!(loud.status.code(), quiet.status.code());
+        }
+    }
+    // A shaft at round numbers of radians, among them some that would be round in degrees.
+    for rates in ["100", "6.283185307179586", "45 46", "0", "3.14 1.57"] {
+        let output = Run::query(&FALLING_CUBE).stdin(&spins(rates)).output();
+        assert!(!stderr(&output).contains("turns"), "{}", stderr(&output));
+    }
 }

@@ -46,11 +46,12 @@ fn invalid_poses_are_refused() {
         Pose::new(DVec3::ZERO, zero),
         Err(InputError::ZeroQuaternion)
     );
-    let not_finite = Err(InputError::NotFinite { what: "pose" });
+    let not_finite = |what| Err(InputError::NotFinite { what });
     for bad in [f64::NAN, f64::INFINITY] {
-        assert_eq!(Pose::at(DVec3::new(0.0, bad, 0.0)), not_finite);
+        let far = DVec3::new(0.0, bad, 0.0);
+        assert_eq!(Pose::at(far), not_finite("position"));
         let q = DQuat::from_xyzw(bad, 0.0, 0.0, 1.0);
-        assert_eq!(Pose::new(DVec3::ZERO, q), not_finite);
+        assert_eq!(Pose::new(DVec3::ZERO, q), not_finite("quaternion"));
     }
 }
 

@@ -29,7 +29,10 @@ fn a_cube_inside_out_is_closed() {
     let cube = topology(cube_points(), &CUBE.map(|[a, b, c]| [a, c, b]));
     assert!(cube.is_manifold());
     assert_eq!(cube.orientation(), Orientation::Inward);
-    assert_eq!(cube.to_string(), "closed, inside out");
+    assert_eq!(
+        cube.to_string(),
+        "closed, inside out: taken as turned outward"
+    );
 }
 
 #[test]

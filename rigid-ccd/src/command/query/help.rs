@@ -82,7 +82,8 @@ Table of results:
   iterations, oracle_calls  pairs of nodes visited; calls of the distance backend
   micros                    time of this query in microseconds; for accurate times use --threads 1
   reason                    of `error`: what is wrong; of `unresolved`: the limit, one of budget,
-                            deadline, stalled, oracle gave up, undecided
+                            deadline, stalled, oracle gave up, undecided. Where the budget is spent, a
+                            larger --tolerance or --ask is-free with a --margin often decides at once
   With --ask contact-interval also:
   last_time                 certified: no contact after it
   With --counters also:

@@ -4,8 +4,16 @@ use ccd_core::Limit;
 
 /// Each limit with its advice.
 const LIMITS: [(Limit, &str); 5] = [
-    (Limit::Budget, "the budget was spent; raise --budget"),
-    (Limit::Deadline, "the deadline has passed; raise --deadline"),
+    (
+        Limit::Budget,
+        "the budget was spent; a larger --tolerance, or --ask is-free with a --margin, often decides at once; a larger \
+         --budget takes longer",
+    ),
+    (
+        Limit::Deadline,
+        "the deadline has passed; a larger --tolerance, or --ask is-free with a --margin, often decides at once; a \
+         later --deadline takes longer",
+    ),
     (
         Limit::Stalled,
         "no further step could be certified; a larger --tolerance may help",

@@ -58,7 +58,8 @@ fn bodies_that_stop_never_overlap() {
         let free = vec![
             Stop {
                 time: 1.0,
-                by: None
+                by: None,
+                contact: None,
             };
             scene.len()
         ];
@@ -88,6 +89,7 @@ fn bodies_that_stop_never_overlap() {
             stopped += 1;
             again += usize::from(stops[by].time < stop.time);
             let poses = poses(&scene, &stops, stop.time);
+            check_contact(&scene, index, stop, config.margin + config.tolerance);
             let still = |k: usize| (scene.members[k].body, Motion::still(poses[k]));
             // A query of no duration may pass over half of its tolerance.
             let near = Config {
@@ -103,6 +105,71 @@ fn bodies_that_stop_never_overlap() {
         stopped > 100 && moving > 100 && crossed > 50 && again > 5,
         "{stopped} {moving} {crossed} {again}"
     );
+}
+
+/// Its contact is with what stops it, at the time at which it stops, or later where it rests. There the witnesses are
+/// near, and one behind the other along the normal.
+fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
+    let by = stop.by.unwrap();
+    let Impact { bodies, hit } = stop.contact.expect("no limit was reached");
+    assert_eq!(bodies, super::super::pairs::ordered(index, by));
+    assert!(hit.time >= stop.time && hit.time <= 1.0, "{hit:?} {stop:?}");
+    let way = match bodies[0] == index {
+        true => hit.witness_b - hit.witness_a,
+        false => hit.witness_a - hit.witness_b,
+    };
+    assert!(way.length() <= reach, "{way}");
+    let normal = stop.normal().expect("nothing overlaps");
+    let rounding = 1e-12 * (1.0 + hit.witness_a.length());
+    assert!(
+        normal.dot(way) >= way.length() - rounding - 1e-3 * reach,
+        "{normal} {way}"
+    );
+    let span = scene.members[index].body.span();
+    let mine = match bodies[0] == index {
+        true => hit.witness_a,
+        false => hit.witness_b,
+    };
+    let centre = scene.members[index].motion.pose(hit.time).translation();
+    assert!(mine.distance(centre) <= span * (1.0 + 1e-12) + rounding);
+}
+
+#[test]
+fn a_normal_is_from_the_body_to_what_stops_it() {
+    let (ball, plate) = (
+        Body::ball(0.5).unwrap(),
+        Body::cuboid([5.0, 5.0, 1.0]).unwrap(),
+    );
+    let falls = Motion::new(
+        Pose::at([0.0, 0.0, 2.0]).unwrap(),
+        [0.0, 0.0, -3.0],
+        [0.0; 3],
+    )
+    .unwrap();
+    let below = Pose::at([0.0, 0.0, -1.0]).unwrap();
+    // Whichever was added first.
+    let mut scene = Scene::new();
+    scene.add_fixed(&plate, below);
+    let second = scene.add(&ball, falls);
+    let stop = scene.stops(1.0).unwrap()[second];
+    assert!(stop.normal().unwrap().distance(-DVec3::Z) < 1e-12);
+    let mut scene = Scene::new();
+    let first = scene.add(&ball, falls);
+    scene.add_fixed(&plate, below);
+    let stops = scene.stops(1.0).unwrap();
+    assert!(stops[first].normal().unwrap().distance(-DVec3::Z) < 1e-12);
+    assert_eq!(stops[first].contact.unwrap().hit.time, stops[first].time);
+    // What does not stop has none, nor has what a limit stops.
+    assert_eq!(
+        (stops[1].by, stops[1].contact, stops[1].normal()),
+        (None, None, None)
+    );
+    let spent = Config {
+        budget: 0,
+        ..Config::default()
+    };
+    let stop = scene.with_config(spent).stops(1.0).unwrap()[first];
+    assert_eq!((stop.by, stop.contact), (Some(1), None));
 }
 
 /// A body that has stopped is in the way of the next one.
@@ -154,7 +221,7 @@ fn what_is_pressed_stays_above() {
     let ball = scene.add(&ball, pressed(height, x));
     for step in 0..200 {
         let motion = pressed(height, x);
-        scene.set_motion(ball, motion);
+        scene.set_motion(ball, motion).unwrap();
         let stop = scene.stops(0.01).unwrap()[ball];
         let place = motion.pose(stop.time).translation();
         assert!(
@@ -189,7 +256,8 @@ fn what_is_out_of_range_or_unresolved_is_told_or_stops() {
     assert!(scene.stops(-1.0).is_err());
     // The policy of other questions is what it was.
     let mut scene = scene.with_config(Config::default());
-    scene.set_motion(flying, Motion::still(Pose::at([1.0, 0.0, 0.0]).unwrap()));
+    let rests = Motion::still(Pose::at([1.0, 0.0, 0.0]).unwrap());
+    scene.set_motion(flying, rests).unwrap();
     scene.stops(1.0).unwrap();
     assert_eq!(
         scene.first_contact(1.0).unwrap().unwrap().hit.kind,
@@ -216,7 +284,7 @@ fn what_is_pressed_does_not_sink_by_rounding() {
         for step in 0..1_000 {
             let way = any();
             let motion = Motion::new(pose, [way.x, way.y, -0.5], any()).unwrap();
-            scene.set_motion(index, motion);
+            scene.set_motion(index, motion).unwrap();
             pose = motion.pose(scene.stops(1.0 / 60.0).unwrap()[index].time);
             let gap = pose.translation().z - 0.5;
             assert!(
@@ -225,7 +293,8 @@ fn what_is_pressed_does_not_sink_by_rounding() {
             );
         }
         // It lifts off.
-        scene.set_motion(index, Motion::new(pose, [0.0, 0.0, 0.5], [0.0; 3]).unwrap());
+        let lifts = Motion::new(pose, [0.0, 0.0, 0.5], [0.0; 3]).unwrap();
+        scene.set_motion(index, lifts).unwrap();
         assert_eq!(scene.stops(1.0).unwrap()[index].by, None);
     }
 }

@@ -29,10 +29,17 @@ pub fn query<R: Record + ?Sized>(
             allowed: "at least 0",
         });
     }
+    let [a, b] = [
+        row.motion(Side::A, duration)?,
+        row.motion(Side::B, duration)?,
+    ];
+    for motion in [&a, &b] {
+        columns.oddities().note_motion(motion, duration);
+    }
     Ok(Query {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
-        a: row.motion(Side::A, duration)?,
-        b: row.motion(Side::B, duration)?,
+        a,
+        b,
         duration,
     })
 }
@@ -179,7 +186,10 @@ impl<C: Cells> Row<'_, C> {
         };
         let quaternion = DQuat::from_xyzw(x, y, z, w);
         match Pose::new(DVec3::ZERO, quaternion) {
-            Ok(_) => Ok(Some(quaternion)),
+            Ok(_) => {
+                self.columns.oddities().note_quaternion([w, x, y, z]);
+                Ok(Some(quaternion))
+            }
             Err(InputError::ZeroQuaternion) => Err(RowProblem::ZeroQuaternion {
                 columns: slots
                     .map(|slot| self.columns.name(slot).to_owned())

@@ -78,7 +78,7 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
 fn overflow_is_an_error() {
     let motion = Motion::new(Pose::IDENTITY, 1e308 * DVec3::X, 1e-3 * DVec3::Z).unwrap();
     let result = screw(&query(motion, still(DVec3::ZERO)));
-    assert_eq!(result, Err(InputError::NotFinite { what: "motion" }));
+    assert!(matches!(result, Err(InputError::NotFinite { .. })));
 }
 
 #[test]

@@ -245,3 +245,26 @@ fn files_are_named() {
         );
     }
 }
+
+/// Nobody exports a part for this project: what people have is named with the way to a mesh.
+#[test]
+fn files_of_other_programs_are_told_how_to_convert() {
+    for (name, way) in [
+        ("part.step", "gmsh part.step -2 -o part.stl"),
+        ("PART.STP", "gmsh"),
+        ("part.iges", "gmsh"),
+        ("part.sldprt", "export it there as .stl"),
+        ("scene.dae", "assimp export scene.dae scene.glb"),
+        ("scene.fbx", "assimp"),
+        ("scene.blend", "Blender"),
+        ("scene.usdz", "Blender"),
+        ("arm.urdf", "the mesh of one link"),
+        ("arm.xml", "the mesh of one link"),
+        ("part.msh", "meshio"),
+        ("part.txt", "use .gltf, .glb, .3mf, .obj"),
+        ("part", "use .gltf, .glb, .3mf, .obj"),
+    ] {
+        let message = TriangleMesh::read(name).unwrap_err().to_string();
+        assert!(message.contains(way), "{message}");
+    }
+}

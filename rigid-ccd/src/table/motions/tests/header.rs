@@ -93,3 +93,31 @@ fn columns_that_need_each_other_come_together() {
     // Positions and velocities have defaults.
     assert!(MotionTable::read(&b"a_px,b_vy,a_wz,b_cx\n"[..]).is_ok());
 }
+
+/// A table of Euler angles that is read with other columns would be another motion.
+#[test]
+fn angles_are_pointed_to_quaternions() {
+    for (column, columns) in [
+        ("a_rx", "a_qw a_qx a_qy a_qz"),
+        ("b_ry", "b_qw b_qx b_qy b_qz"),
+        ("a_roll", "a_qw a_qx a_qy a_qz"),
+        ("yaw", "a_qw a_qx a_qy a_qz"),
+        ("B_Pitch", "b_qw b_qx b_qy b_qz"),
+        ("a_end_rz", "a_end_qw a_end_qx a_end_qy a_end_qz"),
+        ("b_end_yaw", "b_end_qw b_end_qx b_end_qy b_end_qz"),
+        ("euler_x", "a_qw a_qx a_qy a_qz"),
+    ] {
+        for header in [format!("id,{column}"), format!("id,t,{column}")] {
+            let header: Vec<String> = header.split(',').map(str::to_owned).collect();
+            let message = Columns::of(&header).unwrap_err().to_string();
+            assert!(
+                message.contains(columns) && message.contains("quaternions"),
+                "{message}"
+            );
+            assert!(message.contains(&format!("`{column}`")) && !message.contains("did you mean"));
+        }
+    }
+    // What is misspelt is something else.
+    let message = Columns::of(&["a_rw".to_owned()]).unwrap_err().to_string();
+    assert!(message.contains("did you mean"), "{message}");
+}

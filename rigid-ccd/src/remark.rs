@@ -1,0 +1,189 @@
+//! What is valid, and hardly what is meant.
+
+use ccd_core::Body;
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use ccd_core::vector::length;
+use std::f64::consts::TAU;
+use std::fmt;
+
+/// Something about a question that is valid, and hardly what is meant. It changes no answer.
+///
+/// The command prints it, and the Python package warns of it, each kind once. Who asks through the library decides
+/// for himself what to do with it.
+///
+/// ```
+/// use rigid_ccd::{Body, Remark};
+/// // A part in metres, and a tolerance as for millimetres.
+/// let (part, wall) = (Body::ball(0.0005)?, Body::cuboid([1.0; 3])?);
+/// let sizes = [&part, &wall].map(Remark::size);
+/// let remark = Remark::of_tolerance(0.001, sizes).expect("it is as large as the part");
+/// assert!(remark.to_string().starts_with("the tolerance is large against the smaller body"));
+/// assert_eq!(Remark::of_tolerance(0.00001, sizes), None);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Remark {
+    /// The tolerance is more than a tenth of the smaller body.
+    CoarseTolerance {
+        /// The tolerance.
+        tolerance: f64,
+        /// The largest side of the smaller body's box.
+        size: f64,
+    },
+    /// An angular velocity looks like one in degrees.
+    SpinInDegrees {
+        /// The angular velocity.
+        spin: DVec3,
+        /// The turn that it makes in the duration, in radians.
+        turn: f64,
+    },
+    /// The position of a joint that turns looks like one in degrees.
+    JointInDegrees {
+        /// The position.
+        position: f64,
+    },
+    /// A quaternion is far from unit length.
+    LongQuaternion {
+        /// Its parts w, x, y, z.
+        parts: [f64; 4],
+        /// Its length.
+        length: f64,
+    },
+}
+
+/// The share of the smaller body's size that a tolerance may be: what is called a contact is then as far away as
+/// that. With the default tolerance, a part of a centimetre in metres is not remarked upon, and one of a millimetre is.
+const COARSE: f64 = 0.1;
+
+/// Turns above this may be meant in degrees. Four turns in radians are 25; as degrees, that is a small angle. Robots'
+/// joints and parts that are thrown or assembled turn less.
+const MANY_TURNS: f64 = 4.0 * TAU;
+
+/// Angles up to this may be meant in degrees: two turns of them. More is a shaft that spins.
+const MOST_DEGREES: f64 = 720.0;
+
+/// Angles in degrees are mostly multiples of this. In radians, 50, 100, 200, 500 and multiples of π are none of them.
+const STEP: f64 = 15.0;
+
+/// How far an angle may be from a multiple, relative to it: a product of a rate and a duration is rounded.
+const ROUNDING: f64 = 1e-9;
+
+/// How far from 1 a quaternion's length may be. One that is printed with two digits is nearer.
+const UNIT: f64 = 0.1;
+
+impl Remark {
+    /// Returns the largest side of the box about a body, in its frame.
+    ///
+    /// # Complexity
+    /// Linear in the body's points.
+    pub fn size(body: &Body) -> f64 {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for piece in body.pieces().iter() {
+            for point in piece.points {
+                for (axis, x) in point.to_array().into_iter().enumerate() {
+                    low[axis] = lesser(low[axis], x - piece.radius);
+                    high[axis] = greater(high[axis], x + piece.radius);
+                }
+            }
+        }
+        let sides = low.into_iter().zip(high).map(|(low, high)| high - low);
+        sides.fold(0.0, greater)
+    }
+
+    /// Remarks upon a tolerance that is large against the smaller of two bodies, by their [sizes](Remark::size). A
+    /// point has none.
+    pub fn of_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
+        let size = lesser(sizes[0], sizes[1]);
+        let is_coarse = size > 0.0 && tolerance > COARSE * size;
+        is_coarse.then_some(Remark::CoarseTolerance { tolerance, size })
+    }
+
+    /// Remarks upon an angular velocity that turns a body many times in the duration, and is a round number of
+    /// degrees.
+    pub fn of_spin(spin: impl Into<[f64; 3]>, duration: f64) -> Option<Self> {
+        let spin = DVec3::from_array(spin.into());
+        let turn = length(spin) * duration;
+        let is_round = [spin, spin * duration]
+            .into_iter()
+            .any(|rate| rate.to_array().into_iter().all(is_multiple));
+        (may_be_degrees(turn) && is_round).then_some(Remark::SpinInDegrees { spin, turn })
+    }
+
+    /// Remarks upon a position of a joint that is many turns, and a round number of degrees.
+    pub fn of_joint(position: f64) -> Option<Self> {
+        let is_odd = may_be_degrees(position.abs()) && is_multiple(position);
+        is_odd.then_some(Remark::JointInDegrees { position })
+    }
+
+    /// Remarks upon a quaternion w, x, y, z that is far from unit length.
+    pub fn of_quaternion(parts: [f64; 4]) -> Option<Self> {
+        let [w, x, y, z] = parts;
+        let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
+        let is_unit = (length - 1.0).abs() <= UNIT;
+        (!is_unit).then_some(Remark::LongQuaternion { parts, length })
+    }
+
+    /// Returns the remark without the numbers, which tells whether two are alike.
+    pub fn in_general(&self) -> &'static str {
+        match self {
+            Remark::CoarseTolerance { .. } => {
+                "the tolerance is large against the smaller body, and what is called a contact may be as far away; is it \
+                 in the bodies' unit of length?"
+            }
+            Remark::SpinInDegrees { .. } => {
+                "an angular velocity is a round number of degrees and makes many turns; angular velocities are in radians"
+            }
+            Remark::JointInDegrees { .. } => {
+                "a joint's position is a round number of degrees and many turns; positions are in radians"
+            }
+            Remark::LongQuaternion { .. } => {
+                "a quaternion is far from unit length, and was taken as one of length 1; is it w, x, y, z?"
+            }
+        }
+    }
+
+    /// Returns whether an angular velocity makes so many turns that it may be meant in degrees, round or not.
+    #[cfg(feature = "tables")]
+    pub(crate) fn is_fast(spin: DVec3, duration: f64) -> bool {
+        length(spin) * duration > MANY_TURNS
+    }
+}
+
+fn may_be_degrees(angle: f64) -> bool {
+    angle > MANY_TURNS && angle <= MOST_DEGREES * (1.0 + ROUNDING)
+}
+
+fn is_multiple(angle: f64) -> bool {
+    (angle - (angle / STEP).round() * STEP).abs() <= ROUNDING * angle.abs()
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: ", self.in_general())?;
+        match *self {
+            Remark::CoarseTolerance { tolerance, size } => {
+                write!(f, "{tolerance}, and the body is {size} long")
+            }
+            Remark::SpinInDegrees { spin, turn } => write!(
+                f,
+                "({}, {}, {}) makes {:.1} turns",
+                spin.x,
+                spin.y,
+                spin.z,
+                turn / TAU
+            ),
+            Remark::JointInDegrees { position } => {
+                write!(f, "{position} is {:.1} turns", position.abs() / TAU)
+            }
+            Remark::LongQuaternion {
+                parts: [w, x, y, z],
+                length,
+            } => write!(f, "({w}, {x}, {y}, {z}) has the length {length:.3}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,108 @@
+//! Traps are remarked upon, and what is usual is not.
+
+use super::*;
+use std::f64::consts::PI;
+
+#[test]
+fn a_tolerance_as_large_as_a_part_is_remarked_upon() {
+    let size = |body: Body| Remark::size(&body);
+    let part = size(Body::cuboid([0.0005; 3]).unwrap());
+    assert!((part - 0.001).abs() < 1e-15);
+    assert_eq!(size(Body::capsule(0.5, 2.0).unwrap()), 5.0);
+    let wall = size(Body::cuboid([1.0, 1.0, 0.00001]).unwrap());
+    assert_eq!(wall, 2.0);
+    for sizes in [[part, wall], [wall, part]] {
+        let remark = Remark::of_tolerance(0.001, sizes).unwrap();
+        assert!(
+            remark
+                .to_string()
+                .ends_with(": 0.001, and the body is 0.001 long"),
+            "{remark}"
+        );
+        assert_eq!(Remark::of_tolerance(0.00009, sizes), None);
+    }
+    // Thin walls are usual, and so are points.
+    assert_eq!(Remark::of_tolerance(0.001, [wall, wall]), None);
+    assert_eq!(Remark::of_tolerance(0.001, [0.0, wall]), None);
+    assert_eq!(size(Body::ball(0.0).unwrap()), 0.0);
+}
+
+#[test]
+fn degrees_are_remarked_upon() {
+    for (spin, duration) in [
+        ([0.0, 0.0, 90.0], 1.0),
+        ([0.0, -45.0, 0.0], 1.0),
+        ([30.0, 45.0, -60.0], 1.0),
+        ([0.0, 0.0, 360.0], 1.0),
+        ([0.0, 0.0, 9.0], 10.0),
+        ([0.0, 0.0, 90.0], 0.7),
+    ] {
+        let remark = Remark::of_spin(spin, duration);
+        assert!(
+            matches!(remark, Some(Remark::SpinInDegrees { .. })),
+            "{spin:?} {duration}"
+        );
+    }
+    let remark = Remark::of_spin([0.0, 0.0, 90.0], 1.0).unwrap().to_string();
+    assert!(remark.contains("(0, 0, 90) makes 14.3 turns"), "{remark}");
+    for position in [90.0, -45.0, 180.0, 360.0, -720.0] {
+        assert!(Remark::of_joint(position).is_some(), "{position}");
+    }
+}
+
+/// What people ask in radians: rest, turns of parts and robots, shafts at round or whole numbers of turns.
+#[test]
+fn radians_are_not() {
+    for rate in [
+        0.0,
+        1.0,
+        3.0,
+        5.0,
+        10.0,
+        15.0,
+        20.0,
+        25.0,
+        50.0,
+        100.0,
+        200.0,
+        500.0,
+        1000.0,
+        3000.0,
+        PI,
+        TAU,
+        0.5 * PI,
+        10.0 * TAU,
+        100.0 * TAU,
+        104.72,
+        314.159,
+        1e5,
+    ] {
+        for spin in [[0.0, 0.0, rate], [-rate, 0.0, 0.0]] {
+            assert_eq!(Remark::of_spin(spin, 1.0), None, "{rate}");
+        }
+        assert_eq!(Remark::of_joint(rate), None, "{rate}");
+    }
+    assert_eq!(Remark::of_spin([0.0, 0.0, 90.0], 0.1), None);
+    assert_eq!(Remark::of_spin([f64::NAN, 0.0, 90.0], 1.0), None);
+}
+
+#[test]
+fn quaternions_of_another_length_are_remarked_upon() {
+    for parts in [
+        [1.0, 1.0, 0.0, 0.0],
+        [0.5, 0.0, 0.0, 0.0],
+        [90.0, 0.0, 0.0, 1.0],
+        [1e-200, 0.0, 0.0, 0.0],
+        [0.0, 1e300, 0.0, 0.0],
+    ] {
+        assert!(Remark::of_quaternion(parts).is_some(), "{parts:?}");
+    }
+    for parts in [
+        [1.0, 0.0, 0.0, 0.0],
+        [0.71, 0.71, 0.0, 0.0],
+        [-0.5, 0.5, -0.5, 0.5],
+        [0.0, 0.0, 0.0, 1.05],
+    ] {
+        assert_eq!(Remark::of_quaternion(parts), None, "{parts:?}");
+    }
+}
