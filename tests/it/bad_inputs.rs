@@ -220,7 +220,8 @@ fn polytopes_name_their_bad_element() {
 /// A box with a negative side would have its faces inside out, and a capsule would be one of another height.
 #[test]
 fn shapes_name_the_bad_length() {
-    let shapes: [(&str, fn(f64) -> Result<Body, InputError>); 6] = [
+    type Shape = fn(f64) -> Result<Body, InputError>;
+    let shapes: [(&str, Shape); 6] = [
         ("radius", Body::ball),
         ("radius", |bad| Body::capsule(bad, 1.0)),
         ("half height", |bad| Body::capsule(1.0, bad)),

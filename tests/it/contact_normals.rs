@@ -54,7 +54,7 @@ fn answers_of_all_backends_have_a_common_normal() {
     for _ in 0..runner(25).config().cases {
         let touch = Touch::draw(rng);
         for_each_setup(&touch.query, &touch.config(), |_, _, answer| {
-            touch.check_answer(answer.outcome)
+            touch.check_answer(answer.outcome);
         });
     }
 }
