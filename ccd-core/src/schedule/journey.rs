@@ -6,6 +6,7 @@
 
 mod any;
 mod closest;
+mod farthest;
 mod first;
 mod interval;
 mod leg;
@@ -21,6 +22,7 @@ use crate::problem::{check, check_config};
 use std::fmt;
 use std::sync::atomic::AtomicBool;
 
+pub use farthest::GreatestDistance;
 pub use interval::{ContactInterval, Touch};
 
 /// A body and the trajectory that carries it.

@@ -50,6 +50,11 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.waiting.pop()
     }
 
+    /// Returns the stretches that wait.
+    pub(super) fn waiting(&self) -> &[Span] {
+        &self.waiting
+    }
+
     /// Returns the first time of all stretches that wait; infinite if none does.
     pub(super) fn first(&self) -> f64 {
         let starts = self.waiting.iter().map(|span| span.from);
@@ -57,7 +62,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the settings with what is left of budget and deadline.
-    fn config(&self) -> Result<Config, Limit> {
+    pub(super) fn config(&self) -> Result<Config, Limit> {
         let Journey { config, stop, .. } = self.journey;
         if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
@@ -239,7 +244,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    fn parts(&self, span: Span, length: f64) -> Option<[Span; 2]> {
+    pub(super) fn parts(&self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span { from, to } = span;
         let Journey { a, b, .. } = self.journey;
         let corner = |body: &Travelling<'_>| {
