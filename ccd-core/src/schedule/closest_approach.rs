@@ -151,7 +151,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             beyond,
             proven: Proven::default(),
             stuck: None,
-            ladder: Ladder::new(least_distance(problem), problem.budget),
+            ladder: ladder(problem),
         };
         let mut search = Search {
             waiting: &mut self.stack,
@@ -267,6 +267,15 @@ fn at_one_pose<O: DistanceOracle>(
 pub(super) struct Beyond {
     /// A lower bound of the distance at all times.
     pub(super) lower: f64,
+}
+
+/// Begins with what balls about the bodies prove.
+fn ladder(problem: &Problem<'_>) -> Ladder {
+    let ladder = Ladder::new(least_distance(problem), problem.budget);
+    match problem.deadline.is_some() || problem.stop.is_some() {
+        true => ladder.timed(),
+        false => ladder,
+    }
 }
 
 fn moves(problem: &Problem<'_>) -> bool {

@@ -38,7 +38,10 @@ impl Rung {
 }
 
 /// The work after which the first rung is tried: most searches have ended before.
-const FIRST: u64 = 1 << 15;
+const FIRST: u64 = 1 << 17;
+
+/// The same for searches that time may end.
+const FIRST_TIMED: u64 = 1 << 14;
 
 /// The most rungs at the end of a search that did not get to its answer.
 pub(in crate::schedule) const LAST_RUNGS: usize = 8;
@@ -53,6 +56,14 @@ impl Ladder {
             part: 0.5,
             // Written so that NaN is no bound.
             lower: if lower > 0.0 { lower } else { 0.0 },
+        }
+    }
+
+    /// Returns the ladder for a search that time may end, or another thread.
+    pub(in crate::schedule) fn timed(self) -> Self {
+        Ladder {
+            next: self.next.min(FIRST_TIMED),
+            ..self
         }
     }
 

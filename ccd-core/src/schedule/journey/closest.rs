@@ -38,10 +38,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
         let journey = &journey.measuring();
         let mut stretches = Stretches::new(journey);
+        let ladder = Ladder::new(0.0, journey.config.budget);
         let mut found = Found {
             lower: f64::INFINITY,
             best: None,
-            ladder: Ladder::new(0.0, journey.config.budget),
+            ladder: match journey.config.deadline.is_some() || journey.stop.is_some() {
+                true => ladder.timed(),
+                false => ladder,
+            },
         };
         while let Some(span) = {
             self.climb_along(&mut found, &mut stretches, oracle)?;
