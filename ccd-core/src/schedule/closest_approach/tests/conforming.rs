@@ -25,70 +25,22 @@ fn revolved(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
     outline.windows(2).flat_map(strip).collect()
 }
 
-/// Part of a sphere about the origin, from one angle with the axis to another.
-fn spherical(radius: f64, angles: [f64; 2], count: u32) -> Vec<Triangle> {
-    let [from, to] = angles;
-    let angle = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
-    let at = |k| {
-        let (sin, cos) = angle(k).sin_cos();
-        [radius * sin, radius * cos]
-    };
-    revolved(&Vec::from_iter((0..=count).map(at)), 4 * count)
-}
-
-/// A wheel on its axle and a ball in its socket: the closest approach takes at most twenty times the work of the first
-/// contact.
+/// A wheel on its axle: the closest approach takes at most twenty times the work of the first contact.
 #[test]
-fn conforming_bodies_take_a_few_times_their_first_contact() {
-    let wheel = [
-        revolved(&[[5.2, 0.0], [5.2, 8.0]], 192),
-        revolved(&[[5.0, -4.0], [5.0, 12.0]], 192),
-    ];
-    let ball = [
-        spherical(5.0, [0.9, 2.6], 12),
-        spherical(5.2, [1.2, 2.2], 12),
-    ];
-    for (bodies, spin) in [(wheel, TAU * DVec3::Z), (ball, DVec3::new(0.5, 0.3, 1.0))] {
-        let bodies = bodies.map(|triangles| body(&triangles));
-        let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, spin).unwrap();
-        let config = Config::default();
-        let problem = Problem::new(
-            (&bodies[0], turns),
-            (&bodies[1], Motion::STILL),
-            1.0,
-            &config,
-        );
-        let problem = problem.unwrap();
-        let first = BestFirst::default().solve(&problem, &mut Exhaustive);
-        assert!(matches!(first.outcome, Outcome::Free { .. }));
-        let closest = approach(&problem);
-        assert!(
-            matches!(closest.outcome, ClosestApproach::Nearest { .. }),
-            "{closest:?}"
-        );
-        assert!(closest.outcome.upper() - closest.outcome.lower() <= config.tolerance);
-        let (most, work) = (20 * first.stats.work(), closest.stats.work());
-        assert!(work <= most, "{work} of {most}");
-        // A search that ends before knows a part of the distance.
-        let config = Config {
-            budget: work - work / 8,
-            ..config
-        };
-        let problem = Problem::new(
-            (&bodies[0], turns),
-            (&bodies[1], Motion::STILL),
-            1.0,
-            &config,
-        );
-        let ended = approach(&problem.unwrap()).outcome;
-        assert!(
-            matches!(ended, ClosestApproach::Unresolved { .. }),
-            "{ended:?}"
-        );
-        let lower = ended.lower();
-        assert!(
-            lower > 0.02 && lower <= closest.outcome.upper(),
-            "{ended:?}"
-        );
-    }
+fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
+    let wheel = body(&revolved(&[[5.2, 0.0], [5.2, 8.0]], 192));
+    let axle = body(&revolved(&[[5.0, -4.0], [5.0, 12.0]], 192));
+    let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, TAU * DVec3::Z).unwrap();
+    let config = Config::default();
+    let problem = Problem::new((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
+    let first = BestFirst::default().solve(&problem, &mut Exhaustive);
+    assert!(matches!(first.outcome, Outcome::Free { .. }));
+    let closest = approach(&problem);
+    assert!(
+        matches!(closest.outcome, ClosestApproach::Nearest { .. }),
+        "{closest:?}"
+    );
+    assert!(closest.outcome.upper() - closest.outcome.lower() <= config.tolerance);
+    let (most, work) = (20 * first.stats.work(), closest.stats.work());
+    assert!(work <= most, "{work} of {most}");
 }
