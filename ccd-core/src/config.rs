@@ -19,6 +19,10 @@ pub struct Config {
     pub tolerance: f64,
     /// The distance to keep; 0 reports touching. In the scene's unit of length.
     pub margin: f64,
+    /// A distance that the closest approach is to be compared with: the search ends as soon as it is
+    /// proven to be kept, or seen not to be. With none the closest approach is measured. Other
+    /// questions have the margin. In the scene's unit of length.
+    pub clearance: Option<f64>,
     /// The treatment of a contact at the start.
     pub start: StartPolicy,
     /// The most [work](crate::Stats::work) before the query is left unresolved: iterations over
@@ -46,6 +50,7 @@ impl Default for Config {
         Config {
             tolerance: limits::DEFAULT_TOLERANCE,
             margin: 0.0,
+            clearance: None,
             start: StartPolicy::default(),
             budget: limits::DEFAULT_BUDGET,
             deadline: None,

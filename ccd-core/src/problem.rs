@@ -62,6 +62,8 @@ pub struct Problem<'a> {
     /// The tolerance, at least the least one that can be certified.
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
+    /// What the closest approach is compared with.
+    pub(crate) clearance: Option<f64>,
     pub(crate) start: StartPolicy,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
@@ -167,6 +169,7 @@ impl<'a> Problem<'a> {
             origin,
             tolerance: greater(config.tolerance, tolerance::least_tolerance(rounding)),
             margin: config.margin,
+            clearance: config.clearance,
             start: config.start,
             budget: config.budget,
             deadline: config.deadline,
@@ -284,15 +287,20 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the problem that asks for distances below the least one found: pairs in contact are
-    /// nearer than that, by a quarter of the tolerance at least, and pairs that keep the gap are within
-    /// the tolerance of it.
+    /// nearer than that, by half of the tolerance, and pairs that keep the margin are within the
+    /// tolerance of it. What is left in between is room for proofs.
     pub(crate) fn below(&self, upper: f64) -> Self {
+        let half = self.keeping(upper, 0.5 * self.tolerance).tolerance;
+        self.keeping(greater(0.0, upper - 2.0 * half), half)
+    }
+
+    /// Returns the problem with another margin, and a tolerance that can be certified there.
+    pub(crate) fn keeping(&self, margin: f64, tolerance: f64) -> Self {
         // Distances may be off by more where they are measured beyond a margin.
-        let rounding = self.rounding + tolerance::margin_rounding(upper);
-        let tolerance = greater(0.5 * self.tolerance, tolerance::least_tolerance(rounding));
+        let rounding = self.rounding + tolerance::margin_rounding(margin);
         Problem {
-            margin: greater(0.0, upper - 1.5 * tolerance),
-            tolerance,
+            margin,
+            tolerance: greater(tolerance, tolerance::least_tolerance(rounding)),
             rounding,
             ..self.clone()
         }
@@ -391,6 +399,14 @@ pub(crate) fn check_config(duration: f64, config: &Config) -> Result<(), InputEr
     check(
         "margin",
         config.margin,
+        allowed,
+        "at least 0 and at most 1e12",
+    )?;
+    let clearance = config.clearance.unwrap_or(0.0);
+    let allowed = (0.0..=MAX_COORDINATE).contains(&clearance);
+    check(
+        "clearance",
+        clearance,
         allowed,
         "at least 0 and at most 1e12",
     )

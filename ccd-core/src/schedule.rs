@@ -36,11 +36,11 @@ mod waiting;
 
 pub use any_contact::AnyContact;
 pub use best_first::BestFirst;
-pub use closest_approach::{Clearance, ClosestApproach};
+pub use closest_approach::bracket::{Clearance, ClosestApproach};
 pub use contract::Schedule;
 pub use depth_first::DepthFirst;
 #[cfg(feature = "hull-tree")]
 pub use fast::Fast;
 pub use first_contact::{FirstContact, Progress};
-pub use journey::{ContactInterval, Journey, Touch, Travelling};
+pub use journey::{ContactInterval, GreatestDistance, Journey, Touch, Travelling};
 pub use naive::Naive;

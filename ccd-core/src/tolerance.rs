@@ -272,6 +272,17 @@ pub const LEAST_CUT: f64 = 1.0 / 1024.0;
 /// share one: a trajectory of a user's own may have corners without end.
 pub const MOST_PARTS: usize = 1 << 16;
 
+/// Allowance on the distance of two points that move for a while, computed in f64, relative to the lengths of
+/// their places, of their centres, and of their ways.
+///
+/// In units of `u`: places and their difference 3; a velocity 10 of a speed, times the time 1, added to the way 1, and
+/// the length of that 3; the difference of two lengths doubles it; bends and strays 8. That is below 40; 64 are taken.
+pub const FARTHEST_F64: f64 = 64.0 * U64;
+
+/// The part of the width of a measured distance by which it may grow in a stretch that is cut no more for its greatest:
+/// the bounds would hardly be closer.
+pub const SETTLED: f64 = 0.25;
+
 /// The longest step along the distance of two pieces, in radians of both bodies' turns: they are nearest
 /// at most once in it, mostly.
 pub const FOLLOWED_TURN: f64 = 0.25;

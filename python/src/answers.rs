@@ -4,8 +4,8 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::schedule::ClosestApproach;
-use rigid_ccd::{Contact, Hit, HitKind};
+use rigid_ccd::schedule::{Clearance, ClosestApproach, GreatestDistance};
+use rigid_ccd::{Hit, HitKind};
 
 /// Makes a `Contact`.
 pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, PyAny>> {
@@ -28,28 +28,48 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
     ))
 }
 
-/// Makes a `Distance`.
+/// Makes a `Distance`, which says how it compares to a clearance.
 pub(crate) fn distance<'py>(
     py: Python<'py>,
     found: &ClosestApproach,
+    clearance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-    let nearest: Option<(f64, &Contact)> = match found {
-        ClosestApproach::Nearest { time, contact, .. } => Some((*time, contact)),
-        ClosestApproach::Unresolved { nearest, .. } => {
-            nearest.as_ref().map(|(time, contact)| (*time, contact))
-        }
-        ClosestApproach::Overlapping { .. } => None,
-    };
-    let points = nearest.map(|(_, contact)| contact.separation);
-    CLASS.import(py, "rigid_ccd._answers", "Distance")?.call1((
+    let nearest = found.nearest().map(|(_, contact)| contact.separation);
+    let compared = clearance.map(|required| match found.clearance(required) {
+        Clearance::Kept => "kept",
+        Clearance::Violated => "violated",
+        Clearance::Unverified => "unverified",
+    });
+    class_of_distance(py)?.call1((
         found.lower(),
         found.upper(),
-        nearest.map_or(0.0, |(time, _)| time),
+        found.time(),
         matches!(found, ClosestApproach::Overlapping { .. }),
-        points.map(|points| tuple(points.witness_a)),
-        points.map(|points| tuple(points.witness_b)),
+        nearest.map(|nearest| tuple(nearest.witness_a)),
+        nearest.map(|nearest| tuple(nearest.witness_b)),
+        compared,
     ))
+}
+
+/// Makes a `Distance` of the greatest one.
+pub(crate) fn greatest<'py>(
+    py: Python<'py>,
+    found: &GreatestDistance,
+) -> PyResult<Bound<'py, PyAny>> {
+    let nearest = found.farthest().map(|(_, contact)| contact.separation);
+    class_of_distance(py)?.call1((
+        found.lower(),
+        found.upper(),
+        found.time(),
+        false,
+        nearest.map(|nearest| tuple(nearest.witness_a)),
+        nearest.map(|nearest| tuple(nearest.witness_b)),
+    ))
+}
+
+fn class_of_distance<'py>(py: Python<'py>) -> PyResult<&'py Bound<'py, PyType>> {
+    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    CLASS.import(py, "rigid_ccd._answers", "Distance")
 }
 
 fn tuple(v: DVec3) -> (f64, f64, f64) {

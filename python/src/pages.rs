@@ -35,7 +35,6 @@ pub(crate) fn write_pages(
         },
         question: Question::FirstContact,
         config: config(settings, OF_CONTACTS)?,
-        clearance: None,
         threads: Some(1),
         micros: Micros::LeftOut,
     };

@@ -6,11 +6,11 @@ use crate::course::{Course, Moved, Pair};
 use crate::errors::{fault, input, query, unresolved_distance, warn};
 use crate::motion::pose_of;
 use crate::polled::polled;
-use crate::settings::{OF_CONTACTS, OF_DISTANCES, config};
+use crate::settings::{OF_APPROACHES, OF_CONTACTS, OF_DISTANCES, config};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::schedule::ClosestApproach;
-use rigid_ccd::{Config, Error, Limit, Solver};
+use rigid_ccd::schedule::{ClosestApproach, GreatestDistance};
+use rigid_ccd::{Answer, Config, Error, Limit, Solver};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
@@ -183,6 +183,14 @@ pub(crate) fn is_free(
 /// Brackets the least distance of two moving bodies, to within the tolerance.
 ///
 /// Arguments and exceptions are those of `first_contact`, without a margin. `Unresolved` has `lower` and `upper`.
+///
+/// With a `clearance`, it ends as soon as that is proven to be kept, or seen to be violated: the answer says which, and
+/// its bounds are no closer than that takes.
+///
+/// >>> from rigid_ccd import Body, Motion, closest_approach
+/// >>> ball, passes = Body.sphere(0.5), Motion([-3, 1.2, 0], velocity=[6, 0, 0])
+/// >>> closest_approach(ball, ball, passes, clearance=0.1).clearance
+/// 'kept'
 #[pyfunction]
 #[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn closest_approach<'py>(
@@ -194,7 +202,7 @@ pub(crate) fn closest_approach<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let config = config(settings, OF_DISTANCES)?;
+    let config = config(settings, OF_APPROACHES)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
     warn(py, pair.remarks(duration), 1)?;
@@ -206,6 +214,51 @@ pub(crate) fn closest_approach<'py>(
         };
         Ok(found?.outcome)
     })
+}
+
+/// Brackets the greatest distance of two moving bodies, to within the tolerance: that of their nearest points at each time.
+///
+/// At the `time` of the answer it is at least `lower`, and it is never more than `upper`. Arguments and exceptions are those
+/// of `first_contact`, without a margin.
+///
+/// >>> from rigid_ccd import Body, Motion, greatest_distance
+/// >>> ball, leaves = Body.sphere(0.5), Motion([1.5, 0, 0], velocity=[1, 0, 0])
+/// >>> round(greatest_distance(ball, ball, leaves).upper, 2)
+/// 1.5
+#[pyfunction]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
+pub(crate) fn greatest_distance<'py>(
+    py: Python<'py>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
+    motion_a: Option<&Bound<'_, PyAny>>,
+    motion_b: Option<&Bound<'_, PyAny>>,
+    duration: Option<f64>,
+    settings: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let config = config(settings, OF_DISTANCES)?;
+    let pair = pair((a, motion_a), (b, motion_b))?;
+    let duration = pair.duration(duration)?;
+    let reached = |found: &Result<Answer<GreatestDistance>, rigid_ccd::InputError>| {
+        let known = found.as_ref().ok()?.outcome;
+        match known {
+            GreatestDistance::Unresolved { reason, .. } => Some((reason, -known.upper())),
+            GreatestDistance::Farthest { .. } => None,
+        }
+    };
+    let found = ask(py, config, reached, |solver| match pair.moved() {
+        Moved::Steadily(a, b) => solver.greatest_distance(a, b, duration),
+        Moved::Along(a, b) => solver.greatest_distance_along(a, b, duration),
+    })?;
+    let found = found.map_err(input)?.outcome;
+    match found {
+        GreatestDistance::Unresolved { reason, .. } => Err(unresolved_distance(
+            py,
+            [found.lower(), found.upper()],
+            reason,
+        )),
+        _ => answers::greatest(py, &found),
+    }
 }
 
 /// Brackets the distance of two bodies at rest, each at a pose as of `Motion.between`; None is the world's origin.
@@ -251,6 +304,6 @@ fn measure<'py>(
     let bounds = [found.lower(), found.upper()];
     match found {
         ClosestApproach::Unresolved { reason, .. } => Err(unresolved_distance(py, bounds, reason)),
-        _ => answers::distance(py, &found),
+        _ => answers::distance(py, &found, config.clearance),
     }
 }

@@ -13,6 +13,9 @@ pub(crate) const OF_CONTACTS: &[&str] = &["tolerance", "margin", "budget", "dead
 /// The settings of a query that measures distances.
 pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
 
+/// The settings of a query for the least distance.
+pub(crate) const OF_APPROACHES: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
+
 /// The settings of a question about contacts in a table, those of its signature included.
 pub(crate) const CONTACTS_OF_TABLES: &[&str] = &[
     "tolerance",
@@ -50,6 +53,7 @@ pub(crate) fn config(
             _ if !known.contains(&name.as_str()) => return Err(unknown(&name, known)),
             "tolerance" => config.tolerance = read(&name, &value)?,
             "margin" => config.margin = read(&name, &value)?,
+            "clearance" => config.clearance = read(&name, &value)?,
             "budget" => {
                 config.budget = read::<Option<u64>>(&name, &value)?.unwrap_or(config.budget)
             }

@@ -9,6 +9,7 @@ use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rigid_ccd::Config;
 use rigid_ccd::batch::{Bodies, Question};
 use rigid_ccd::table::motions::TableError;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -30,14 +31,17 @@ pub(crate) fn answer_table(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyTable> {
     let question = self::question(question)?;
+    let config = Config {
+        clearance,
+        ..config(settings, known(question))?
+    };
     let asked = Asked {
         bodies: Bodies {
             a: body_of(a, "a")?,
             b: body_of(b, "b")?,
         },
-        config: config(settings, known(question))?,
+        config,
         question,
-        clearance,
         threads: settings::threads(threads)?,
         micros: match micros {
             true => Micros::Told,
@@ -113,10 +117,10 @@ fn known(question: Question) -> &'static [&'static str] {
 
 /// Refuses settings that no query can have.
 fn check(asked: Asked<'_>) -> PyResult<()> {
-    match asked.clearance {
-        Some(_) if !asked.question.is_for_a_distance() => {
+    match asked.config.clearance {
+        Some(_) if !asked.question.is_for_a_clearance() => {
             return Err(refuse(
-                "clearance: only distances are compared with one; use margin",
+                "clearance: only the least distance is compared with one; use margin, or distance_upper",
             ));
         }
         // Written so that NaN is refused.

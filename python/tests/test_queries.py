@@ -18,6 +18,7 @@ from rigid_ccd import (
     closest_approach,
     distance,
     first_contact,
+    greatest_distance,
     is_free,
 )
 
@@ -48,6 +49,31 @@ def test_a_slow_ball_stays_apart() -> None:
     assert nearest.lower <= 0.4 <= nearest.upper + 1e-12 and nearest.upper - nearest.lower <= 1e-6
     assert nearest.time == pytest.approx(1)
     assert eval(repr(nearest)) == pickle.loads(pickle.dumps(nearest)) == nearest
+
+
+def test_a_clearance_is_kept_or_violated() -> None:
+    flies = Motion([-3, 0, 0], velocity=[2, 0, 0])
+    kept = closest_approach(BALL, WALL, flies, clearance=0.3)
+    assert kept.clearance == "kept" and 0.3 <= kept.lower <= 0.4 and kept.time is None
+    violated = closest_approach(BALL, WALL, flies, clearance=0.45)
+    assert violated.clearance == "violated" and 0.4 - 1e-9 <= violated.upper < 0.45 and violated.time is not None
+    between = closest_approach(BALL, WALL, flies, clearance=0.4, tolerance=1e-2)
+    assert between.clearance == "unverified" and between.lower <= 0.4 <= between.upper + 1e-12
+    assert closest_approach(BALL, WALL, flies).clearance is None
+    with pytest.raises(InputError, match="clearance"):
+        closest_approach(BALL, WALL, flies, clearance=-1)
+    with pytest.raises(TypeError, match="clearance"):
+        distance(BALL, WALL, clearance=1)  # type: ignore[call-arg]
+
+
+def test_the_greatest_distance_has_a_time() -> None:
+    flies = Motion([-3, 0, 0], velocity=[2, 0, 0])
+    farthest = greatest_distance(BALL, WALL, flies)
+    assert farthest.lower <= 2.4 <= farthest.upper <= farthest.lower + 1e-3 and farthest.time == 0
+    passes = greatest_distance(BALL, WALL, Motion([-1, 0, 0], velocity=[4, 0, 0]), tolerance=1e-6)
+    assert passes.lower <= 2.4 <= passes.upper <= passes.lower + 1e-6 and passes.time == 1
+    with pytest.raises(TypeError, match="clearance"):
+        greatest_distance(BALL, WALL, flies, clearance=1)  # type: ignore[call-arg]
 
 
 def test_what_touches_at_the_start_is_told() -> None:

@@ -134,12 +134,11 @@ impl Scene<'_> {
         let poses = self.poses(after);
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), poses[k]));
         let contact = match solver.distance(a, b).map(|answer| answer.outcome) {
-            Ok(ClosestApproach::Nearest { contact, .. }) => Some(contact),
             Ok(ClosestApproach::Overlapping {
                 overlap: Overlap::Pieces(contact),
             }) => Some(contact),
-            Ok(ClosestApproach::Unresolved { nearest, .. }) => nearest.map(|(_, contact)| contact),
-            Ok(ClosestApproach::Overlapping { .. }) | Err(_) => None,
+            Ok(found) => found.nearest().map(|(_, contact)| contact),
+            Err(_) => None,
         };
         match contact {
             Some(contact) => self.shown(after, &contact, Ending::Limit),

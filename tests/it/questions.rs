@@ -37,6 +37,7 @@ fn every_question(case: &Case) -> Law {
         if law.is_ok() {
             law = (judge.check_any(&answers.any, bodies))
                 .and_then(|()| judge.check_closest(&answers.closest, bodies))
+                .and_then(|()| judge.check_clearance(answers.cleared.0, &answers.cleared.1, bodies))
                 .and_then(|()| agree(&first.outcome, &answers.closest.outcome))
                 .map_err(|why| format!("{why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }
@@ -46,6 +47,8 @@ fn every_question(case: &Case) -> Law {
             law = (judge.check(&answers.first, bodies))
                 .and_then(|()| judge.check_any(&answers.any, bodies))
                 .and_then(|()| judge.check_closest(&answers.closest, bodies))
+                .and_then(|()| judge.check_clearance(answers.cleared.0, &answers.cleared.1, bodies))
+                .and_then(|()| judge.check_greatest(&answers.greatest))
                 .and_then(|()| judge.check_interval(&answers.interval, bodies))
                 .map_err(|why| format!("along: {why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }

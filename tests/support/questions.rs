@@ -4,7 +4,10 @@
 use crate::backends::Oracle;
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
-use ccd_core::schedule::{AnyContact, BestFirst, ClosestApproach, ContactInterval, DepthFirst};
+use ccd_core::order::greater;
+use ccd_core::schedule::{
+    AnyContact, BestFirst, ClosestApproach, ContactInterval, DepthFirst, GreatestDistance,
+};
 use ccd_core::{
     Accelerations, Answer, Config, DistanceOracle, InputError, Journey, Motion, Smooth,
 };
@@ -43,6 +46,8 @@ pub struct Answers {
     pub any: Answer<AnyContact>,
     /// How close they come.
     pub closest: Answer<ClosestApproach>,
+    /// Whether they keep a distance: a required one, and the answer.
+    pub cleared: (f64, Answer<ClosestApproach>),
 }
 
 /// The answers to every question about the same motions, given as a user's own.
@@ -54,6 +59,10 @@ pub struct AnswersAlong {
     pub any: Answer<AnyContact>,
     /// How close they come.
     pub closest: Answer<ClosestApproach>,
+    /// Whether they keep a distance: a required one, and the answer.
+    pub cleared: (f64, Answer<ClosestApproach>),
+    /// How far apart they get.
+    pub greatest: Answer<GreatestDistance>,
     /// When they first touch, and when last.
     pub interval: Answer<ContactInterval>,
 }
@@ -114,6 +123,24 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, Asked)) {
     }
 }
 
+/// Returns a distance on either side of the least one, or about it, and the settings that require it.
+fn beside(closest: &Answer<ClosestApproach>, config: &Config) -> (f64, Config) {
+    let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
+    // As good as random.
+    let required = match closest.stats.iterations % 4 {
+        0 => 0.9 * lower,
+        1 => upper + 2.0 * closest.tolerance,
+        2 => 0.5 * (lower + upper),
+        _ => 2.0 * upper,
+    };
+    let clearance = Some(required).filter(|required| *required <= 1e12);
+    let keeping = Config {
+        clearance: Some(clearance.unwrap_or(1.0)),
+        ..*config
+    };
+    (clearance.unwrap_or(1.0), keeping)
+}
+
 fn ask<O: DistanceOracle>(
     query: &Query,
     bodies: &Bodies,
@@ -122,9 +149,13 @@ fn ask<O: DistanceOracle>(
 ) -> Answers {
     let problem = query.problem(bodies, config);
     let mut schedule = DepthFirst::<O>::default();
+    let closest = schedule.closest_approach(&problem, &mut oracle);
+    let (required, keeping) = beside(&closest, config);
+    let problem = query.problem(bodies, &keeping);
     Answers {
         any: schedule.any_contact(&problem, &mut oracle),
-        closest: schedule.closest_approach(&problem, &mut oracle),
+        closest,
+        cleared: (required, schedule.closest_approach(&problem, &mut oracle)),
     }
 }
 
@@ -140,10 +171,22 @@ fn ask_along<O: DistanceOracle>(
     let mut best_first = BestFirst::<O>::default();
     let mut depth_first = DepthFirst::<O>::default();
     let well_posed = "motions within range";
+    let closest = (depth_first.closest_approach_along(&journey, &mut oracle)).expect(well_posed);
+    let (required, keeping) = beside(&closest, config);
+    let keeping = Journey::new(a, b, query.duration, &keeping).expect("a well-posed journey");
+    let cleared = (depth_first.closest_approach_along(&keeping, &mut oracle)).expect(well_posed);
+    // It takes a look at each of many times: ten are enough here.
+    let coarse = Config {
+        tolerance: greater(config.tolerance, 0.1 * closest.outcome.upper()),
+        ..*config
+    };
+    let coarse = Journey::new(a, b, query.duration, &coarse).expect("a well-posed journey");
     AnswersAlong {
         first: (best_first.first_contact_along(&journey, &mut oracle)).expect(well_posed),
         any: (depth_first.any_contact_along(&journey, &mut oracle)).expect(well_posed),
-        closest: (depth_first.closest_approach_along(&journey, &mut oracle)).expect(well_posed),
+        closest,
+        cleared: (required, cleared),
+        greatest: (depth_first.greatest_distance_along(&coarse, &mut oracle)).expect(well_posed),
         interval: (best_first.contact_interval_along(&journey, &mut oracle)).expect(well_posed),
     }
 }

@@ -1,14 +1,18 @@
 //! How close do two bodies come, and when?
 
+pub(super) mod bracket;
 mod follow;
-mod guess;
+pub(super) mod guess;
+pub(super) mod ladder;
 mod nearing;
+pub(super) mod required;
 
 use super::answer::{contact_of_given, metered};
 use super::depth_first::DepthFirst;
 use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
 use super::nodes::common::Common;
+use super::out_of_reach::least_distance;
 use super::proven::Proven;
 use super::rounds::Sample;
 use super::search::Search;
@@ -17,108 +21,18 @@ use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
 use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap};
 use crate::problem::Problem;
+use bracket::ClosestApproach;
 use guess::guess;
+use ladder::Ladder;
 use nearing::Nearing;
+use required::Required;
+use std::convert::Infallible;
 use std::ops::ControlFlow;
-
-/// The answer to "how close do they come, and when?".
-///
-/// # Guarantee
-/// The bodies are never nearer than [`lower`](ClosestApproach::lower), in floating point as well.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ClosestApproach {
-    /// The bodies are nearest at about `time`: then they are at most the contact's upper bound apart,
-    /// and at no time nearer than `lower`.
-    Nearest {
-        /// A lower bound of the distance at all times, within the tolerance of the contact's upper
-        /// bound.
-        lower: f64,
-        /// The time, in the motions' unit.
-        time: f64,
-        /// The nearest pieces at that time.
-        contact: Contact,
-    },
-    /// The bodies overlap at the start.
-    Overlapping {
-        /// The proof.
-        overlap: Overlap,
-    },
-    /// A limit was reached before an answer.
-    Unresolved {
-        /// The least distance that was seen: its time, and the nearest pieces then. None if a limit
-        /// was reached before any was measured.
-        nearest: Option<(f64, Contact)>,
-        /// The limit.
-        reason: Limit,
-    },
-}
-
-impl ClosestApproach {
-    /// A lower bound of the distance at all times; 0 if none is known.
-    pub fn lower(&self) -> f64 {
-        match *self {
-            ClosestApproach::Nearest { lower, .. } => lower,
-            ClosestApproach::Overlapping { .. } | ClosestApproach::Unresolved { .. } => 0.0,
-        }
-    }
-
-    /// An upper bound of the least distance; infinite if none is known.
-    pub fn upper(&self) -> f64 {
-        match self {
-            ClosestApproach::Nearest { contact, .. } => contact.separation.upper,
-            ClosestApproach::Overlapping { .. } => 0.0,
-            ClosestApproach::Unresolved { nearest, .. } => {
-                nearest.map_or(f64::INFINITY, |(_, contact)| contact.separation.upper)
-            }
-        }
-    }
-
-    /// Returns true if the bodies come to no distance after the start.
-    pub(super) fn meets_later(&self, tolerance: f64) -> bool {
-        match *self {
-            ClosestApproach::Nearest { time, contact, .. } => {
-                time > 0.0 && contact.separation.upper <= tolerance
-            }
-            ClosestApproach::Overlapping { .. } | ClosestApproach::Unresolved { .. } => false,
-        }
-    }
-
-    /// The width of the bracket; 0 if there is none.
-    pub(super) fn width(&self) -> f64 {
-        match self {
-            ClosestApproach::Nearest { .. } => self.upper() - self.lower(),
-            ClosestApproach::Overlapping { .. } | ClosestApproach::Unresolved { .. } => 0.0,
-        }
-    }
-
-    /// Compares the least distance to one that is required.
-    ///
-    /// Bodies that may touch keep no clearance, not even one of 0.
-    pub fn clearance(&self, required: f64) -> Clearance {
-        let (lower, upper) = (self.lower(), self.upper());
-        if lower >= required && lower > 0.0 {
-            Clearance::Kept
-        } else if upper < required || upper <= 0.0 {
-            Clearance::Violated
-        } else {
-            Clearance::Unverified
-        }
-    }
-}
-
-/// The comparison of the least distance of two bodies to one that is required.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Clearance {
-    /// The bodies are never nearer, certainly.
-    Kept,
-    /// The bodies are nearer at some time, certainly.
-    Violated,
-    /// The least distance is not known well enough.
-    Unverified,
-}
+use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Brackets the least distance of the bodies over the duration, to within the tolerance.
+    /// Brackets the least distance of the bodies over the duration, to within the tolerance; or answers
+    /// whether bodies that move keep a required [clearance](crate::Config::clearance).
     ///
     /// The margin and the [policy](crate::StartPolicy) for the start play no role.
     ///
@@ -130,8 +44,36 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Answer<ClosestApproach> {
+        if let Some(distance) = problem.clearance.filter(|_| moves(problem)) {
+            return self.keeps(problem, distance, oracle);
+        }
         let answer = self.measured(problem, f64::INFINITY, oracle, or_overlap);
-        answer.map(|found| found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp)))
+        answer.map(|found| {
+            found.unwrap_or_else(|Beyond { lower }| unresolved(lower, Limit::OracleGaveUp))
+        })
+    }
+
+    /// Answers whether the bodies keep a distance.
+    fn keeps(
+        &mut self,
+        problem: &Problem<'_>,
+        distance: f64,
+        oracle: &mut O,
+    ) -> Answer<ClosestApproach> {
+        let required = Required {
+            distance,
+            tolerance: problem.tolerance,
+            budget: problem.budget,
+        };
+        let begun = problem.deadline.map(|_| Instant::now());
+        let answer = required.decide(|rung| {
+            let mut problem = rung.problem(&problem.measuring());
+            problem.deadline = begun.and_then(|begun| {
+                (problem.deadline).map(|deadline| deadline.saturating_sub(begun.elapsed()))
+            });
+            Ok::<_, Infallible>(self.any_contact(&problem, oracle))
+        });
+        answer.unwrap_or_else(|never| match never {})
     }
 
     /// Like [`DepthFirst::closest_approach`], if the bodies come nearer than `beyond`; where they meet, it does
@@ -197,7 +139,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Result<ClosestApproach, Beyond> {
-        if !problem.a.path.moves() && !problem.b.path.moves() {
+        if !moves(problem) {
             return at_one_pose(problem, beyond, oracle, meter);
         }
         let best = match guess(problem, beyond, oracle, meter) {
@@ -209,6 +151,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             beyond,
             proven: Proven::default(),
             stuck: None,
+            ladder: ladder(problem),
         };
         let mut search = Search {
             waiting: &mut self.stack,
@@ -229,8 +172,17 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let common = Common::new(&below);
             let mut look = CloserLook::new(&below);
             while nearing.upper() == upper {
+                if let Some(rung) = nearing.ladder.due(search.meter.stats.work(), upper) {
+                    if let ControlFlow::Break(found) =
+                        nearing.climb(problem, rung, search.oracle, search.meter)
+                    {
+                        return Ok(found);
+                    }
+                    look = CloserLook::new(&below);
+                    continue;
+                }
                 if let ControlFlow::Break(found) = search.visit(&common, &mut look, &mut nearing) {
-                    return found;
+                    return nearing.at_last(problem, found, search.oracle, search.meter);
                 }
             }
         }
@@ -253,11 +205,20 @@ fn at_all_times(
             time,
             contact: contact(nearest),
         }),
-        Ok(ClosestApproach::Unresolved { nearest, reason }) => Ok(ClosestApproach::Unresolved {
+        Ok(ClosestApproach::Unresolved {
+            lower,
+            nearest,
+            reason,
+        }) => Ok(ClosestApproach::Unresolved {
+            lower: greater(0.0, sample.lower(lower)),
             nearest: nearest.map(|(time, nearest)| (time, contact(nearest))),
             reason,
         }),
-        Ok(overlapping @ ClosestApproach::Overlapping { .. }) => Ok(overlapping),
+        Ok(
+            found @ (ClosestApproach::Overlapping { .. }
+            | ClosestApproach::Farther { .. }
+            | ClosestApproach::Nearer { .. }),
+        ) => Ok(found),
         Err(Beyond { lower }) => Err(Beyond {
             lower: sample.lower(lower),
         }),
@@ -294,7 +255,9 @@ fn at_one_pose<O: DistanceOracle>(
             contact,
         },
         Some(Outcome::Overlapping { overlap }) => ClosestApproach::Overlapping { overlap },
-        Some(Outcome::Unresolved { reason, .. }) => unresolved(reason),
+        Some(Outcome::Unresolved { reason, .. }) => {
+            unresolved(greater(0.0, least_distance(problem)), reason)
+        }
         _ => return Err(Beyond { lower: beyond }),
     })
 }
@@ -306,8 +269,22 @@ pub(super) struct Beyond {
     pub(super) lower: f64,
 }
 
-fn unresolved(reason: Limit) -> ClosestApproach {
+/// Begins with what balls about the bodies prove.
+fn ladder(problem: &Problem<'_>) -> Ladder {
+    let ladder = Ladder::new(least_distance(problem), problem.budget);
+    match problem.deadline.is_some() || problem.stop.is_some() {
+        true => ladder.timed(),
+        false => ladder,
+    }
+}
+
+fn moves(problem: &Problem<'_>) -> bool {
+    problem.a.path.moves() || problem.b.path.moves()
+}
+
+fn unresolved(lower: f64, reason: Limit) -> ClosestApproach {
     ClosestApproach::Unresolved {
+        lower,
         nearest: None,
         reason,
     }
@@ -339,21 +316,29 @@ fn told<O: DistanceOracle>(
         } => ClosestApproach::Overlapping {
             overlap: Overlap::Pieces(told(contact, 0.0)),
         },
-        ClosestApproach::Unresolved { nearest, reason } => ClosestApproach::Unresolved {
+        ClosestApproach::Unresolved {
+            lower,
+            nearest,
+            reason,
+        } => ClosestApproach::Unresolved {
+            lower,
             nearest: nearest.map(|(time, contact)| (time, told(contact, time))),
             reason,
         },
-        ClosestApproach::Overlapping { .. } => found,
+        // Told where they were found.
+        ClosestApproach::Farther { .. }
+        | ClosestApproach::Nearer { .. }
+        | ClosestApproach::Overlapping { .. } => found,
     }
 }
 
 /// Two pieces at the clock at which they are the nearest so far.
 #[derive(Clone, Copy, Debug)]
-struct Best {
+pub(super) struct Best {
     clock: f64,
     /// The pieces, as the problem numbers them.
     pieces: [u32; 2],
-    contact: Contact,
+    pub(super) contact: Contact,
 }
 
 #[cfg(test)]

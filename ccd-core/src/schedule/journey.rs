@@ -6,6 +6,7 @@
 
 mod any;
 mod closest;
+mod farthest;
 mod first;
 mod interval;
 mod leg;
@@ -22,6 +23,7 @@ use crate::problem::check_config;
 use std::fmt;
 use std::sync::atomic::AtomicBool;
 
+pub use farthest::GreatestDistance;
 pub use interval::{ContactInterval, Touch};
 
 /// A body and the trajectory that carries it.

@@ -14,6 +14,7 @@ pub(super) mod expand;
 mod flat_pair;
 mod free_times;
 mod lanes;
+mod outline;
 mod placed;
 mod profile;
 pub(super) mod roots;

@@ -15,11 +15,17 @@ use glam::DVec3;
 /// # Guarantee
 /// Only bodies that are never in contact, up to the tolerance, are out of reach.
 pub(super) fn out_of_reach(problem: &Problem<'_>) -> bool {
+    // Written so that NaN is within reach.
+    least_distance(problem) > problem.contact_distance()
+}
+
+/// Returns a lower bound of the distance of the bodies at all times, by the balls; negative where they meet.
+pub(super) fn least_distance(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
     let distance = least_length(b.centre - a.centre, b.velocity - a.velocity) - bow(problem);
     // The rounding of a distance of bodies is more than that of the places of their balls; twice
-    // of it is more than that of this distance, too. Written so that NaN is within reach.
-    distance - a.radius - b.radius > problem.contact_distance() + 2.0 * problem.rounding
+    // of it is more than that of this distance, too.
+    distance - a.radius - b.radius - 2.0 * problem.rounding
 }
 
 /// Bounds how far the way from ball to ball is from its straight change, rounded up.

@@ -37,9 +37,17 @@ from ._rigid_ccd import (
     closest_approach,
     distance,
     first_contact,
+    greatest_distance,
     is_free,
 )
-from ._tables import are_free, closest_approaches, contact_intervals, distances, first_contacts
+from ._tables import (
+    are_free,
+    closest_approaches,
+    contact_intervals,
+    distances,
+    first_contacts,
+    greatest_distances,
+)
 
 __all__ = [
     "Audit",
@@ -65,5 +73,7 @@ __all__ = [
     "distances",
     "first_contact",
     "first_contacts",
+    "greatest_distance",
+    "greatest_distances",
     "is_free",
 ]

@@ -33,20 +33,25 @@ class Contact:
 
 @dataclass(frozen=True)
 class Distance:
-    """The least distance of two bodies, to within the tolerance.
+    """The least distance of two bodies, to within the tolerance, or as far as a required clearance asks for it.
+
+    Of `greatest_distance` it is the greatest one: at `time` it is at least `lower`, and it is never more than `upper`.
 
     Attributes:
         lower: the bodies are never nearer than this.
-        upper: at `time` they are at most this far apart.
-        time: when they are nearest; 0 where they overlap at the start.
+        upper: at `time` they are at most this far apart; infinite where no distance was measured.
+        time: when they are nearest; 0 where they overlap at the start; None where no distance was measured.
         is_overlapping: whether they overlap at the start.
         witness_a: the nearest point of body A, in the world at that time; None where they overlap at the start.
         witness_b: the nearest point of body B.
+        clearance: whether the required clearance is "kept", "violated", or "unverified" within the bounds; None where none
+            was required.
     """
 
     lower: float
     upper: float
-    time: float
+    time: float | None
     is_overlapping: bool
     witness_a: Point | None
     witness_b: Point | None
+    clearance: Literal["kept", "violated", "unverified"] | None = None

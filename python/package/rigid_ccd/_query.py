@@ -27,7 +27,8 @@ class TableQuery:
 
     Args:
         a, b: bodies, or the paths of mesh files or prepared bodies (`Body.save`), which each process reads.
-        ask: "first-contact", "is-free", "contact-interval", "closest-approach" or "distance".
+        ask: "first-contact", "is-free", "contact-interval", "closest-approach", "greatest-distance" or
+            "distance".
         paths: a table with a column t is refused: a path that is cut in two has a stretch that nobody looks at. "whole"
             says that all rows of an id are in one table, as after a group-by.
         settings: those of `first_contacts` or `closest_approaches`. Engines start a task for each core: so `threads` is

@@ -7,6 +7,7 @@ from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
 from ._answers import Contact, Distance
+from ._settings import OfApproaches as _OfApproaches
 from ._settings import OfContacts as _OfContacts
 from ._settings import OfDistances as _OfDistances
 
@@ -195,6 +196,14 @@ def is_free(
     **settings: Unpack[_OfContacts],
 ) -> bool: ...
 def closest_approach(
+    a: Body,
+    b: Body,
+    motion_a: _Course | None = None,
+    motion_b: _Course | None = None,
+    duration: float | None = None,
+    **settings: Unpack[_OfApproaches],
+) -> Distance: ...
+def greatest_distance(
     a: Body,
     b: Body,
     motion_a: _Course | None = None,

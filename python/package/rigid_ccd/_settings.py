@@ -28,6 +28,12 @@ class OfContacts(OfDistances, total=False):
     margin: float
 
 
+class OfApproaches(OfDistances, total=False):
+    """Settings of a query for the least distance."""
+
+    clearance: float | None
+
+
 class OfTables(TypedDict, total=False):
     """Settings of a query about each row of a table."""
 
@@ -40,7 +46,5 @@ class ContactsOfTables(OfContacts, OfTables, total=False):
     """Settings of a query that looks for contacts in each row of a table."""
 
 
-class DistancesOfTables(OfDistances, OfTables, total=False):
+class DistancesOfTables(OfApproaches, OfTables, total=False):
     """Settings of a query that measures distances in each row of a table."""
-
-    clearance: float | None

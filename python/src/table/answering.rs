@@ -23,8 +23,6 @@ pub(crate) struct Asked<'a> {
     pub(crate) bodies: Bodies<'a>,
     pub(crate) question: Question,
     pub(crate) config: Config,
-    /// What distances are compared with.
-    pub(crate) clearance: Option<f64>,
     /// The number of threads; none for one on each core.
     pub(crate) threads: Option<u16>,
     pub(crate) micros: Micros,
@@ -179,7 +177,7 @@ fn result(asked: Asked<'_>, told: &Told<'_>) -> ResultRow {
     match &timed.answer {
         Ok(answer) => ResultRow {
             micros: (asked.micros == Micros::Told).then_some(timed.micros),
-            ..ResultRow::new(timed.course, answer, timed.micros, asked.clearance)
+            ..ResultRow::new(timed.course, answer, timed.micros, asked.config.clearance)
         },
         Err(error) => ResultRow::error(timed.course.id(), &RowProblem::from(error.clone())),
     }

@@ -5,7 +5,7 @@ use crate::Solver;
 use crate::table::courses::Course;
 use crate::table::motions::Query;
 use crate::table::paths::{Grouping, Path};
-use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
+use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval, GreatestDistance};
 use ccd_core::{Answer, Config, DistanceOracle, InputError, Limit, Outcome};
 use std::fmt;
 
@@ -22,17 +22,20 @@ pub enum Question {
     ContactInterval,
     /// How close do they come, and when?
     ClosestApproach,
+    /// How far apart do they get, and when?
+    GreatestDistance,
     /// How far apart are they at the start; of a path, in each row?
     Distance,
 }
 
 impl Question {
     /// All questions.
-    pub const ALL: [Question; 5] = [
+    pub const ALL: [Question; 6] = [
         Question::FirstContact,
         Question::IsFree,
         Question::ContactInterval,
         Question::ClosestApproach,
+        Question::GreatestDistance,
         Question::Distance,
     ];
 
@@ -43,6 +46,7 @@ impl Question {
             Question::IsFree => "is-free",
             Question::ContactInterval => "contact-interval",
             Question::ClosestApproach => "closest-approach",
+            Question::GreatestDistance => "greatest-distance",
             Question::Distance => "distance",
         }
     }
@@ -50,16 +54,24 @@ impl Question {
     /// Returns whether the answer is a distance.
     pub fn is_for_a_distance(self) -> bool {
         match self {
-            Question::ClosestApproach | Question::Distance => true,
+            Question::ClosestApproach | Question::GreatestDistance | Question::Distance => true,
             Question::FirstContact | Question::IsFree | Question::ContactInterval => false,
         }
+    }
+
+    /// Returns whether the answer is a distance that is compared with one to be kept.
+    pub fn is_for_a_clearance(self) -> bool {
+        self.is_for_a_distance() && self != Question::GreatestDistance
     }
 
     /// Returns whether the answer has one time at which all contacts can be listed.
     pub fn is_for_one_contact(self) -> bool {
         match self {
             Question::FirstContact | Question::IsFree => true,
-            Question::ContactInterval | Question::ClosestApproach | Question::Distance => false,
+            Question::ContactInterval
+            | Question::ClosestApproach
+            | Question::GreatestDistance
+            | Question::Distance => false,
         }
     }
 
@@ -70,7 +82,8 @@ impl Question {
             Question::FirstContact
             | Question::IsFree
             | Question::ContactInterval
-            | Question::ClosestApproach => Grouping::ById,
+            | Question::ClosestApproach
+            | Question::GreatestDistance => Grouping::ById,
         }
     }
 }
@@ -94,8 +107,10 @@ pub enum Found {
     Any(AnyContact),
     /// The first and the last contact.
     Interval(ContactInterval),
-    /// A distance.
+    /// A distance, or the least one.
     Distance(ClosestApproach),
+    /// The greatest distance.
+    Greatest(GreatestDistance),
 }
 
 impl Found {
@@ -105,7 +120,8 @@ impl Found {
             Found::First(Outcome::Unresolved { reason, .. })
             | Found::Any(AnyContact::Unresolved { reason, .. })
             | Found::Interval(ContactInterval::Unresolved { reason, .. })
-            | Found::Distance(ClosestApproach::Unresolved { reason, .. }) => Some(reason),
+            | Found::Distance(ClosestApproach::Unresolved { reason, .. })
+            | Found::Greatest(GreatestDistance::Unresolved { reason, .. }) => Some(reason),
             _ => None,
         }
     }
@@ -159,6 +175,7 @@ fn about_motions<O: DistanceOracle>(
                 .map(Found::Interval)
         }
         Question::ClosestApproach => solver.closest_approach(a, b, end)?.map(Found::Distance),
+        Question::GreatestDistance => solver.greatest_distance(a, b, end)?.map(Found::Greatest),
         Question::Distance => {
             let (a, b) = ((a.0, query.a.start()), (b.0, query.b.start()));
             solver.distance(a, b)?.map(Found::Distance)
@@ -182,6 +199,9 @@ fn about_path<O: DistanceOracle>(
         Question::ClosestApproach => solver
             .closest_approach_along(a, b, end)?
             .map(Found::Distance),
+        Question::GreatestDistance => solver
+            .greatest_distance_along(a, b, end)?
+            .map(Found::Greatest),
         Question::Distance => {
             let [a, b] = path.poses(0.0)?;
             solver

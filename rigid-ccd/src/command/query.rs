@@ -122,6 +122,7 @@ fn asked(args: &QueryArgs) -> Asked {
         (_, Question::IsFree) => Claim::Any,
         (_, Question::Distance) => Claim::Then,
         _ if leaves(args) => Claim::FirstLater,
+        (_, Question::GreatestDistance) => Claim::Farthest,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
             Claim::First
         }
@@ -168,6 +169,11 @@ fn check_bound(args: &QueryArgs) -> Result<()> {
 /// Refuses options that the question has no use for.
 fn check_question(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
+    if args.clearance.is_some() && ask == Question::GreatestDistance {
+        bail!(
+            "--clearance is a distance to keep; compare column distance_upper with one not to exceed"
+        );
+    }
     if args.clearance.is_some() && !ask.is_for_a_distance() {
         bail!(
             "--clearance needs --ask closest-approach or distance; --margin keeps a distance otherwise"
@@ -237,6 +243,7 @@ fn settings(args: &QueryArgs) -> Settings {
         config: Config {
             tolerance: args.tolerance,
             margin: args.margin,
+            clearance: args.clearance,
             start: args.start.into(),
             budget: args.budget,
             deadline: args.deadline,

@@ -24,6 +24,8 @@ pub enum Claim {
     Any,
     /// The distance was measured then.
     Then,
+    /// The bodies are farthest apart then.
+    Farthest,
     /// As [`First`](Claim::First) by the published bound, which proves nothing.
     Published,
     /// A table says so, which tells neither the question nor the bound.
@@ -53,12 +55,21 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
             format!("Overlapping at the start: {}.{}", contact(row), after(row))
         }
         Status::Measured if asked.claim == Claim::Then => format!("At {time}: {}.", apart(row)),
+        Status::Measured if asked.claim == Claim::Farthest => {
+            format!("Farthest at {time}: {}. Proven: never farther.", apart(row))
+        }
         Status::Measured => format!("Nearest at {time}: {}.", apart(row)),
-        Status::Kept => format!("{clearance} is kept: nearest at {time}, {}.", apart(row)),
-        Status::Violated => format!(
-            "{clearance} is violated: nearest at {time}, {}.",
-            apart(row)
-        ),
+        Status::Kept => match row.distance_upper {
+            Some(_) => format!("{clearance} is kept: nearest at {time}, {}.", apart(row)),
+            None => format!("{clearance} is kept, to the end at {time}: {}.", apart(row)),
+        },
+        Status::Violated => match row.distance_upper {
+            Some(upper) if !is_overlap(row) => {
+                let upper = number_up(upper);
+                format!("{clearance} is violated: at {time} at most {upper} apart.")
+            }
+            _ => format!("{clearance} is violated at {time}: {}.", apart(row)),
+        },
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
         Status::Unresolved => match asked.claim {
             Claim::Published => format!("Not resolved ({reason}) after {time}. Not certified."),
@@ -107,7 +118,7 @@ fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
         (Claim::FirstLater, _) => format!(
             "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
         ),
-        (Claim::Any | Claim::Then, _) => {
+        (Claim::Any | Claim::Then | Claim::Farthest, _) => {
             format!("{at} at {time}: {touching}. There may be an earlier one.")
         }
         (Claim::Published, _) => {
@@ -147,6 +158,10 @@ pub(super) fn contact(row: &ResultRow) -> String {
         Some(_) => format!("{features}, {}", apart(row)),
         None => features,
     }
+}
+
+fn is_overlap(row: &ResultRow) -> bool {
+    row.distance_lower.is_some_and(|lower| lower < 0.0)
 }
 
 fn apart(row: &ResultRow) -> String {

@@ -2,7 +2,7 @@
 
 use super::Solver;
 use crate::{Error, Hit};
-use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
+use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval, GreatestDistance};
 use ccd_core::{Answer, Body, DistanceOracle, InputError, Motion, Moving, Pose, Travelling};
 
 impl<O: DistanceOracle> Solver<O> {
@@ -48,7 +48,8 @@ impl<O: DistanceOracle> Solver<O> {
     }
 
     /// Brackets the least distance of two moving bodies, to within the tolerance, with its time and the nearest
-    /// pieces.
+    /// pieces; or answers whether they keep a required [clearance](crate::Config::clearance), which costs about as much
+    /// as [`Solver::is_free`] with that margin.
     ///
     /// The margin and the start policy play no role.
     ///
@@ -60,12 +61,17 @@ impl<O: DistanceOracle> Solver<O> {
     ///
     /// ```
     /// use rigid_ccd::schedule::Clearance;
-    /// use rigid_ccd::{Body, Motion, Pose, Solver};
+    /// use rigid_ccd::{Body, Config, Motion, Pose, Solver};
     /// let ball = Body::ball(0.5)?;
     /// let passes = Motion::new(Pose::at([-3.0, 1.2, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
     /// let closest = Solver::new().closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
     /// assert!(closest.outcome.lower() <= 0.2 && closest.outcome.upper() >= 0.2);
     /// assert_eq!(closest.outcome.clearance(0.19), Clearance::Kept);
+    ///
+    /// let keeping = Config { clearance: Some(0.1), ..Config::default() };
+    /// let mut solver = Solver::new().with_config(keeping);
+    /// let closest = solver.closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
+    /// assert_eq!(closest.outcome.clearance(0.1), Clearance::Kept);
     /// # Ok::<(), rigid_ccd::Error>(())
     /// ```
     pub fn closest_approach<'b>(
@@ -78,6 +84,38 @@ impl<O: DistanceOracle> Solver<O> {
         Ok(self
             .depth_first
             .closest_approach(&problem, &mut self.oracle))
+    }
+
+    /// Brackets the greatest distance of two moving bodies, to within the tolerance, with its time and the nearest
+    /// pieces then.
+    ///
+    /// The distance is that of the nearest points at each time, and 0 where the bodies overlap. The margin and the start
+    /// policy play no role.
+    ///
+    /// # Guarantee
+    /// The bodies are never farther apart than the upper bound, and at that time at least the lower bound.
+    ///
+    /// # Errors
+    /// The errors of [`Journey::new`](crate::Journey::new): a duration or a motion out of range.
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Pose, Solver};
+    /// // A lid lifts from its case, and must stay within 3 mm.
+    /// let (lid, case) = (Body::cuboid([100.0, 100.0, 2.0])?, Body::cuboid([100.0, 100.0, 50.0])?);
+    /// let lifts = Motion::new(Pose::at([0.0, 0.0, 52.1])?, [0.0, 0.0, 2.0], [0.0; 3])?;
+    /// let found = Solver::new().greatest_distance((&lid, lifts), (&case, Motion::STILL), 1.0)?.outcome;
+    /// assert!(found.upper() < 3.0 && found.lower() > 2.0);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn greatest_distance<'b>(
+        &mut self,
+        a: impl Into<Moving<'b>>,
+        b: impl Into<Moving<'b>>,
+        duration: f64,
+    ) -> Result<Answer<GreatestDistance>, InputError> {
+        let (a, b): (Moving<'b>, Moving<'b>) = (a.into(), b.into());
+        let (a, b) = ((a.body, &a.motion), (b.body, &b.motion));
+        self.greatest_distance_along(a, b, duration)
     }
 
     /// Brackets the distance of two bodies at rest, as narrowly as f64 allows, with the nearest pieces.
@@ -184,6 +222,21 @@ impl<O: DistanceOracle> Solver<O> {
     ) -> Result<Answer<ClosestApproach>, InputError> {
         let journey = self.settings.journey(a, b, duration)?;
         (self.depth_first).closest_approach_along(&journey, &mut self.oracle)
+    }
+
+    /// Brackets the greatest distance of two bodies on [trajectories](crate::trajectory), as
+    /// [`Solver::greatest_distance`] does of motions.
+    ///
+    /// # Errors
+    /// Those of [`Journey::new`](crate::Journey::new), and those of the trajectories.
+    pub fn greatest_distance_along<'b>(
+        &mut self,
+        a: impl Into<Travelling<'b>>,
+        b: impl Into<Travelling<'b>>,
+        duration: f64,
+    ) -> Result<Answer<GreatestDistance>, InputError> {
+        let journey = self.settings.journey(a, b, duration)?;
+        (self.depth_first).greatest_distance_along(&journey, &mut self.oracle)
     }
 
     /// Returns when two bodies on [trajectories](crate::trajectory) first and last touch.

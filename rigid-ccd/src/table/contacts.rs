@@ -99,7 +99,11 @@ fn time_of_contact(found: &Found) -> Option<f64> {
         Found::First(Outcome::Contact { time, .. })
         | Found::Any(AnyContact::Contact { time, .. }) => Some(time),
         Found::First(Outcome::Touching { .. }) => Some(0.0),
-        Found::First(_) | Found::Any(_) | Found::Interval(_) | Found::Distance(_) => None,
+        Found::First(_)
+        | Found::Any(_)
+        | Found::Interval(_)
+        | Found::Distance(_)
+        | Found::Greatest(_) => None,
     }
 }
 

@@ -11,7 +11,7 @@ use crate::batch::Found;
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
-use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
+use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval, GreatestDistance};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
 use serde::{Deserialize, Serialize};
 use std::io;
@@ -161,7 +161,8 @@ impl ResultRow {
             Found::First(outcome) => row.with_outcome(outcome, course.duration()),
             Found::Any(any) => row.with_any(any, course.duration()),
             Found::Interval(interval) => row.with_interval(interval, course.duration()),
-            Found::Distance(closest) => row.with_distance(closest),
+            Found::Distance(closest) => row.with_distance(closest, course.duration()),
+            Found::Greatest(greatest) => row.with_greatest(greatest),
         };
         ResultRow {
             time: row.time.map(|time| course.earliest(time)),
@@ -213,18 +214,27 @@ impl ResultRow {
         }
     }
 
-    fn with_distance(self, closest: &ClosestApproach) -> Self {
-        match closest {
-            ClosestApproach::Overlapping { overlap } => self.at(0.0).with_overlap(overlap),
-            ClosestApproach::Nearest { time, contact, .. }
-            | ClosestApproach::Unresolved {
-                nearest: Some((time, contact)),
-                ..
-            } => ResultRow {
-                distance_lower: Some(closest.lower()),
-                ..self.at(*time).with_contact(contact)
-            },
-            ClosestApproach::Unresolved { nearest: None, .. } => self,
+    fn with_distance(self, closest: &ClosestApproach, duration: f64) -> Self {
+        let row = match (closest, closest.nearest()) {
+            (ClosestApproach::Overlapping { overlap }, _) => {
+                return self.at(0.0).with_overlap(overlap);
+            }
+            (ClosestApproach::Farther { .. }, _) => self.at(duration),
+            (_, Some((time, contact))) => self.at(time).with_contact(&contact),
+            (_, None) => self,
+        };
+        row.with_gap(closest.lower())
+    }
+
+    fn with_greatest(self, greatest: &GreatestDistance) -> Self {
+        let row = match greatest.farthest() {
+            Some((time, contact)) => self.at(time).with_contact(&contact),
+            None => self,
+        };
+        ResultRow {
+            distance_lower: Some(greatest.lower()),
+            distance_upper: Some(greatest.upper()).filter(|upper| upper.is_finite()),
+            ..row
         }
     }
 

@@ -99,6 +99,34 @@ fn the_least_distance_is_bracketed_and_compared() {
 }
 
 #[test]
+fn a_clearance_that_is_decided_ends_the_search() {
+    let visits = |more: &[&str]| {
+        let row = only(&ask("closest-approach", &BALLS, PASSES).args(more));
+        (row.number("iterations"), row)
+    };
+    let (kept, row) = visits(&["--clearance", "0.1"]);
+    assert_eq!(row.text("distance_upper"), "");
+    assert!((0.1..0.2).contains(&row.number("distance_lower")));
+    let (measured, _) = visits(&[]);
+    assert!(kept < measured, "{kept} {measured}");
+    let (_, row) = visits(&["--clearance", "0.5"]);
+    let upper = row.number("distance_upper");
+    assert!((0.2..0.5).contains(&upper), "{upper}");
+    assert!(row.number("time") < 0.5);
+}
+
+#[test]
+fn the_greatest_distance_is_bracketed() {
+    for table in [PASSES, "t,a_px\n0,-3\n0.5,-1.5\n1,4\n"] {
+        let row = only(&ask("greatest-distance", &BALLS, table));
+        assert_eq!(row.text("status"), "measured");
+        let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
+        assert!(lower <= upper && upper - lower <= 1e-3, "{lower} {upper}");
+        assert!(lower > 1.0 && [0.0, 1.0].contains(&row.number("time")));
+    }
+}
+
+#[test]
 fn the_distance_is_that_of_the_start() {
     let row = only(&ask("distance", &FALLING_CUBE, DROP));
     assert_eq!((row.text("status"), row.text("time")), ("measured", "0.0"));
@@ -226,6 +254,10 @@ fn options_without_a_use_are_refused() {
             "--clearance needs --ask closest-approach or distance",
         ),
         (
+            &["--ask", "greatest-distance", "--clearance", "1"],
+            "compare column distance_upper",
+        ),
+        (
             &["--ask", "distance", "--margin", "1"],
             "use --clearance instead of --margin",
         ),
@@ -251,7 +283,7 @@ fn options_without_a_use_are_refused() {
         ),
         (
             &["--ask", "nothing"],
-            "first-contact, is-free, contact-interval, closest-approach, distance",
+            "first-contact, is-free, contact-interval, closest-approach, greatest-distance, distance",
         ),
     ] {
         let output = Run::query(&FALLING_CUBE)

@@ -287,8 +287,13 @@ fn a_verdict_claims_what_was_asked_and_proven() {
         ),
         (
             &["--ask", "closest-approach", "--clearance", "0.3"],
-            "The clearance of 0.3 is violated",
-            "they touch, or nearly so.",
+            "The clearance of 0.3 is violated: at 0.",
+            " apart.",
+        ),
+        (
+            &["--ask", "greatest-distance"],
+            "Farthest at 0: between 2.49",
+            "Proven: never farther.",
         ),
         (&["--ask", "distance"], "At 0: between 2.49", "apart."),
     ];

@@ -3,8 +3,10 @@
 use super::{Judge, Law, check_contact, law};
 use crate::query::Bodies;
 use crate::referee::Finding;
-use ccd_core::order::lesser;
-use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval, Touch};
+use ccd_core::order::{greater, lesser};
+use ccd_core::schedule::{
+    AnyContact, Clearance, ClosestApproach, ContactInterval, GreatestDistance, Touch,
+};
 use ccd_core::{Answer, Contact, Outcome};
 
 impl Judge<'_> {
@@ -68,8 +70,94 @@ impl Judge<'_> {
             ClosestApproach::Overlapping { overlap } => {
                 self.check(&answer.map(|_| Outcome::Overlapping { overlap }), bodies)
             }
+            ClosestApproach::Farther { .. } | ClosestApproach::Nearer { .. } => {
+                Err("compared with a clearance, without one".into())
+            }
             ClosestApproach::Unresolved { .. } => Err("unresolved".into()),
         }
+    }
+
+    /// Checks what became of a required distance: never false, never unknown farther from the least than the tolerance.
+    ///
+    /// # Errors
+    /// The law that the answer breaks.
+    pub fn check_clearance(
+        &self,
+        required: f64,
+        answer: &Answer<ClosestApproach>,
+        bodies: &Bodies,
+    ) -> Law {
+        let rounding = self.query.rounding();
+        let outcome = &answer.outcome;
+        let least = self.least();
+        let (lower, upper) = (outcome.lower(), outcome.upper());
+        law!(
+            lower <= least + rounding,
+            "lower {lower} is above the least distance {least}"
+        );
+        law!(
+            !self.nested || lower <= rounding,
+            "lower {lower}, but one body is inside the other"
+        );
+        match outcome {
+            ClosestApproach::Unresolved { .. } => return Err("unresolved".into()),
+            ClosestApproach::Overlapping { overlap } => {
+                return self.check(
+                    &answer.map(|_| Outcome::Overlapping { overlap: *overlap }),
+                    bodies,
+                );
+            }
+            _ => {}
+        }
+        if let Some((time, contact)) = outcome.nearest() {
+            let gap = self.referee.gap(time);
+            law!(
+                gap <= upper + rounding || self.may_overlap(time, &contact),
+                "upper {upper} is below the distance {gap} at {time}"
+            );
+        }
+        law!(
+            outcome.clearance(required) != Clearance::Unverified
+                || upper - lower <= answer.tolerance && upper <= required + answer.tolerance,
+            "{required} is not verified within {lower} and {upper}"
+        );
+        Ok(())
+    }
+
+    /// Checks the bounds of a greatest distance: never below one that is seen, never above that at the time given, no
+    /// farther apart than the tolerance.
+    ///
+    /// # Errors
+    /// The law that the answer breaks.
+    pub fn check_greatest(&self, answer: &Answer<GreatestDistance>) -> Law {
+        let rounding = self.query.rounding();
+        let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
+        let GreatestDistance::Farthest { .. } = answer.outcome else {
+            return Err("unresolved".into());
+        };
+        if !self.nested {
+            let farthest = self.samples.iter().map(|sample| sample.1);
+            let farthest = farthest.fold(0.0, greater);
+            // Where bodies overlap, their surfaces may be apart.
+            let meets = !matches!(self.finding, Finding::Free { .. });
+            law!(
+                meets || farthest <= upper + rounding,
+                "upper {upper} is below the distance {farthest}"
+            );
+        }
+        if let Some(time) = answer.outcome.time() {
+            let gap = self.referee.gap(time);
+            law!(
+                gap >= lower - rounding,
+                "lower {lower} is above the distance {gap} at {time}"
+            );
+        }
+        law!(
+            upper - lower <= answer.tolerance,
+            "{lower} and {upper} are more than {} apart",
+            answer.tolerance
+        );
+        Ok(())
     }
 
     /// Checks the first and the last contact: no contact before and after, both within reach.

@@ -1,13 +1,15 @@
 //! The least distance at a few times, to begin with.
 
+use super::Best;
+use super::bracket::ClosestApproach;
 use super::follow::follow;
-use super::{Best, ClosestApproach};
 use crate::distance::oracle::DistanceOracle;
+use crate::math::order::greater;
 use crate::outcome::{Limit, Overlap};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::nearest::{Nearest, Stop};
-use crate::schedule::out_of_reach::nearest_clock;
+use crate::schedule::out_of_reach::{least_distance, nearest_clock};
 use crate::tolerance::{FOLLOWED, GUESSES};
 use std::ops::ControlFlow;
 
@@ -40,13 +42,13 @@ pub(super) fn guess<O: DistanceOracle>(
     }
     // Beyond all distances there is nothing to look for.
     match best.is_none() && beyond == f64::INFINITY {
-        true => ControlFlow::Break(super::unresolved(Limit::OracleGaveUp)),
+        true => ControlFlow::Break(super::unresolved(0.0, Limit::OracleGaveUp)),
         false => ControlFlow::Continue(best),
     }
 }
 
 /// Returns the nearest pieces at a clock, if they are nearer than `beyond`.
-fn nearest_at<O: DistanceOracle>(
+pub(in crate::schedule) fn nearest_at<O: DistanceOracle>(
     problem: &Problem<'_>,
     clock: f64,
     beyond: f64,
@@ -81,6 +83,7 @@ fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> ClosestAppr
             overlap: Overlap::Pieces(contact),
         },
         Stop::Limit(reason) => ClosestApproach::Unresolved {
+            lower: greater(0.0, least_distance(problem)),
             nearest: best.map(|best| (problem.time(best.clock), best.contact.no_nearer_than(0.0))),
             reason,
         },

@@ -1,14 +1,20 @@
 //! The search for the least distance.
 
+use super::bracket::ClosestApproach;
 use super::follow::follow;
-use super::{Best, Beyond, ClosestApproach};
+use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use super::{Best, Beyond};
 use crate::distance::oracle::DistanceOracle;
+use crate::math::order::lesser;
 use crate::outcome::{Limit, Outcome, Overlap};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
+use crate::schedule::nodes::closer_look::CloserLook;
+use crate::schedule::nodes::common::Common;
 use crate::schedule::pieces::pair::Step;
 use crate::schedule::proven::Proven;
-use crate::schedule::search::{Advance, Question};
+use crate::schedule::search::{Advance, Question, Search};
+use crate::schedule::stack::Stack;
 use std::ops::ControlFlow;
 
 /// How close do they come? Pairs are proven to keep the least distance found so far.
@@ -19,6 +25,8 @@ pub(super) struct Nearing {
     pub(super) proven: Proven,
     /// The reason why some pair could not be proven to the end.
     pub(super) stuck: Option<Limit>,
+    /// What is proven of all pairs.
+    pub(super) ladder: Ladder,
 }
 
 impl Nearing {
@@ -41,14 +49,90 @@ impl Nearing {
     }
 
     pub(super) fn unresolved(&self, problem: &Problem<'_>, reason: Limit) -> ClosestApproach {
+        let lower = lesser(self.ladder.lower, self.upper());
         let seen = |best: Best| {
-            let contact = best.contact.no_nearer_than(0.0);
+            let contact = best.contact.no_nearer_than(lower);
             (problem.time(best.clock), contact)
         };
         ClosestApproach::Unresolved {
+            lower,
             nearest: self.best.map(seen),
             reason,
         }
+    }
+
+    /// Searches for pairs nearer than a rung, in a search of its own: proves the rung, or sees nearer pieces.
+    ///
+    /// Breaks with the answer for bodies that overlap.
+    pub(super) fn climb<O: DistanceOracle>(
+        &mut self,
+        problem: &Problem<'_>,
+        rung: Rung,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<ClosestApproach> {
+        let work = meter.stats.work();
+        let budget = problem.budget.min(work.saturating_add(rung.budget));
+        let lower = Rung { budget, ..rung }.problem(problem);
+        let mut below = Nearing {
+            best: None,
+            beyond: lower.contact_distance(),
+            proven: Proven::default(),
+            stuck: None,
+            ladder: Ladder::new(0.0, 0),
+        };
+        let mut stack = Stack::default();
+        let mut search = Search {
+            waiting: &mut stack,
+            oracle,
+            meter,
+        };
+        let common = Common::new(&lower);
+        let mut look = CloserLook::new(&lower);
+        let mut found = None;
+        if search.open(&lower).is_ok() {
+            while below.best.is_none() && found.is_none() {
+                found = search.visit(&common, &mut look, &mut below).break_value();
+            }
+        }
+        match found {
+            Some(Ok(overlapping @ ClosestApproach::Overlapping { .. })) => {
+                return ControlFlow::Break(overlapping);
+            }
+            Some(Err(Beyond { lower })) => self.ladder.climb(Some(lower)),
+            _ => self.ladder.climb(None),
+        }
+        if let Some(best) = below
+            .best
+            .filter(|best| best.contact.separation.upper < self.upper())
+        {
+            self.best = Some(best);
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Returns the answer of a search; one that is stuck proves as much as it can.
+    pub(super) fn at_last<O: DistanceOracle>(
+        &mut self,
+        problem: &Problem<'_>,
+        found: Result<ClosestApproach, Beyond>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Result<ClosestApproach, Beyond> {
+        let reason = match (&found, self.stuck) {
+            (Ok(ClosestApproach::Unresolved { reason, .. }), Some(_)) => *reason,
+            _ => return found,
+        };
+        for _ in 0..LAST_RUNGS {
+            let left = problem.budget.saturating_sub(meter.stats.work());
+            let Some(rung) = self.ladder.rung(self.upper(), left / 2) else {
+                break;
+            };
+            if let ControlFlow::Break(found) = self.climb(problem, rung, oracle, meter) {
+                return Ok(found);
+            }
+        }
+        Ok(self.unresolved(problem, reason))
     }
 }
 

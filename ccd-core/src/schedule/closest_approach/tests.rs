@@ -1,5 +1,9 @@
 //! Brackets of the least distance against samples, with every budget and honest or lying oracles.
 
+mod conforming;
+mod required;
+
+use super::bracket::Clearance;
 use super::*;
 use crate::body::combination::Combination;
 use crate::distance::oracle::{Claim, GiveUp};
@@ -64,7 +68,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
                 overlapping += 1;
                 assert!(distance(&problem, 0.0) <= slack);
             }
-            ClosestApproach::Unresolved { .. } => panic!("{number}: {outcome:?}"),
+            outcome => panic!("{number}: {outcome:?}"),
         }
     }
     assert!(
@@ -127,22 +131,30 @@ fn a_clearance_is_kept_violated_or_unknown() {
 #[test]
 fn budgets_end_a_search_with_what_was_seen() {
     let mut rng = rng(4);
-    let (mut ended, mut seen) = (0, 0);
+    let (mut ended, mut seen, mut proven) = (0, 0, 0);
     for number in 0..100 {
         let mut scene = scene(&mut rng, KINDS[number % 3], 12);
         let (visits, least) = {
             let answer = approach(&scene.problem());
             (answer.stats.iterations, answer.outcome.lower())
         };
+        let found = sampled(&scene.problem(), 64);
         for budget in 0..visits.min(60) {
             scene.config.budget = budget;
             let problem = scene.problem();
             let outcome = approach(&problem).outcome;
-            let ClosestApproach::Unresolved { nearest, reason } = outcome else {
+            let ClosestApproach::Unresolved {
+                lower,
+                nearest,
+                reason,
+            } = outcome
+            else {
                 panic!("{number}: {outcome:?} for {budget} of {visits}");
             };
-            assert_eq!((reason, outcome.lower()), (Limit::Budget, 0.0));
+            assert_eq!(reason, Limit::Budget);
+            assert!(lower <= found + problem.rounding, "{number}: {outcome:?}");
             ended += 1;
+            proven += u32::from(lower > 0.0);
             if let Some((time, contact)) = nearest {
                 seen += 1;
                 let near = distance(&problem, time);
@@ -151,7 +163,10 @@ fn budgets_end_a_search_with_what_was_seen() {
             }
         }
     }
-    assert!(ended > 1_000 && seen > 200, "{ended} {seen}");
+    assert!(
+        ended > 1_000 && seen > 200 && proven > 200,
+        "{ended} {seen} {proven}"
+    );
 }
 
 #[test]
@@ -231,6 +246,7 @@ fn bodies_at_rest_have_a_distance() {
                 assert_eq!(reason, Limit::Undecided);
                 assert!(found <= slack, "{number}: {found:e}");
             }
+            outcome => panic!("{number}: {outcome:?}"),
         }
     }
     assert!(apart > 100 && overlapping > 10, "{apart} {overlapping}");

@@ -1,18 +1,27 @@
 //! The closest approach along trajectories.
 
+mod found;
+
 use super::Journey;
-use super::leg::{Leg, Span};
+use super::leg::Leg;
 use super::stretches::Stretches;
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
-use crate::outcome::{Answer, Contact, Limit, Overlap};
+use crate::outcome::{Answer, Limit};
 use crate::schedule::DepthFirst;
-use crate::schedule::closest_approach::{Beyond, ClosestApproach};
-use crate::tolerance::{COARSE, LEAST_CUT, STRAY_SHARE};
+use crate::schedule::any_contact::AnyContact;
+use crate::schedule::closest_approach::Beyond;
+use crate::schedule::closest_approach::bracket::ClosestApproach;
+use crate::schedule::closest_approach::ladder::Ladder;
+use crate::schedule::closest_approach::required::Required;
+use crate::tolerance::{COARSE, STRAY_SHARE};
+use found::{Found, Seen};
+use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Brackets the least distance of the bodies along their trajectories, to within the tolerance.
+    /// Brackets the least distance of the bodies along their trajectories, to within the tolerance; or answers
+    /// whether they keep a required [clearance](crate::Config::clearance).
     ///
     /// # Guarantee
     /// That of [`ClosestApproach`], for the trajectories themselves; ends on every input.
@@ -24,16 +33,27 @@ impl<O: DistanceOracle> DepthFirst<O> {
         journey: &Journey<'_>,
         oracle: &mut O,
     ) -> Result<Answer<ClosestApproach>, InputError> {
+        if let Some(distance) = journey.config.clearance {
+            return self.keeps_along(journey, distance, oracle);
+        }
         let journey = &journey.measuring();
         let mut stretches = Stretches::new(journey);
+        let ladder = Ladder::new(0.0, journey.config.budget);
         let mut found = Found {
             lower: f64::INFINITY,
             best: None,
+            ladder: match journey.config.deadline.is_some() || journey.stop.is_some() {
+                true => ladder.timed(),
+                false => ladder,
+            },
         };
-        while let Some(span) = stretches.next() {
+        while let Some(span) = {
+            self.climb_along(&mut found, &mut stretches, oracle)?;
+            stretches.next()
+        } {
             let (leg, config) = match stretches.leg(span)? {
                 Ok(leg) => leg,
-                Err(reason) => return Ok(found.unresolved(journey, &stretches, reason)),
+                Err(reason) => return Ok(found.unresolved(journey, &stretches, span, reason)),
             };
             if let Some(time) = stretches.looks_too_long(&leg)
                 && let Some(doubt) = self.doubt(oracle, time, &mut found, &mut stretches)?
@@ -68,7 +88,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
                 Ok(outcome) => match found.see(&leg, &outcome) {
                     Ok(seen) => seen,
-                    Err(reason) => return Ok(found.unresolved(journey, &stretches, reason)),
+                    Err(reason) => {
+                        return Ok(found.unresolved(journey, &stretches, leg.span, reason));
+                    }
                 },
             };
             let lower = greater(0.0, leg.at_least(seen.lower));
@@ -79,7 +101,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 stretches.prove(&leg);
             } else {
                 if !self.cut_where_nearest(oracle, &leg, &seen, &mut found, &mut stretches)? {
-                    return Ok(found.unresolved(journey, &stretches, Limit::Stalled));
+                    return Ok(found.unresolved(journey, &stretches, leg.span, Limit::Stalled));
                 }
             }
             if found.upper() <= tolerance {
@@ -94,6 +116,58 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
+    /// Answers whether the bodies keep a distance.
+    fn keeps_along(
+        &mut self,
+        journey: &Journey<'_>,
+        distance: f64,
+        oracle: &mut O,
+    ) -> Result<Answer<ClosestApproach>, InputError> {
+        let required = Required {
+            distance,
+            tolerance: journey.config.tolerance,
+            budget: journey.config.budget,
+        };
+        let begun = journey.config.deadline.map(|_| Instant::now());
+        required.decide(|rung| {
+            let mut journey = journey.asking(rung);
+            journey.config.deadline = begun.and_then(|begun| {
+                let deadline = journey.config.deadline;
+                deadline.map(|deadline| deadline.saturating_sub(begun.elapsed()))
+            });
+            self.any_contact_along(&journey, oracle)
+        })
+    }
+
+    /// Proves a part of the least distance seen of the whole journey, if that is due.
+    fn climb_along(
+        &mut self,
+        found: &mut Found,
+        stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+    ) -> Result<(), InputError> {
+        let work = stretches.stats.work();
+        let (Some(rung), Ok(left)) = (found.ladder.due(work, found.upper()), stretches.config())
+        else {
+            return Ok(());
+        };
+        let mut journey = stretches.journey().asking(rung);
+        journey.config.budget = rung.budget.min(left.budget);
+        journey.config.deadline = left.deadline;
+        let answer = self.any_contact_along(&journey, oracle)?;
+        stretches.stats.add(&answer.stats);
+        let proven = match answer.outcome {
+            AnyContact::Free { proven_gap } => Some(proven_gap),
+            AnyContact::Contact { time, contact } => {
+                found.take(time, contact);
+                None
+            }
+            AnyContact::Overlapping { .. } | AnyContact::Unresolved { .. } => None,
+        };
+        found.ladder.climb(proven);
+        Ok(())
+    }
+
     /// Returns the answer for bodies that meet, unless they overlap at the start as well.
     fn or_overlap_along(
         &mut self,
@@ -102,7 +176,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         nearest: Answer<ClosestApproach>,
         stretches: &mut Stretches<'_, '_>,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        let Some((pose, config)) = stretches.pose(0.0)? else {
+        let Ok((pose, config)) = stretches.pose(0.0)? else {
             return Ok(nearest);
         };
         let start = self.closest_approach(&pose.problem(journey, &config)?, oracle);
@@ -157,7 +231,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         found: &mut Found,
         stretches: &mut Stretches<'_, '_>,
     ) -> Result<Option<Doubt>, InputError> {
-        let Some((pose, config)) = stretches.pose(time)? else {
+        let Ok((pose, config)) = stretches.pose(time)? else {
             return Ok(None);
         };
         let answer = self.closest_approach(&pose.problem(stretches.journey(), &config)?, oracle);
@@ -193,154 +267,6 @@ impl Doubt {
         match end > leg.span.from {
             true => self.rate <= 0.0,
             false => self.rate >= 0.0,
-        }
-    }
-}
-
-impl Journey<'_> {
-    /// Returns the journey that asks for distances: the margin plays no role.
-    fn measuring(&self) -> Self {
-        let mut measuring = self.clone();
-        measuring.config.margin = 0.0;
-        measuring
-    }
-}
-
-/// What a stretch shows: bounds of the distance of its motions.
-struct Seen {
-    lower: f64,
-    upper: f64,
-    /// By how much strays widen these bounds.
-    blur: f64,
-    /// The time in the stretch at which they are nearest.
-    time: f64,
-    /// The rate at which they approach then.
-    approach: f64,
-}
-
-impl Seen {
-    /// Returns true if f64 does not certify the tolerance for the motions: then cutting does not help.
-    fn is_loose(&self, tolerance: f64) -> bool {
-        let width = self.upper - self.lower;
-        width > tolerance && self.blur <= width
-    }
-
-    /// Returns the end of the leg beyond which they get nearer by more than they stray.
-    fn falls_beyond(&self, leg: &Leg) -> Option<f64> {
-        let Span { from, to, .. } = leg.span;
-        let (near, falls) = (
-            LEAST_CUT * leg.span.length(),
-            self.approach * leg.span.length(),
-        );
-        let time = leg.time(self.time);
-        if time - from <= near && -falls > leg.stray {
-            Some(from)
-        } else if to - time <= near && falls > leg.stray {
-            Some(to)
-        } else {
-            None
-        }
-    }
-}
-
-/// The least distance found so far.
-struct Found {
-    /// A lower bound on all stretches that are done.
-    lower: f64,
-    best: Option<(f64, Contact)>,
-}
-
-impl Found {
-    fn upper(&self) -> f64 {
-        let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
-        self.best.map_or(f64::INFINITY, upper)
-    }
-
-    /// Takes what the motions of a leg show.
-    ///
-    /// # Errors
-    /// The limit that was reached.
-    fn see(&mut self, leg: &Leg, outcome: &ClosestApproach) -> Result<Seen, Limit> {
-        let mut seen = Seen {
-            lower: 0.0,
-            upper: 0.0,
-            blur: leg.stray,
-            time: 0.0,
-            approach: 0.0,
-        };
-        match *outcome {
-            ClosestApproach::Nearest {
-                lower,
-                time,
-                contact,
-            } => {
-                self.take(leg.time(time), leg.contact(contact));
-                seen.lower = lower;
-                seen.upper = contact.separation.upper;
-                seen.time = time;
-                seen.approach = leg.approach(time, &contact);
-            }
-            ClosestApproach::Overlapping { overlap } => {
-                if let Overlap::Pieces(contact) = overlap {
-                    self.take(leg.span.from, leg.contact(contact));
-                }
-            }
-            ClosestApproach::Unresolved { nearest, reason } => {
-                if let Some((time, contact)) = nearest {
-                    self.take(leg.time(time), leg.contact(contact));
-                }
-                return Err(reason);
-            }
-        }
-        Ok(seen)
-    }
-
-    fn take(&mut self, time: f64, contact: Contact) {
-        if contact.separation.upper < self.upper() {
-            self.best = Some((time, contact));
-        }
-    }
-
-    fn nearest(
-        &self,
-        journey: &Journey<'_>,
-        stretches: &Stretches<'_, '_>,
-    ) -> Answer<ClosestApproach> {
-        let Some((time, contact)) = self.best else {
-            return self.unresolved(journey, stretches, Limit::OracleGaveUp);
-        };
-        let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = ClosestApproach::Nearest {
-            lower,
-            time,
-            contact: contact.no_nearer_than(lower),
-        };
-        self.answer(journey, stretches, nearest)
-    }
-
-    fn unresolved(
-        &self,
-        journey: &Journey<'_>,
-        stretches: &Stretches<'_, '_>,
-        reason: Limit,
-    ) -> Answer<ClosestApproach> {
-        let nearest = self
-            .best
-            .map(|(time, contact)| (time, contact.no_nearer_than(0.0)));
-        let unresolved = ClosestApproach::Unresolved { nearest, reason };
-        self.answer(journey, stretches, unresolved)
-    }
-
-    fn answer(
-        &self,
-        journey: &Journey<'_>,
-        stretches: &Stretches<'_, '_>,
-        outcome: ClosestApproach,
-    ) -> Answer<ClosestApproach> {
-        Answer {
-            tolerance: greater(journey.config.tolerance, outcome.width()),
-            outcome,
-            stats: stretches.stats,
         }
     }
 }

@@ -44,7 +44,7 @@ impl Span {
 /// The motions of both bodies in a stretch of time, and how far the bodies stray from them.
 #[derive(Debug)]
 pub(super) struct Leg {
-    motions: [Stretch; 2],
+    pub(super) motions: [Stretch; 2],
     /// The sum of both strays.
     pub(super) stray: f64,
     pub(super) span: Span,

@@ -53,6 +53,11 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.waiting.pop()
     }
 
+    /// Returns the stretches that wait.
+    pub(super) fn waiting(&self) -> &[Span] {
+        &self.waiting
+    }
+
     /// Returns the first time of all stretches that wait; infinite if none does.
     pub(super) fn first(&self) -> f64 {
         let starts = self.waiting.iter().map(|span| span.from);
@@ -60,7 +65,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the settings with what is left of budget and deadline.
-    fn config(&self) -> Result<Config, Limit> {
+    pub(super) fn config(&self) -> Result<Config, Limit> {
         let Journey { config, stop, .. } = self.journey;
         if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
@@ -95,7 +100,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         mut span: Span,
     ) -> Result<Result<(Leg, Config), Limit>, InputError> {
         loop {
-            self.budgets.turn_to(span.part, self.stats.work());
+            self.turn_to(span);
             let config = match self.config() {
                 Ok(config) => config,
                 Err(reason) => return Ok(Err(reason)),
@@ -154,17 +159,23 @@ impl<'j, 'a> Stretches<'j, 'a> {
         (leg.stray > MUCH_LONGER * stray).then_some(time)
     }
 
-    /// Returns the pose at a time, with the settings; none if no work is left.
-    pub(super) fn pose(&self, time: f64) -> Result<Option<(Leg, Config)>, InputError> {
-        let Ok(config) = self.config() else {
-            return Ok(None);
+    /// Lets work from now on count for the part of the journey that a stretch is in.
+    pub(super) fn turn_to(&mut self, span: Span) {
+        self.budgets.turn_to(span.part, self.stats.work());
+    }
+
+    /// Returns the pose at a time, with the settings; or the limit that was reached.
+    pub(super) fn pose(&self, time: f64) -> Result<Result<(Leg, Config), Limit>, InputError> {
+        let config = match self.config() {
+            Ok(config) => config,
+            Err(reason) => return Ok(Err(reason)),
         };
         let span = Span {
             from: time,
             to: time,
             part: self.budgets.part,
         };
-        Ok(Some((Leg::new(self.journey, span)?, config)))
+        Ok(Ok((Leg::new(self.journey, span)?, config)))
     }
 
     /// Measures the bodies at a time, up to rounding: returns the contact and the rate at which they approach; none if
@@ -175,7 +186,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         oracle: &mut O,
         kept: &mut Kept,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Some((leg, config)) = self.pose(time)? else {
+        let Ok((leg, config)) = self.pose(time)? else {
             return Ok(None);
         };
         let problem = leg.problem(self.journey, &config)?.measuring();
@@ -243,7 +254,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    fn parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
+    pub(super) fn parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span { from, to, part } = span;
         let Journey { a, b, .. } = self.journey;
         let corner = |body: &Travelling<'_>| {

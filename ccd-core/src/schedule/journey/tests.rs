@@ -2,6 +2,8 @@
 
 mod budgets;
 
+mod distances;
+
 use super::*;
 use crate::math::order::lesser;
 use crate::motion::Motion;
@@ -164,7 +166,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
                 );
             }
             ClosestApproach::Overlapping { .. } => {}
-            ClosestApproach::Unresolved { .. } => panic!("{number}: {answer:?}"),
+            _ => panic!("{number}: {answer:?}"),
         }
         for k in 0..=200 {
             let found = swings.distance(f64::from(k) / 200.0);

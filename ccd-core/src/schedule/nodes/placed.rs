@@ -77,6 +77,14 @@ impl Placed {
         }
     }
 
+    /// Returns the corners of a triangle, relative to the centre; none of a box.
+    pub(super) fn corners(&self) -> Option<[DVec3; 3]> {
+        match self.shape {
+            Shape::Triangle(corners) => Some(corners),
+            Shape::Box { .. } => None,
+        }
+    }
+
     /// Turns a vector along with the body.
     pub(super) fn turned(&self, vector: DVec3) -> DVec3 {
         self.frame.rotation * vector

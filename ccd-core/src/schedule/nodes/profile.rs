@@ -5,6 +5,7 @@
 //! differs from its linearisation as `r` does, by at least 0 and at most `y²/(2ρ)` at `y` along the
 //! turn, and as `ζ` does, by at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
 
+use super::outline::{Linear, Outline};
 use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
@@ -42,6 +43,8 @@ pub(super) struct Profile {
     close: f64,
     /// The most by which any `f` changes per length on such ways.
     steepest: f64,
+    /// Of a single triangle, which has intervals for any surface.
+    outline: Option<Outline>,
 }
 
 impl ScrewAxis {
@@ -72,6 +75,7 @@ impl Profile {
     pub(super) fn about(mut parts: impl Iterator<Item = Placed>, axis: &ScrewAxis) -> Option<Self> {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
+            all.outline = None;
             let part = Profile::beside(&part, axis, Some(all.azimuth))?;
             for k in 0..SURFACES {
                 all.low[k] = lesser(all.low[k], part.low[k]);
@@ -114,6 +118,7 @@ impl Profile {
             width: aside / inner,
             close: 0.5 * inner,
             steepest: (1.0 + steep * steep).sqrt() * (1.0 + RATE_F64),
+            outline: None,
         };
         let bulge = 0.5 * aside * aside / inner;
         let twist = 0.5 * axis.advance.abs() * (node.radius / inner) * (node.radius / inner);
@@ -129,22 +134,55 @@ impl Profile {
             profile.low[k] = at - reach(-1.0);
             profile.high[k] = at + reach(1.0);
         }
+        let linear = Linear {
+            axis: [axis.origin, axis.unit],
+            zeta,
+            ahead,
+            twist,
+            scale: [arm, node.radius],
+            tilt: axis.advance / distance,
+        };
+        profile.outline = Outline::new(node, &linear);
+        if let Some(outline) = &profile.outline {
+            for (k, &n) in axis.surfaces.iter().enumerate() {
+                let [low, high] = outline.interval(n);
+                profile.low[k] = greater(profile.low[k], low);
+                profile.high[k] = lesser(profile.high[k], high);
+            }
+        }
         Some(profile)
     }
 
     /// Returns the interval of shifts by which another node's `ζ` may be raised so that no surface keeps
     /// more than the needed gap between both. It is empty if one does so for any shift.
     fn meeting(&self, other: &Profile, axis: &ScrewAxis, needed: f64) -> [f64; 2] {
+        let common = axis.surfaces.iter().enumerate();
+        let common = common.map(|(k, &n)| {
+            (
+                n,
+                [self.low[k], self.high[k]],
+                [other.low[k], other.high[k]],
+            )
+        });
+        // Surfaces that suit two triangles.
+        let outlines = self.outline.iter().zip(&other.outline);
+        let own = outlines.flat_map(|(own, others)| {
+            let surfaces = own.surfaces().chain(others.surfaces());
+            surfaces.map(move |n| (n, own.interval(n), others.interval(n)))
+        });
         let mut met = [f64::NEG_INFINITY, f64::INFINITY];
-        for (k, n) in axis.surfaces.iter().enumerate() {
-            let least = (self.low[k] - other.high[k]) - needed;
-            let most = (self.high[k] - other.low[k]) + needed;
+        for (n, [low, high], [other_low, other_high]) in common.chain(own) {
+            let least = (low - other_high) - needed;
+            let most = (high - other_low) + needed;
             met = match n.y > 0.0 {
                 true => both(met, [least / n.y, most / n.y]),
                 // No shift leads around it. Written so that NaN is no gap.
                 false if least > 0.0 || most < 0.0 => return [f64::INFINITY, f64::NEG_INFINITY],
                 false => met,
             };
+            if met[0] > met[1] {
+                return met;
+            }
         }
         met
     }

@@ -2,7 +2,9 @@
 
 use crate::batch::Found;
 use ccd_core::Outcome;
-use ccd_core::schedule::{AnyContact, Clearance, ClosestApproach, ContactInterval, Touch};
+use ccd_core::schedule::{
+    AnyContact, Clearance, ClosestApproach, ContactInterval, GreatestDistance, Touch,
+};
 use serde::{Deserialize, Serialize};
 
 /// The kind of an answer, or an error.
@@ -78,6 +80,10 @@ impl Status {
                 ContactInterval::Unresolved { .. } => Status::Unresolved,
             },
             Found::Distance(closest) => Status::of_distance(closest, clearance),
+            Found::Greatest(greatest) => match greatest {
+                GreatestDistance::Farthest { .. } => Status::Measured,
+                GreatestDistance::Unresolved { .. } => Status::Unresolved,
+            },
         }
     }
 
@@ -100,6 +106,9 @@ impl Status {
         }
         match closest {
             ClosestApproach::Nearest { .. } => Status::Measured,
+            // Only where a distance was required.
+            ClosestApproach::Farther { .. } => Status::Kept,
+            ClosestApproach::Nearer { .. } => Status::Violated,
             ClosestApproach::Overlapping { .. } => Status::Overlapping,
             ClosestApproach::Unresolved { .. } => Status::Unresolved,
         }

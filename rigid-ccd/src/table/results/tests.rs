@@ -247,8 +247,14 @@ fn distances_are_compared_to_the_clearance() {
         contact: contact(),
     });
     let unresolved = Found::Distance(ClosestApproach::Unresolved {
+        lower: 0.01,
         nearest: Some((1.5, contact())),
         reason: Limit::Budget,
+    });
+    let farther = Found::Distance(ClosestApproach::Farther { lower: 0.3 });
+    let nearer = Found::Distance(ClosestApproach::Nearer {
+        time: 1.5,
+        contact: contact(),
     });
     let overlapping = Found::Distance(ClosestApproach::Overlapping {
         overlap: Overlap::AInsideB(DVec3::ZERO),
@@ -258,9 +264,12 @@ fn distances_are_compared_to_the_clearance() {
         (nearest, Some(0.05), "kept", "0.05", ""),
         (nearest, Some(0.1), "unverified", "0.05", WITHIN_BOUNDS),
         (nearest, Some(0.25), "violated", "0.05", ""),
-        (unresolved, None, "unresolved", "0.0", "budget"),
-        (unresolved, Some(0.0), "unverified", "0.0", "budget"),
-        (unresolved, Some(0.25), "violated", "0.0", "budget"),
+        (unresolved, None, "unresolved", "0.01", "budget"),
+        (unresolved, Some(0.005), "kept", "0.01", "budget"),
+        (unresolved, Some(0.05), "unverified", "0.01", "budget"),
+        (unresolved, Some(0.25), "violated", "0.01", "budget"),
+        (farther, Some(0.25), "kept", "0.3", ""),
+        (nearer, Some(0.25), "violated", "0.0", ""),
         (overlapping, None, "overlapping", "", ""),
         (overlapping, Some(0.0), "violated", "", ""),
     ] {

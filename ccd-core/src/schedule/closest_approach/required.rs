@@ -1,0 +1,157 @@
+//! Is a required distance kept? Two questions for any contact decide.
+
+use super::bracket::ClosestApproach;
+use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use crate::limits::LEAST_TOLERANCE;
+use crate::math::order::{greater, lesser};
+use crate::outcome::{Answer, Contact, Limit, Stats};
+use crate::schedule::any_contact::AnyContact;
+
+/// A required distance, and what may be spent on it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::schedule) struct Required {
+    pub(in crate::schedule) distance: f64,
+    pub(in crate::schedule) tolerance: f64,
+    pub(in crate::schedule) budget: u64,
+}
+
+impl Required {
+    /// Answers whether bodies keep the distance: whether they come near it, and if they do, whether they come
+    /// nearer.
+    ///
+    /// # Errors
+    /// Those of the question for any contact.
+    pub(in crate::schedule) fn decide<E>(
+        &self,
+        any_contact: impl FnMut(Rung) -> Result<Answer<AnyContact>, E>,
+    ) -> Result<Answer<ClosestApproach>, E> {
+        let mut asking = Asking {
+            required: *self,
+            any_contact,
+            stats: Stats::default(),
+            half: 0.5 * self.tolerance,
+        };
+        // A part is left for a lesser distance.
+        let most = self.budget - self.budget / 4;
+        let near = asking.ask(self.distance, asking.half, most)?;
+        // No finer one may be certified in f64.
+        asking.half = greater(asking.half, near.tolerance);
+        let outcome = match self.of(near.outcome) {
+            ClosestApproach::Nearest { time, contact, .. } if self.distance > 0.0 => {
+                asking.nearer(time, contact)?
+            }
+            found => found,
+        };
+        let outcome = match outcome {
+            ClosestApproach::Unresolved {
+                nearest, reason, ..
+            } => ClosestApproach::Unresolved {
+                lower: asking.lower(reason)?,
+                nearest,
+                reason,
+            },
+            found => found,
+        };
+        Ok(Answer {
+            tolerance: greater(self.tolerance, outcome.width()),
+            outcome,
+            stats: asking.stats,
+        })
+    }
+
+    /// Returns what an answer says, with the distance as its margin.
+    fn of(&self, found: AnyContact) -> ClosestApproach {
+        match found {
+            AnyContact::Free { proven_gap } => ClosestApproach::Farther {
+                lower: greater(proven_gap, self.distance),
+            },
+            AnyContact::Contact { time, contact } => {
+                match contact.separation.upper < self.distance {
+                    true => ClosestApproach::Nearer { time, contact },
+                    false => bracket(0.0, time, contact),
+                }
+            }
+            AnyContact::Overlapping { overlap } => ClosestApproach::Overlapping { overlap },
+            AnyContact::Unresolved { reason, .. } => ClosestApproach::Unresolved {
+                lower: 0.0,
+                nearest: None,
+                reason,
+            },
+        }
+    }
+}
+
+/// A required distance that is being decided.
+struct Asking<F> {
+    required: Required,
+    any_contact: F,
+    stats: Stats,
+    /// The tolerance of the questions: half of that of the answer.
+    half: f64,
+}
+
+impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
+    fn ask(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer<AnyContact>, E> {
+        let answer = (self.any_contact)(Rung {
+            margin,
+            tolerance: greater(LEAST_TOLERANCE, tolerance),
+            budget,
+        })?;
+        self.stats.add(&answer.stats);
+        Ok(answer)
+    }
+
+    /// The work that is left.
+    fn left(&self) -> u64 {
+        self.required.budget.saturating_sub(self.stats.work())
+    }
+
+    /// Answers whether bodies come nearer that come within the tolerance of the distance.
+    fn nearer(&mut self, time: f64, contact: Contact) -> Result<ClosestApproach, E> {
+        let (distance, half) = (self.required.distance, self.half);
+        // What is in contact with this margin is nearer, and what is not keeps the distance but for the tolerance.
+        let margin = greater(0.0, distance - 1.5 * half);
+        let finer = match margin > 0.0 {
+            true => half,
+            false => lesser(half, 0.5 * distance),
+        };
+        let found = self.ask(margin, finer, self.left())?.outcome;
+        Ok(match (found, self.required.of(found)) {
+            (AnyContact::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
+            (_, ClosestApproach::Unresolved { lower, reason, .. }) => ClosestApproach::Unresolved {
+                lower,
+                nearest: Some((time, contact)),
+                reason,
+            },
+            (_, found) => found,
+        })
+    }
+
+    /// Returns the best bound that can be proven with the rest of the work.
+    fn lower(&mut self, reason: Limit) -> Result<f64, E> {
+        let mut ladder = Ladder::new(0.0, self.required.budget);
+        if matches!(reason, Limit::Deadline | Limit::Stopped) {
+            return Ok(ladder.lower);
+        }
+        for _ in 0..LAST_RUNGS {
+            let Some(rung) = ladder.rung(self.required.distance, self.left() / 2) else {
+                break;
+            };
+            let found = self.ask(rung.margin, rung.tolerance, rung.budget)?.outcome;
+            ladder.climb(match found {
+                AnyContact::Free { proven_gap } => Some(proven_gap),
+                _ => None,
+            });
+        }
+        Ok(ladder.lower)
+    }
+}
+
+fn bracket(lower: f64, time: f64, contact: Contact) -> ClosestApproach {
+    let lower = lesser(lower, contact.separation.upper);
+    ClosestApproach::Nearest {
+        lower,
+        time,
+        contact: contact.no_nearer_than(lower),
+    }
+}

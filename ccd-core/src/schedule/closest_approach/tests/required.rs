@@ -1,0 +1,127 @@
+//! Required distances on either side of the least one, and bounds where a search does not end.
+
+use super::*;
+use crate::schedule::AnyContact;
+
+#[test]
+fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
+    let mut rng = rng(11);
+    let (mut kept, mut violated, mut between) = (0, 0, 0);
+    for number in 0..800 {
+        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        let known = approach(&scene.problem()).outcome;
+        let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
+            continue;
+        };
+        let tolerance = scene.problem().tolerance;
+        let found = sampled(&scene.problem(), 64);
+        let slack = 2.0 * scene.problem().rounding;
+        for required in [
+            0.0,
+            0.5 * lower,
+            lower - 2.0 * tolerance,
+            0.5 * (lower + upper),
+            upper + 2.0 * tolerance,
+            2.0 * upper + tolerance,
+        ] {
+            if !(required >= 0.0) {
+                continue;
+            }
+            scene.config.clearance = Some(required);
+            let problem = scene.problem();
+            let answer = approach(&problem);
+            let outcome = answer.outcome;
+            assert!(
+                outcome.lower() <= found + slack,
+                "{number}: {outcome:?}, {found:e}"
+            );
+            match outcome.clearance(required) {
+                Clearance::Kept => {
+                    kept += 1;
+                    assert!(
+                        found >= required - slack,
+                        "{number}: {required:e}, {outcome:?}"
+                    );
+                    assert_eq!(outcome.time(), outcome.nearest().map(|(time, _)| time));
+                }
+                Clearance::Violated => {
+                    violated += 1;
+                    let time = outcome.time().expect("a time of what was seen");
+                    let near = distance(&problem, time);
+                    let seen = outcome.upper();
+                    assert!(
+                        near <= seen * (1.0 + 1e-9) + 1e-9 + slack,
+                        "{number}: {outcome:?}"
+                    );
+                }
+                Clearance::Unverified => {
+                    between += 1;
+                    assert!(
+                        required <= upper + 1.1 * tolerance && required >= lower - 1.1 * tolerance,
+                        "{number}: {required:e} beside {known:?}: {outcome:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(
+        kept > 500 && violated > 500 && between > 100,
+        "{kept} {violated} {between}"
+    );
+}
+
+/// Bodies that keep a distance cost as much as with a margin; others at most twice.
+#[test]
+fn a_required_distance_costs_little_more_than_a_margin() {
+    let mut rng = rng(12);
+    let (mut required, mut margins, mut measured) = (0, 0, 0);
+    for number in 0..300 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let known = approach(&scene.problem());
+        let ClosestApproach::Nearest { lower, contact, .. } = known.outcome else {
+            continue;
+        };
+        for distance in [0.7 * lower, 1.5 * contact.separation.upper] {
+            scene.config.clearance = Some(distance);
+            required += approach(&scene.problem()).stats.work();
+            scene.config.margin = distance;
+            let problem = scene.problem();
+            let any = DepthFirst::default().any_contact(&problem, &mut Exhaustive);
+            margins += any.stats.work();
+            measured += known.stats.work();
+            scene.config.margin = 0.0;
+            scene.config.clearance = None;
+            assert!(!matches!(any.outcome, AnyContact::Unresolved { .. }));
+        }
+    }
+    assert!(required <= 2 * margins, "{required} {margins}");
+    assert!(required < measured, "{required} {measured}");
+}
+
+#[test]
+fn searches_that_end_early_know_a_part_of_the_distance() {
+    let mut rng = rng(13);
+    let (mut ended, mut proven) = (0, 0);
+    for number in 0..400 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let whole = approach(&scene.problem());
+        if !(whole.outcome.lower() > 0.01) {
+            continue;
+        }
+        scene.config.budget = whole.stats.work() - 1;
+        let problem = scene.problem();
+        let answer = approach(&problem);
+        let ClosestApproach::Unresolved { lower, nearest, .. } = answer.outcome else {
+            continue;
+        };
+        let found = sampled(&problem, 64);
+        assert!(
+            lower <= found + problem.rounding,
+            "{number}: {lower:e} of {found:e}"
+        );
+        assert!(lower <= answer.outcome.upper());
+        ended += 1;
+        proven += u32::from(lower > 0.0 && nearest.is_some());
+    }
+    assert!(ended > 100 && 2 * proven > ended, "{proven} of {ended}");
+}

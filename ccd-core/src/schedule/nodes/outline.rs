@@ -1,0 +1,94 @@
+//! A triangle as seen from the axis of a screw: its corners, at their distances from the axis and their heights on the
+//! screw.
+//!
+//! The distance `r` from the axis is a convex function. On a triangle it is greatest at corners, for any `a r + b ζ` with
+//! `ζ` straight; and it is nowhere less than `o·x`, with `x` from the axis and any unit vector `o` across it. In the middle
+//! of the triangle's azimuths `o` loses least.
+
+use super::placed::Placed;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit};
+use crate::tolerance::profile_rounding;
+use glam::{DVec2, DVec3};
+
+/// The corners of a triangle in the plane of `r` and `ζ`.
+#[derive(Debug)]
+pub(super) struct Outline {
+    /// With their distances from the axis.
+    outer: [DVec2; 3],
+    /// With lower bounds of these, straight over the triangle.
+    inner: [DVec2; 3],
+    /// By how much `ζ` is not straight.
+    twist: f64,
+    /// What the rounding of `r` and `ζ` grows with.
+    scale: [f64; 2],
+    tilt: f64,
+}
+
+/// What is straight about a node of a body on a screw, and bounds of what is not.
+pub(super) struct Linear {
+    /// A point on the axis, and its direction.
+    pub(super) axis: [DVec3; 2],
+    /// The `ζ` of the centre.
+    pub(super) zeta: f64,
+    /// The gradient of `ζ`.
+    pub(super) ahead: DVec3,
+    pub(super) twist: f64,
+    pub(super) scale: [f64; 2],
+    pub(super) tilt: f64,
+}
+
+impl Outline {
+    /// Returns the outline of a triangle; none of other nodes.
+    pub(super) fn new(node: &Placed, linear: &Linear) -> Option<Self> {
+        let corners = node.corners()?;
+        let [origin, along] = linear.axis;
+        let across = |x: DVec3| {
+            let x = x - x.dot(along) * along;
+            x - x.dot(along) * along
+        };
+        let middle = across(node.centre - origin);
+        let across = corners.map(|w| middle + across(w));
+        // Outward in the middle of the corners' azimuths.
+        let [a, b, c] = across.map(|x| x / length(x));
+        let pairs = [[a, b], [b, c], [c, a]];
+        let [x, y] = pairs
+            .into_iter()
+            .min_by(|[a, b], [c, d]| a.dot(*b).total_cmp(&c.dot(*d)))?;
+        let facing = unit(x + y)?;
+        let zeta = |w: DVec3| linear.zeta + w.dot(linear.ahead);
+        Some(Outline {
+            outer: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
+            inner: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
+            twist: linear.twist,
+            scale: linear.scale,
+            tilt: linear.tilt,
+        })
+    }
+
+    /// Returns the interval of `n.x r + n.y ζ`.
+    pub(super) fn interval(&self, n: DVec2) -> [f64; 2] {
+        let (least, most) = match n.x < 0.0 {
+            true => (&self.outer, &self.inner),
+            false => (&self.inner, &self.outer),
+        };
+        let slack =
+            n.y.abs() * self.twist + profile_rounding(n.abs().to_array(), self.scale, self.tilt);
+        let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
+        let high = most
+            .iter()
+            .map(|c| n.dot(*c))
+            .fold(f64::NEG_INFINITY, greater);
+        [low - slack, high + slack]
+    }
+
+    /// Returns the surfaces along its edges, as unit coefficients of `r` and `ζ`; the latter are not negative.
+    pub(super) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
+        let [a, b, c] = self.outer;
+        let edges = [b - a, c - b, a - c];
+        let across = edges.map(|edge| edge.perp() / edge.length());
+        // An edge along the turn has no direction here. Written so that NaN is none.
+        let known = across.into_iter().filter(|n| n.length_squared() > 0.5);
+        known.map(|n| if n.y < 0.0 { -n } else { n })
+    }
+}
