@@ -132,7 +132,7 @@ def test_files_are_adjusted(tmp_path: Path) -> None:
     assert not Body(CORNERS, FACES, surface=True).is_solid
     for wrong in ({"scale": 0}, {"scale": float("nan")}, {"mirror": "w"}, {"file_unit": "mile"}):
         with pytest.raises(InputError, match=next(iter(wrong))):
-            Body.from_file(path, **wrong)  # type: ignore[arg-type]
+            Body.from_file(path, **wrong)
     with pytest.raises(InputError, match="surface"):
         Body(CORNERS, FACES, pieces="hull", surface=True)
     stored = saved(hollow, tmp_path / "cube.ccd")

@@ -223,7 +223,10 @@ impl ResultRow {
             (_, Some((time, contact))) => self.at(time).with_contact(&contact),
             (_, None) => self,
         };
-        row.with_gap(closest.lower())
+        ResultRow {
+            distance_lower: Some(closest.lower()),
+            ..row
+        }
     }
 
     fn with_greatest(self, greatest: &GreatestDistance) -> Self {
