@@ -254,7 +254,7 @@ fn verdict(scene: &Scene, more: &[&str]) -> String {
 #[test]
 fn a_verdict_claims_what_was_asked_and_proven() {
     let scene = Scene::new("view-claims");
-    let cases: [(&[&str], &str, &str); 8] = [
+    let cases: [(&[&str], &str, &str); 9] = [
         (
             &[],
             "First contact at 0.62",

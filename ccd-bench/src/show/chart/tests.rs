@@ -1,5 +1,6 @@
 use super::axis::{Axis, power_of_ten};
 use super::*;
+use std::fs;
 
 const SCENES: [SceneFacts<'_>; 3] = [
     SceneFacts {
