@@ -127,7 +127,8 @@ fn pose(rng: &mut Pcg64, size: f64) -> Result<Pose, InputError> {
 }
 
 fn motion(rng: &mut Pcg64, reach: f64) -> Result<Motion, InputError> {
-    let turns = [0.0, 1.0, 6.0][rng.random_range(0..3)];
+    // Some turn so often that they repeat themselves.
+    let turns = [0.0, 1.0, 6.0, 90.0][rng.random_range(0..4)];
     let spin = vector(rng, 1.0) * turns;
     let centre = vector(rng, 0.3 * reach);
     Motion::about(pose(rng, reach)?, vector(rng, 2.0 * reach), spin, centre)

@@ -111,15 +111,18 @@ impl<'a> Rounds<'a> {
     /// Returns the problem to be searched in this round.
     pub(super) fn part(&self) -> Problem<'a> {
         let tolerance = self.whole.tolerance;
-        let room = (tolerance - self.change()) - 3.0 * self.rounding;
+        // Both tolerances have the same middle, the gap that is proven: either side of it loses what distances differ
+        // by twice.
+        let room = (tolerance - 2.0 * self.change()) - 4.0 * self.rounding;
+        let left = greater(room, REPEATED * tolerance);
         let to = match self.round {
             Round::Repeated(_) => lesser(1.0, self.from + self.period.covering()),
             Round::Each(_) => self.end(),
         };
         self.whole.part(
             [self.from, to],
-            self.raised(),
-            greater(room, REPEATED * tolerance),
+            self.raised() + 0.5 * (tolerance - left),
+            left,
         )
     }
 

@@ -36,10 +36,11 @@ impl<O: DistanceOracle> BestFirst<O> {
             let problem = leg.problem(journey, &config)?;
             let answer = self.solve(&problem, oracle);
             stretches.add(&answer.stats);
-            // Of all of the stretch, or of what is before a contact: that may be the last look at it.
+            // What is before a contact may not be looked at again.
             kept.keep(&leg, problem.proven_gap());
             let (s, contact) = match answer.outcome {
-                Outcome::Free { .. } => {
+                Outcome::Free { proven_gap } => {
+                    kept.keep(&leg, proven_gap);
                     stretches.prove(&leg);
                     continue;
                 }

@@ -157,7 +157,8 @@ fn answers_of_many_turns_hold_at_sampled_times() {
             }
             Outcome::Free { proven_gap } => {
                 misses += 1;
-                assert!(proven_gap >= config.margin, "{number}");
+                let least = config.margin + 0.5 * config.tolerance;
+                assert!(proven_gap >= least - 1e-9, "{number}: {proven_gap}");
                 (1.0, proven_gap)
             }
             outcome => panic!("{number}: {outcome:?}"),
