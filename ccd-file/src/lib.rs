@@ -2,7 +2,7 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | write a file in one go | [`write`] |
+//! | write a file in one go | [`write()`] |
 //! | write a file for long, alone | [`Claim`] |
 //! | tell files from pipes and devices | [`Destination`] |
 //!
