@@ -21,6 +21,8 @@ use crate::schedule::nearest::Stop;
 use crate::schedule::start::at_start;
 use crate::tolerance::{FARTHEST_F64, SETTLED};
 use glam::DVec3;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
 /// The answer to "how far apart do they get, and when?".
@@ -134,24 +136,49 @@ struct Search<'s, 'j, 'a, O: DistanceOracle> {
     settled: f64,
 }
 
-/// A stretch, and a bound of the distance in it.
+/// A stretch, and a bound of the distance in it. Of two, the one of the greater bound is greater.
 struct Part {
     span: Span,
     upper: f64,
 }
+
+impl Ord for Part {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.upper.total_cmp(&other.upper)
+    }
+}
+
+impl PartialOrd for Part {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Part {}
 
 /// Points of both bodies that are nearest at a time, and bounds of their distance.
 struct Seen {
     points: [DVec3; 2],
     lower: f64,
     upper: f64,
+    /// A bound of what is not known of the points' distance in a stretch of no length: strays and rounding.
+    blur: f64,
 }
 
 impl Seen {
-    fn of(contact: Contact) -> Self {
+    /// What a contact in a pose shows.
+    fn of(pose: &Leg, contact: Contact) -> Self {
         let separation = contact.separation;
+        let points = [separation.witness_a, separation.witness_b];
         Seen {
-            points: [separation.witness_a, separation.witness_b],
+            points,
+            blur: pose.drift(points, 0.0),
             lower: greater(0.0, separation.lower),
             upper: separation.upper,
         }
@@ -177,9 +204,8 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
                 return Ok(Err((f64::INFINITY, reason)));
             }
         }
-        // In order of their bounds, the greatest last.
         let mut waiting = match self.part(whole, f64::INFINITY)? {
-            Ok(part) => Vec::from_iter(part),
+            Ok(part) => BinaryHeap::from_iter(part),
             Err(reason) => return Ok(Err((f64::INFINITY, reason))),
         };
         while let Some(Part { span, upper }) = waiting.pop() {
@@ -194,11 +220,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             };
             for half in halves {
                 match self.part(half, upper)? {
-                    Ok(None) => {}
-                    Ok(Some(part)) => {
-                        let place = waiting.partition_point(|other| other.upper < part.upper);
-                        waiting.insert(place, part);
-                    }
+                    Ok(part) => waiting.extend(part),
                     Err(reason) => return Ok(Err((all, reason))),
                 }
             }
@@ -225,7 +247,8 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             upper if upper >= 0.0 => lesser(upper, above),
             _ => above,
         };
-        if moved <= SETTLED * (seen.upper - seen.lower) {
+        // Shorter stretches strays and rounding would blur as much.
+        if moved <= greater(SETTLED * (seen.upper - seen.lower), 2.0 * seen.blur) {
             self.settled = greater(self.settled, upper);
             return Ok(Ok(None));
         }
@@ -251,16 +274,17 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
                 if contact.separation.lower > self.lower() {
                     self.best = Some((time, contact));
                 }
-                Seen::of(contact)
+                Seen::of(&pose, contact)
             }
             Place::Meeting(contact) => Seen {
                 lower: 0.0,
-                ..Seen::of(pose.contact(contact))
+                ..Seen::of(&pose, pose.contact(contact))
             },
             Place::Inside(point) => Seen {
                 points: [point; 2],
                 lower: 0.0,
                 upper: pose.stray,
+                blur: pose.drift([point; 2], 0.0),
             },
         }))
     }
