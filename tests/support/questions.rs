@@ -175,14 +175,10 @@ fn ask_along<O: DistanceOracle>(
     let (required, keeping) = beside(&closest, config);
     let keeping = Journey::new(a, b, query.duration, &keeping).expect("a well-posed journey");
     let cleared = (depth_first.closest_approach_along(&keeping, &mut oracle)).expect(well_posed);
-    // It takes a look at each of many times: ten are enough here. Bodies that overlap all the time are looked at each
-    // time that they move by the tolerance.
-    let upper = closest.outcome.upper();
-    let looks = if upper > config.tolerance {
-        0.1 * upper
-    } else {
-        0.01 * (query.a.reach(query.duration) + query.b.reach(query.duration))
-    };
+    // It takes a look at each of many times: each time that bodies move by about their distance, or by the tolerance if
+    // they slide on each other or overlap. Hundreds are enough here.
+    let travel = query.a.reach(query.duration) + query.b.reach(query.duration);
+    let looks = greater(0.1 * closest.outcome.upper(), 1e-3 * travel);
     let coarse = Config {
         tolerance: greater(config.tolerance, looks),
         ..*config
