@@ -36,16 +36,17 @@ test("constant velocities", () => {
 
 test("between keys, by their turns", () => {
   for (let n = 0; n < 500; n += 1) {
-    const [start, way, from, to] = [quaternion(vector(3)), vector(1.8), vector(4), vector(4)];
+    const [centre, start, way, from, to] = [vector(2), quaternion(vector(3)), vector(1.8), vector(4), vector(4)];
     if (n === 0) way.splice(0, 3, Math.PI, 0, 0);
     if (n === 1) way.fill(0);
     const keys = [[1, start, from], [3, times(quaternion(way), start), to]].map(([time, q, place]) => ({ time, rotation: rows(q), place, turn: way }));
     const share = Math.abs(random());
-    const { rotation, place } = Motion.pose({ keys }, 1 + 2 * share);
-    near(place, from.map((p, k) => p + share * (to[k] - p)), 10);
+    const { rotation, place } = Motion.pose({ centre, keys }, 1 + 2 * share);
+    // The centre moves straight.
+    near(Motion.apply(rotation, centre).map((p, k) => p + place[k]), from.map((p, k) => p + share * (to[k] - p)), 10);
     const expected = rows(times(quaternion(way.map((w) => w * share)), start));
     near(rotation, expected);
   }
   const keys = [0, 1, 2].map((time) => ({ time, rotation: rows([1, 0, 0, 0]), place: [time, 0, 0], turn: [0, 0, 0] }));
-  for (const [t, x] of [[-1, 0], [0, 0], [1, 1], [1.5, 1.5], [2, 2], [9, 2]]) near(Motion.pose({ keys }, t).place, [x, 0, 0]);
+  for (const [t, x] of [[-1, 0], [0, 0], [1, 1], [1.5, 1.5], [2, 2], [9, 2]]) near(Motion.pose({ centre: [0, 0, 0], keys }, t).place, [x, 0, 0]);
 });
