@@ -64,6 +64,7 @@ pub(crate) fn greatest<'py>(
         false,
         nearest.map(|nearest| tuple(nearest.witness_a)),
         nearest.map(|nearest| tuple(nearest.witness_b)),
+        py.None(),
     ))
 }
 

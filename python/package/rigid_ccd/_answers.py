@@ -54,4 +54,4 @@ class Distance:
     is_overlapping: bool
     witness_a: Point | None
     witness_b: Point | None
-    clearance: Literal["kept", "violated", "unverified"] | None = None
+    clearance: Literal["kept", "violated", "unverified"] | None

@@ -96,14 +96,15 @@ impl Poses {
     ///
     /// ```
     /// use rigid_ccd::Pose;
+    /// use rigid_ccd::glam::DQuat;
     /// use rigid_ccd::trajectory::{Poses, Trajectory};
     /// // Ten and a half turns, to where half a turn would lead as well.
     /// let turned = Pose::new([0.0; 3], [0.0, 0.0, 1.0, 0.0])?;
     /// let drill = Poses::new(vec![(0.0, Pose::IDENTITY), (1.0, turned)])?;
     /// let drill = drill.turning(vec![[0.0, 0.0, 66.0]])?;
-    /// let quarter = drill.pose(0.25)?.rotation().to_scaled_axis();
-    /// let turns = 21.0 / 8.0 * std::f64::consts::TAU;
-    /// assert!((quarter.z - (turns - 3.0 * std::f64::consts::TAU)).abs() < 1e-9);
+    /// let turns = 0.25 * 10.5;
+    /// let quarter = DQuat::from_rotation_z(turns * std::f64::consts::TAU);
+    /// assert!(drill.pose(0.25)?.rotation().angle_between(quarter) < 1e-7);
     /// # Ok::<(), rigid_ccd::InputError>(())
     /// ```
     pub fn turning(self, spins: Vec<[f64; 3]>) -> Result<Self, InputError> {
