@@ -26,6 +26,7 @@ __all__ = [
     "closest_approach",
     "distance",
     "first_contact",
+    "greatest_distance",
     "is_free",
     "write_pages",
 ]
