@@ -2,7 +2,7 @@
 
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
-use crate::math::order::lesser;
+use crate::math::order::greater;
 use crate::math::vector::{distance, unit};
 use crate::outcome::{Contact, Outcome, Overlap, Separation};
 use crate::problem::Problem;
@@ -75,9 +75,7 @@ fn along_common_normal(
         witness_b,
         ..
     } = contact.separation;
-    // Pieces that overlap have no direction between them. Written so that NaN is an overlap.
-    let touches = lower >= -RESTING * problem.rounding;
-    if !(touches && is_blurred(distance(witness_a, witness_b), problem.rounding)) {
+    if !is_blurred(distance(witness_a, witness_b), problem.rounding) {
         return contact;
     }
     let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, s);
@@ -93,9 +91,14 @@ fn along_common_normal(
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;
+    // Pieces that overlap have no direction between them. That they touch, either direction may prove: an oracle
+    // that knows their nearest points to rounding need not know a direction. Written so that NaN is an overlap.
+    if !(greater(lower, gap) >= -RESTING * problem.rounding) {
+        return contact;
+    }
     Contact {
         separation: Separation {
-            lower: lesser(lower, gap),
+            lower: gap,
             normal: unit(frame.rotation * axis).unwrap_or(normal),
             ..contact.separation
         },
