@@ -2,7 +2,7 @@
 
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
-use crate::math::order::greater;
+use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
 use crate::outcome::{Contact, Outcome, Overlap, Separation};
 use crate::problem::Problem;
@@ -98,7 +98,7 @@ fn along_common_normal(
     }
     Contact {
         separation: Separation {
-            lower: gap,
+            lower: lesser(lower, gap),
             normal: unit(frame.rotation * axis).unwrap_or(normal),
             ..contact.separation
         },
