@@ -105,9 +105,13 @@ pub enum StartPolicy {
     /// with; from then on that is the tolerance.
     ///
     /// If that gap is no more than rounding, or the bodies begin inside the margin, pieces that
-    /// rest on each other are let go until they approach. Pieces that touch only later are a
-    /// contact, even if one slides on flat ground from one piece onto the next. This takes a look
-    /// at every pair of pieces that begins inside the margin: a margin as large as the bodies may
-    /// cost the whole budget.
+    /// rest on each other are let go until they approach. This takes a look at every pair of pieces
+    /// that begins inside the margin: a margin as large as the bodies may cost the whole budget.
+    ///
+    /// Pieces that touch only later are let go as well, as long as the plane in which the bodies
+    /// began to touch is between them and they do not approach it: a body slides on flat ground from
+    /// one triangle onto the next, and onto another flat top of the same height. The plane stays with
+    /// either body. All else that touches later is a contact, and so are two open surfaces that slide
+    /// within the plane: their sides are unknown.
     Leave,
 }

@@ -9,6 +9,8 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
+use crate::outcome::Contact;
+use crate::schedule::pieces::level::TouchingPlane;
 use crate::tolerance::{self, NODE_GAP};
 use fearless_simd::Level;
 use glam::DVec3;
@@ -65,6 +67,8 @@ pub struct Problem<'a> {
     /// What the closest approach is compared with.
     pub(crate) clearance: Option<f64>,
     pub(crate) start: StartPolicy,
+    /// The plane in which bodies that are let go touch at the start.
+    pub(crate) touching: Option<TouchingPlane>,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
     /// Set by another thread that wants no answer any more.
@@ -171,6 +175,7 @@ impl<'a> Problem<'a> {
             margin: config.margin,
             clearance: config.clearance,
             start: config.start,
+            touching: None,
             budget: config.budget,
             deadline: config.deadline,
             stop: None,
@@ -263,15 +268,21 @@ impl<'a> Problem<'a> {
 
     /// Returns the problem with bodies let go that begin at a gap beyond the margin: pairs that
     /// part or slide keep more than half of it. Only if there is no gap worth the name, pairs of
-    /// pieces are let go.
-    pub(crate) fn leaving(&self, gap: f64) -> Self {
+    /// pieces are let go, and all that touch in the plane of the contact.
+    pub(crate) fn leaving(&self, contact: &Contact) -> Self {
+        let gap = contact.separation.lower - self.margin;
         let least = tolerance::least_tolerance(self.rounding);
         let (tolerance, start) = match 0.5 * gap > least {
             true => (0.5 * gap, StartPolicy::Report),
             false => (least, StartPolicy::Leave),
         };
+        let touching = match start {
+            StartPolicy::Report => None,
+            StartPolicy::Leave => TouchingPlane::of(self, contact),
+        };
         Problem {
             start,
+            touching,
             tolerance: lesser(tolerance, self.tolerance),
             ..self.clone()
         }

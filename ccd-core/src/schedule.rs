@@ -25,7 +25,7 @@ mod naive;
 mod nearest;
 mod nodes;
 mod out_of_reach;
-mod pieces;
+pub(crate) mod pieces;
 mod proven;
 mod queue;
 mod rounds;

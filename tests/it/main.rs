@@ -12,6 +12,7 @@ mod dense_hulls;
 mod equal_bits;
 mod exact;
 mod faulty_meshes;
+mod flat_ground;
 mod folds;
 mod generators;
 mod liars;

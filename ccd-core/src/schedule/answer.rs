@@ -62,7 +62,8 @@ fn answer_after<O: DistanceOracle>(
                 seen.unwrap_or_else(|| search(&problem, oracle, meter))
             }
         };
-        let (outcome, tolerance) = match let_go(problem, problem.start, &outcome) {
+        let parting = let_go(problem, problem.start, &outcome, oracle, meter);
+        let (outcome, tolerance) = match parting {
             Some(problem) => {
                 let outcome = search(&problem, oracle, meter);
                 (outcome, shown(&problem, &outcome))
@@ -75,14 +76,19 @@ fn answer_after<O: DistanceOracle>(
 }
 
 /// Returns the problem of bodies that touch at the start and are to be let go; none of others.
-pub(super) fn let_go<'a>(
+pub(super) fn let_go<'a, O: DistanceOracle>(
     problem: &Problem<'a>,
     start: StartPolicy,
     outcome: &Outcome,
+    oracle: &mut O,
+    meter: &mut Meter,
 ) -> Option<Problem<'a>> {
     match (start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
-            Some(problem.leaving(contact.separation.lower - problem.margin))
+            let (within, at_start) = (problem.contact_distance(), problem.time(0.0));
+            // The normal is needed, and that of two pieces alone may be any.
+            let contact = contact_of_given(problem, oracle, meter, *contact, within, at_start);
+            Some(problem.leaving(&contact))
         }
         _ => None,
     }

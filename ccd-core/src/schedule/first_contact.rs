@@ -151,7 +151,8 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
                     }
                 },
             };
-            match let_go(&self.current, self.start, &outcome) {
+            let parting = let_go(&self.current, self.start, &outcome, oracle, &mut self.meter);
+            match parting {
                 Some(parting) => {
                     self.part = first_part(&parting);
                     self.current = parting;

@@ -1,5 +1,6 @@
 //! One pair of pieces: ask the oracle, check its claim, advance the pair's own clock.
 
+use super::level::Level;
 use super::snapshot::Snapshot;
 use crate::body::combination::Combination;
 use crate::config::StartPolicy;
@@ -36,6 +37,8 @@ enum Goal {
     Parted,
     /// Began in contact, up to rounding: in contact again once it cannot be proven above the floor.
     Resting { floor: f64 },
+    /// Came to touch beside the plane in which the bodies began to: in contact once it approaches along its normal.
+    Level(Level),
 }
 
 /// The result of a pair's advance at its clock.
@@ -115,13 +118,15 @@ impl<C: Default + Clone> Pair<C> {
                     Intersection::None => {}
                 }
             }
-            match self.goal {
-                Goal::Apart => match self.goal_of_start(problem, oracle, meter) {
-                    Some(goal) => self.goal = goal,
-                    None => return in_contact(&checked),
-                },
-                Goal::Parted => return in_contact(&checked),
-                Goal::Resting { .. } => {}
+            let level = || snapshot.level(ids, checked.witness_a).map(Goal::Level);
+            let goal = match self.goal {
+                Goal::Apart => self.goal_of_start(problem, oracle, meter).or_else(level),
+                Goal::Parted => level(),
+                Goal::Resting { .. } | Goal::Level(_) => Some(self.goal),
+            };
+            match goal {
+                Some(goal) => self.goal = goal,
+                None => return in_contact(&checked),
             }
         } else if checked.lower > apart && self.goal != Goal::Apart {
             self.goal = Goal::Parted;
@@ -129,6 +134,11 @@ impl<C: Default + Clone> Pair<C> {
         let (kept, is_resting) = match self.goal {
             Goal::Apart | Goal::Parted => (problem.gap(), false),
             Goal::Resting { floor } => (floor, true),
+            Goal::Level(level) => {
+                let free = snapshot.level_time(&level, checked.witness_a);
+                meter.stats.point_looks += snapshot.looks();
+                return after(s, free).unwrap_or_else(|| in_contact(&checked));
+            }
         };
         // The axis may lose all of the gap that is left to advance by. Written so that NaN counts
         // as that.
@@ -140,12 +150,20 @@ impl<C: Default + Clone> Pair<C> {
             true => snapshot.resting_time(&checked, kept, ids),
             false => free_time(snapshot, &checked, kept),
         };
+        let step = after(s, free).or_else(|| {
+            let began = match is_resting {
+                true => &Snapshot::new(problem, self.a, self.b, 0.0),
+                false => snapshot,
+            };
+            let level = began.level(ids, checked.witness_a)?;
+            self.goal = Goal::Level(level);
+            after(s, snapshot.level_time(&level, checked.witness_a))
+        });
         meter.stats.point_looks += snapshot.looks();
-        match free {
-            None => Step::FreeUntil(f64::INFINITY),
-            Some(tau) if (s + tau).next_down() > s => Step::FreeUntil((s + tau).next_down()),
-            Some(_) if is_resting => in_contact(&checked),
-            Some(_) => Step::Stalled,
+        match step {
+            Some(step) => step,
+            None if is_resting => in_contact(&checked),
+            None => Step::Stalled,
         }
     }
 
@@ -172,6 +190,18 @@ impl<C: Default + Clone> Pair<C> {
         Some(Goal::Resting {
             floor: start.lower - RESTING * problem.rounding,
         })
+    }
+}
+
+/// Returns the step of a pair at clock `s` that is free for a time, or for good; none if that is too short for the
+/// clock to advance.
+fn after(s: f64, free: Option<f64>) -> Option<Step> {
+    match free {
+        None => Some(Step::FreeUntil(f64::INFINITY)),
+        Some(tau) => {
+            let next = (s + tau).next_down();
+            (next > s).then_some(Step::FreeUntil(next))
+        }
     }
 }
 

@@ -229,6 +229,16 @@ impl<'p> Snapshot<'p> {
         }
     }
 
+    /// Returns a time for which a plane certainly keeps the pieces apart, or none when it does for good: fixed, or
+    /// turning with one of the bodies.
+    pub(super) fn free_beside(&self, plane: &Plane) -> Option<f64> {
+        let free = self.free_along(plane.normal, plane.slack)?;
+        Some(greater(
+            self.free_attached(&self.members(), plane, free)?,
+            free,
+        ))
+    }
+
     /// Returns the plane across the axis of the claim.
     fn direct(&self, checked: &Checked, kept: f64) -> Plane {
         Plane {

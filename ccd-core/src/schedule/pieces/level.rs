@@ -1,0 +1,133 @@
+//! Pieces that come to touch beside the plane in which the bodies began to: an inner edge of flat ground is no obstacle.
+
+use super::snapshot::{Plane, Snapshot};
+use crate::body::facing::Facing;
+use crate::distance::separation::support_gap;
+use crate::math::order::greater;
+use crate::outcome::Contact;
+use crate::problem::{Problem, Which};
+use crate::tolerance::{RESTED, RESTING};
+use glam::DVec3;
+
+/// The plane between two bodies that touch at the start.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TouchingPlane {
+    /// Its unit normal from A to B, in A's frame and in B's: it may stay with either body.
+    normals: [DVec3; 2],
+    /// The gap along it that pieces have to keep at least: that of the contact, but for the rounding of resting.
+    floor: f64,
+}
+
+/// Two pieces that a [`TouchingPlane`] keeps apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Level {
+    /// The body that the plane stays with.
+    holder: Which,
+    /// The gap along the normal below which the pieces approach each other.
+    floor: f64,
+}
+
+impl TouchingPlane {
+    /// Returns the plane across the normal of a contact at the start; none if the bodies may overlap along it.
+    pub(crate) fn of(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
+        let normal = contact.separation.normal;
+        let given = problem.given();
+        let problem = given.as_ref().unwrap_or(problem);
+        let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
+        let [frame_a, frame_b] = &snapshot.frames;
+        let from = frame_a.inverse_point(problem.local(contact.separation.witness_a));
+        let gap = snapshot.gap_along(normal, from);
+        let resting = RESTING * problem.rounding;
+        // Written so that NaN is an overlap.
+        (gap >= -resting).then(|| TouchingPlane {
+            normals: [frame_a, frame_b].map(|frame| frame.inverse_vector(normal)),
+            floor: gap - resting,
+        })
+    }
+}
+
+impl Snapshot<'_> {
+    /// Returns the plane that keeps two pieces apart for longest from now on, among those that the bodies began to touch
+    /// in; none if there is none. The heights of pieces are measured from a point in A's frame.
+    ///
+    /// A piece that stays on its side of a plane does not pass into one on the other side, whatever edges are between
+    /// the faces there.
+    pub(super) fn level(&self, ids: [u32; 2], from: DVec3) -> Option<Level> {
+        let plane = self.problem.touching.as_ref()?;
+        let resting = RESTING * self.problem.rounding;
+        let of = |holder: Which| {
+            let normal = self.normal_with(holder)?;
+            let gap = self.gap_along(normal, from);
+            let level = Level {
+                holder,
+                floor: greater(plane.floor, gap - resting),
+            };
+            self.is_between_solids(ids, normal, from).then_some(level)
+        };
+        let time = |level: &Level| self.level_time(level, from).unwrap_or(f64::INFINITY);
+        let [a, b] = [of(Which::A), of(Which::B)];
+        [a, b]
+            .into_iter()
+            .flatten()
+            .map(|level| (time(&level), level))
+            .filter(|(time, _)| *time > 0.0)
+            .reduce(|one, other| if other.0 > one.0 { other } else { one })
+            .map(|(_, level)| level)
+    }
+
+    /// Returns a time for which the pieces certainly do not approach each other along the normal of the plane between
+    /// them, or none when they never do.
+    pub(super) fn level_time(&self, level: &Level, from: DVec3) -> Option<f64> {
+        let Some(normal) = self.normal_with(level.holder) else {
+            return Some(0.0);
+        };
+        let slack = self.gap_along(normal, from) - level.floor;
+        // Written so that NaN is nothing left.
+        match slack > RESTED * self.problem.rounding {
+            true => self.free_beside(&Plane { normal, slack }),
+            false => Some(0.0),
+        }
+    }
+
+    /// Returns the normal of the plane that stays with a body, in the problem's coordinates.
+    fn normal_with(&self, holder: Which) -> Option<DVec3> {
+        let [in_a, in_b] = self.problem.touching.as_ref()?.normals;
+        let [frame_a, frame_b] = &self.frames;
+        Some(match holder {
+            Which::A => frame_a.rotation * in_a,
+            Which::B => frame_b.rotation * in_b,
+        })
+    }
+
+    /// Returns the gap of the pieces along a unit vector, rounding deducted.
+    fn gap_along(&self, normal: DVec3, from: DVec3) -> f64 {
+        let axis = self.frames[0].inverse_vector(normal);
+        let radii = self.pieces.a.radius + self.pieces.b.radius;
+        support_gap(&self.pieces, axis, from) - radii - self.problem.rounding
+    }
+
+    /// Returns whether the plane across a normal is between what the pieces bound. Two that are both in it are apart on
+    /// either side of it, wherever the solids are.
+    fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
+        let in_one_plane = self.gap_along(-normal, from) >= -2.0 * RESTING * self.problem.rounding;
+        if !in_one_plane {
+            return true;
+        }
+        let [frame_a, frame_b] = &self.frames;
+        let is_ahead = |out: DVec3| out.dot(normal) > 0.0;
+        let Problem {
+            a: of_a, b: of_b, ..
+        } = self.problem;
+        match (of_a.body.facing(a), of_b.body.facing(b)) {
+            // The side to keep to is unknown.
+            (Facing::Unclear, _) | (_, Facing::Unclear) => false,
+            (Facing::Neither, Facing::Neither) => false,
+            // Those on one side slide along the plane.
+            (Facing::Out(n), Facing::Out(m)) => {
+                is_ahead(frame_a.rotation * n) || is_ahead(frame_b.rotation * -m)
+            }
+            (Facing::Out(n), Facing::Neither) => is_ahead(frame_a.rotation * n),
+            (Facing::Neither, Facing::Out(m)) => is_ahead(frame_b.rotation * -m),
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! Bodies that slide on flat ground, however it is cut into triangles, feel none of its inner edges: only what stands
+//! on it.
+
+use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::{Body, Config, Limit, Motion, Outcome, Pose, StartPolicy};
+use ccd_tests::backends::for_each_setup;
+use ccd_tests::models::{Kind, Mesh, Shape, cuboid, dented_cube, icosphere, l_block};
+use ccd_tests::query::{Actor, Query};
+use ccd_tests::strategies::seeds;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::Solver;
+use std::f64::consts::PI;
+
+/// Half of the ground's length and width.
+const HALF: f64 = 8.0;
+
+/// The time before the true one from which on a contact may be reported: bodies are let go at the least tolerance.
+const EARLY: f64 = 1e-9;
+
+fn leave() -> Config {
+    Config {
+        start: StartPolicy::Leave,
+        ..Config::default()
+    }
+}
+
+/// Draws level ground at height 0, cut along `cuts` lines each way, with a diagonal in each cell.
+fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
+    let mut lines = || {
+        let mut lines: Vec<f64> = (0..cuts).map(|_| rng.random_range(-HALF..HALF)).collect();
+        lines.extend([-HALF, HALF]);
+        lines.sort_unstable_by(f64::total_cmp);
+        lines
+    };
+    let (xs, ys) = (lines(), lines());
+    let vertices = ys
+        .iter()
+        .flat_map(|&y| xs.iter().map(move |&x| dvec3(x, y, 0.0)))
+        .collect();
+    let n = xs.len() as u32;
+    let mut faces = Vec::new();
+    for j in 0..ys.len() as u32 - 1 {
+        for i in 0..n - 1 {
+            let [p, q, r, s] = [
+                j * n + i,
+                j * n + i + 1,
+                (j + 1) * n + i + 1,
+                (j + 1) * n + i,
+            ];
+            faces.extend(match rng.random() {
+                true => [[p, q, r], [p, r, s]],
+                false => [[p, q, s], [q, r, s]],
+            });
+        }
+    }
+    Mesh { vertices, faces }
+}
+
+/// Closes a sheet with a bottom a unit below, and walls.
+fn slab(top: Mesh) -> Mesh {
+    let count = top.vertices.len() as u32;
+    let Mesh {
+        mut vertices,
+        mut faces,
+    } = top;
+    vertices.extend(vertices.clone().iter().map(|v| *v - DVec3::Z));
+    let below = faces.clone();
+    faces.extend(
+        below
+            .iter()
+            .map(|&[p, q, r]| [p + count, r + count, q + count]),
+    );
+    let edges = below.iter().flat_map(|&[p, q, r]| [[p, q], [q, r], [r, p]]);
+    let edges: std::collections::BTreeSet<[u32; 2]> = edges.collect();
+    for &[p, q] in edges.iter().filter(|[p, q]| !edges.contains(&[*q, *p])) {
+        faces.extend([[p, p + count, q + count], [p, q + count, q]]);
+    }
+    Mesh { vertices, faces }
+}
+
+fn ground(rng: &mut Pcg64) -> Shape {
+    let cuts = rng.random_range(0..4);
+    let sheet = cut_sheet(rng, cuts);
+    match rng.random() {
+        true => Shape::open(sheet),
+        false => Shape::closed(slab(sheet)),
+    }
+}
+
+/// Draws a solid whose lowest point is at height 0, around the origin.
+fn solid(rng: &mut Pcg64) -> Shape {
+    let half = || dvec3(0.3, 0.4, 0.5);
+    let shape = match rng.random_range(0..5) {
+        0 => cuboid(half()),
+        1 => Shape::closed(cuboid(half()).mesh),
+        2 => l_block(2),
+        3 => dented_cube(0.5, 0.3),
+        _ => Shape::closed(icosphere(0.5, 1).mesh),
+    };
+    let tilt = match rng.random_range(0..3) {
+        0 => DQuat::from_rotation_x(rng.random_range(-1.0..1.0)),
+        _ => DQuat::from_rotation_z(rng.random_range(-1.0..1.0)),
+    };
+    let shape = shape.placed(tilt, DVec3::ZERO);
+    let heights = shape.mesh.vertices.iter().map(|v| v.z);
+    let least = heights.fold(f64::INFINITY, ccd_core::order::lesser);
+    shape.placed(DQuat::IDENTITY, -least * DVec3::Z)
+}
+
+/// Draws a pose for the whole scene: as it is, or any.
+fn frame(rng: &mut Pcg64) -> Pose {
+    let mut unit = || rng.random_range(-1.0..1.0);
+    let any = DQuat::from_xyzw(unit(), unit(), unit(), unit()).normalize();
+    let at = 3.0 * dvec3(unit(), unit(), unit());
+    match unit() > 0.0 {
+        true => Pose::new(at, any).expect("a unit quaternion"),
+        false => Pose::IDENTITY,
+    }
+}
+
+fn drawn(cases: u32, law: impl Fn(&mut Pcg64, u64)) {
+    for seed in seeds(cases) {
+        law(&mut Pcg64::seed_from_u64(seed), seed);
+    }
+}
+
+/// Whatever slides and turns on cut ground is as free as on one face.
+#[test]
+fn whatever_slides_on_cut_ground_is_free() {
+    drawn(24, |rng, seed| {
+        let ground = ground(rng);
+        let angle = rng.random_range(-PI..PI);
+        let velocity = rng.random_range(0.5..5.0) * DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let turning = match rng.random() {
+            true => DVec3::ZERO,
+            false => rng.random_range(-4.0..4.0) * DVec3::Z,
+        };
+        let at = dvec3(
+            rng.random_range(-1.0..1.0),
+            rng.random_range(-1.0..1.0),
+            0.0,
+        );
+        let query = Query {
+            a: Actor::moving(solid(rng), at, velocity, turning),
+            b: Actor::still(ground, DVec3::ZERO),
+            duration: 1.0,
+        };
+        let query = query.seen_from(&frame(rng));
+        for query in [query.swapped(), query] {
+            for_each_setup(&query, &leave(), |_, setup, answer| {
+                let free = matches!(answer.outcome, Outcome::Free { .. });
+                assert!(free, "seed {seed}\n{setup:?}\n{answer:?}\n{query:?}");
+            });
+        }
+    });
+}
+
+/// A block on the ground, however low, is met at its time.
+#[test]
+fn what_stands_on_cut_ground_is_found_at_its_time() {
+    drawn(16, |rng, seed| {
+        let height = [1.0, 1e-3, 1e-6][rng.random_range(0..3)];
+        let at = dvec3(rng.random_range(-6.0..-4.0), 0.0, 0.0);
+        let block = cuboid(dvec3(0.5, 7.0, 0.5 * height));
+        let block = block.placed(DQuat::IDENTITY, dvec3(3.0, 0.0, 0.5 * height));
+        let cuts = rng.random_range(0..4);
+        let ground = Shape::union([Shape::open(cut_sheet(rng, cuts)), block]);
+        let half = dvec3(0.3, 0.4, 0.5);
+        let mover = match rng.random() {
+            true => cuboid(half),
+            false => Shape::closed(cuboid(half).mesh),
+        };
+        let speed = rng.random_range(5.0..9.0);
+        let query = Query {
+            a: Actor::moving(mover, at + 0.5 * DVec3::Z, speed * DVec3::X, DVec3::ZERO),
+            b: Actor::still(ground, DVec3::ZERO),
+            duration: 2.0,
+        };
+        let truth = (2.5 - 0.3 - at.x) / speed;
+        let query = query.seen_from(&frame(rng));
+        for query in [query.swapped(), query] {
+            for_each_setup(&query, &leave(), |_, setup, answer| {
+                let time = match answer.outcome {
+                    Outcome::Contact { time, .. } => time,
+                    // Pieces that an oracle's axis does not tell apart so near to each other.
+                    Outcome::Unresolved {
+                        safe_until,
+                        reason: Limit::Stalled,
+                    } => safe_until,
+                    other => panic!("seed {seed}\n{setup:?}\n{other:?}"),
+                };
+                let on_time = truth - EARLY <= time && time <= truth + 1e-14;
+                assert!(on_time, "seed {seed}\n{setup:?}\n{answer:?}\nnot {truth}");
+            });
+        }
+    });
+}
+
+/// Few of a thousand triangles cost anything.
+#[test]
+fn ground_of_a_thousand_triangles_is_as_one() {
+    drawn(4, |rng, seed| {
+        let ground = Shape::open(cut_sheet(rng, 22)).body(Kind::Triangles);
+        for mover in [solid(rng), solid(rng), solid(rng)] {
+            let mover = mover.body(Kind::Triangles);
+            let velocity = dvec3(
+                rng.random_range(-6.0..6.0),
+                rng.random_range(-6.0..6.0),
+                0.0,
+            );
+            let motion = Motion::new(
+                Pose::IDENTITY,
+                velocity,
+                rng.random_range(-1.0..1.0) * DVec3::Z,
+            );
+            let motion = motion.expect("a motion");
+            let mut solver = Solver::new().with_config(leave());
+            let answer = solver
+                .answer((&mover, motion), (&ground, Motion::STILL), 1.0)
+                .expect("a query");
+            let free = matches!(answer.outcome, Outcome::Free { .. });
+            assert!(free, "seed {seed}\n{answer:?}");
+        }
+    });
+}
+
+/// A ball rolls over the cuts, up to the wall.
+#[test]
+fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
+    drawn(16, |rng, seed| {
+        let wall = cuboid(dvec3(0.5, 7.0, 1.0)).placed(DQuat::IDENTITY, dvec3(3.0, 0.0, 1.0));
+        let sheet = Shape::open(cut_sheet(rng, 6));
+        let [open, walled] =
+            [&sheet, &Shape::union([sheet.clone(), wall])].map(|shape| shape.body(Kind::Triangles));
+        let ball = Body::ball(0.5).expect("a ball");
+        let at = dvec3(
+            rng.random_range(-6.0..-2.0),
+            rng.random_range(-1.0..1.0),
+            0.5,
+        );
+        let speed = rng.random_range(4.5..7.0);
+        let rolling = Motion::new(
+            Pose::at(at).expect("a pose"),
+            speed * DVec3::X,
+            2.0 * speed * DVec3::Y,
+        );
+        let rolling = rolling.expect("a motion");
+        let mut solver = Solver::new().with_config(leave());
+        let mut outcome = |ground, duration| {
+            let answer = solver.answer((&ball, rolling), (ground, Motion::STILL), duration);
+            answer.expect("a query").outcome
+        };
+        let free = outcome(&open, 1.0);
+        assert!(
+            matches!(free, Outcome::Free { .. }),
+            "seed {seed}\n{free:?}"
+        );
+        let truth = (2.0 - at.x) / speed;
+        match outcome(&walled, 2.0) {
+            Outcome::Contact { time, .. } if (truth - EARLY..=truth + 1e-14).contains(&time) => {}
+            other => panic!("seed {seed}\n{other:?}\nnot {truth}"),
+        }
+    });
+}
