@@ -1,6 +1,7 @@
 //! A body: convex pieces, a tree over them, and whether they bound a solid.
 
 pub(crate) mod combination;
+pub(crate) mod excess;
 pub(crate) mod facets;
 pub(crate) mod facing;
 pub(crate) mod feature;
@@ -21,6 +22,7 @@ mod threads;
 pub(crate) mod tree;
 
 use crate::error::InputError;
+use crate::math::order::greater;
 use crate::tolerance::BOX_SHARE;
 use combination::Combination;
 use feature::Feature;
@@ -60,6 +62,8 @@ pub struct Body {
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
     surface: Option<Box<Surface>>,
+    /// How far it may exceed the shape that is meant.
+    excess: f64,
 }
 
 /// The triangles of a convex body's surface. They replace the body against a body of many
@@ -121,6 +125,7 @@ impl Body {
             #[cfg(feature = "hull-tree")]
             hull_tree: None,
             surface: None,
+            excess: 0.0,
         })
     }
 
@@ -143,6 +148,7 @@ impl Body {
         }
         let [x, y, z] = self.tree.half().map(f64::from);
         let volume = signed_volume(&surface.pieces).abs() / 6.0;
+        self.excess = greater(self.excess, surface.excess);
         self.surface = Some(Box::new(Surface {
             is_box: volume >= BOX_SHARE * 8.0 * x * y * z,
             triangles: surface,

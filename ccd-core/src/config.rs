@@ -20,7 +20,8 @@ pub struct Config {
     /// The distance to keep; 0 reports touching. In the scene's unit of length.
     pub margin: f64,
     /// A distance that the closest approach is to be compared with: the search ends as soon as it is
-    /// proven to be kept, or seen not to be. With none the closest approach is measured. Other
+    /// proven to be kept, or seen not to be, by the shapes that the bodies may
+    /// [exceed](crate::Body::with_excess). With none the closest approach is measured. Other
     /// questions have the margin. In the scene's unit of length.
     pub clearance: Option<f64>,
     /// The treatment of a contact at the start.

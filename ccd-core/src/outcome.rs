@@ -10,7 +10,9 @@ use std::fmt;
 /// The answer to "when do they first touch?".
 ///
 /// # Guarantee
-/// Nothing touched before the time in it, in floating point as well.
+/// Nothing touched before the time in it, in floating point as well. Contacts and their distances are those of the bodies,
+/// also of bodies that [exceed](crate::Body::with_excess) their shapes: the shapes touch no earlier, and may be farther
+/// apart by the excess of both.
 ///
 /// ```
 /// use ccd_core::Outcome;
@@ -161,7 +163,9 @@ pub struct Separation {
     /// A lower bound of the distance: the support gap along `normal`, minus rounding. Negative if
     /// no separating axis was found.
     pub lower: f64,
-    /// An upper bound of the distance: that of the witnesses, plus rounding.
+    /// An upper bound of the distance: that of the witnesses, plus rounding. In an answer about the
+    /// [least](crate::schedule::ClosestApproach) or the [greatest](crate::schedule::GreatestDistance)
+    /// distance, plus the excess of both bodies.
     pub upper: f64,
     /// Unit vector from A to B along which `lower` was checked.
     pub normal: DVec3,
@@ -219,7 +223,8 @@ pub struct Answer<T = Outcome> {
     pub outcome: T,
     /// The tolerance of the answer. It is the requested one, unless only a larger one can be
     /// certified at the coordinates of the scene, or the bodies were [let
-    /// go](crate::StartPolicy::Leave) with a smaller one.
+    /// go](crate::StartPolicy::Leave) with a smaller one. Of bounds of a distance it is at least their
+    /// width, which the [excess](crate::Body::with_excess) of the bodies is a part of.
     pub tolerance: f64,
     /// The cost.
     pub stats: Stats,

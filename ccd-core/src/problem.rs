@@ -1,6 +1,7 @@
 //! A query: two moving bodies and a duration.
 
 use crate::body::Body;
+use crate::body::excess::Excess;
 use crate::body::piece::Piece;
 use crate::config::{Config, StartPolicy};
 use crate::error::{InputError, check};
@@ -210,6 +211,12 @@ impl<'a> Problem<'a> {
     /// the scene's coordinates.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
+    }
+
+    /// How far the given bodies may exceed their shapes.
+    pub(crate) fn excess(&self) -> Excess {
+        let given = |side: &Side<'a>| side.given.unwrap_or(side.body);
+        Excess::of(given(&self.a), given(&self.b))
     }
 
     /// Returns a piece of A and one of B.

@@ -40,7 +40,8 @@ pub(crate) struct PyBody {
     /// What was found about the mesh, in words.
     report: String,
     #[pyo3(get)]
-    /// How far the body may exceed what it was made of: contacts may be early by that, never late. 0 for exact bodies.
+    /// How far the body may exceed what it was made of: contacts may be early by that, never late, and upper bounds of
+    /// distances are larger by that. 0 for exact bodies.
     sticks_out: f64,
 }
 
@@ -373,9 +374,7 @@ impl PyBody {
         match &self.made {
             Made::Mesh(model) => Ok(Cow::Borrowed(model)),
             Made::Shape(_) | Made::Round(..) => {
-                let mut model = Model::of_body(&self.body).map_err(input)?;
-                model.report.sticks_out = self.sticks_out;
-                Ok(Cow::Owned(model))
+                Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?))
             }
         }
     }

@@ -187,6 +187,9 @@ pub(crate) fn is_free(
 /// With a `clearance`, it ends as soon as that is proven to be kept, or seen to be violated: the answer says which, and
 /// its bounds are no closer than that takes.
 ///
+/// Bounds are those of the shapes: what the bodies exceed them by, their `sticks_out`, is in the upper one. A clearance is
+/// violated only where the shapes certainly come nearer.
+///
 /// >>> from rigid_ccd import Body, Motion, closest_approach
 /// >>> ball, passes = Body.sphere(0.5), Motion([-3, 1.2, 0], velocity=[6, 0, 0])
 /// >>> closest_approach(ball, ball, passes, clearance=0.1).clearance
@@ -219,7 +222,7 @@ pub(crate) fn closest_approach<'py>(
 /// Brackets the greatest distance of two moving bodies, to within the tolerance: that of their nearest points at each time.
 ///
 /// At the `time` of the answer it is at least `lower`, and it is never more than `upper`. Arguments and exceptions are those
-/// of `first_contact`, without a margin.
+/// of `first_contact`, without a margin. What the bodies exceed their shapes by, their `sticks_out`, is in `upper`.
 ///
 /// >>> from rigid_ccd import Body, Motion, greatest_distance
 /// >>> ball, leaves = Body.sphere(0.5), Motion([1.5, 0, 0], velocity=[1, 0, 0])

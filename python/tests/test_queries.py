@@ -51,6 +51,23 @@ def test_a_slow_ball_stays_apart() -> None:
     assert eval(repr(nearest)) == pickle.loads(pickle.dumps(nearest)) == nearest
 
 
+def test_bounds_hold_for_the_cylinders_that_bodies_exceed() -> None:
+    # Their sides are 0.1 apart; corners of the polytopes about them face each other.
+    wheel = Body.cylinder(1, 1, 0.01)
+    half = math.pi / 48
+    turned = [math.cos(half), 0, 0, math.sin(half)]
+    places = ([2.1, 0, 0], turned), ([0, 0, 0], turned)
+    found = distance(wheel, wheel, *places)
+    assert found.lower < 0.09 and 0.1 <= found.upper <= found.lower + 2 * wheel.sticks_out + 1e-3
+    a, b = (Motion.still(place) for place in places)
+    assert greatest_distance(wheel, wheel, a, b, 1).upper >= 0.1
+    stored = pickle.loads(pickle.dumps(wheel))
+    assert distance(stored, stored, *places).upper == found.upper
+    flies = Motion([2.1, -1, 0], turned, velocity=[0, 2, 0])
+    for clearance, said in [(0.05, "kept"), (0.0995, "unverified"), (0.13, "violated")]:
+        assert closest_approach(wheel, wheel, flies, b, clearance=clearance).clearance == said
+
+
 def test_a_clearance_is_kept_or_violated() -> None:
     flies = Motion([-3, 0, 0], velocity=[2, 0, 0])
     kept = closest_approach(BALL, WALL, flies, clearance=0.3)

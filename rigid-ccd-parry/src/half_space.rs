@@ -126,7 +126,7 @@ impl HalfSpace {
         };
         let mut form = Form::EMPTY;
         form.push_corners((0..8).map(corner).collect(), 0.0);
-        Ok(Prepared::new(&form)?.exceeding(2.0 * above))
+        Prepared::new(&form)?.exceeding(2.0 * above)
     }
 }
 

@@ -10,7 +10,8 @@ use ccd_core::glam::DVec3;
 /// # Guarantee
 /// Each point of the shape is at most [`slack`](Prepared::slack) from the body, and each point of the body at most
 /// [`slack`](Prepared::slack) + [`excess`](Prepared::excess) from the shape. The casts of this crate add the slack to
-/// the target distance: they are never late for it.
+/// the target distance: they are never late for it. The [body's excess](Body::excess) is slack + excess, rounded up: upper
+/// bounds of distances hold for the shapes, lower ones less the slack of both.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     body: Body,
@@ -30,7 +31,7 @@ impl Prepared {
         let (body, numbers) = form.body()?;
         let (middle, radius) = form.ball();
         Ok(Prepared {
-            body,
+            body: exceeding(body, form.slack(), form.excess())?,
             numbers,
             middle,
             radius,
@@ -66,8 +67,16 @@ impl Prepared {
     }
 
     /// Returns it as one that exceeds its shape by this.
-    pub(crate) fn exceeding(self, excess: f64) -> Self {
-        Prepared { excess, ..self }
+    ///
+    /// # Errors
+    /// [`ShapeError::Body`] for what is no length.
+    pub(crate) fn exceeding(self, excess: f64) -> Result<Self, ShapeError> {
+        let body = exceeding(self.body, self.slack, excess)?;
+        Ok(Prepared {
+            body,
+            excess,
+            ..self
+        })
     }
 
     /// The approximate number of bytes held.
@@ -84,4 +93,13 @@ impl Prepared {
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         (self.middle, self.radius)
     }
+}
+
+/// Returns a body that may exceed its shape by two lengths together.
+fn exceeding(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
+    let together = match slack > 0.0 {
+        true => (slack + excess).next_up(),
+        false => excess,
+    };
+    body.with_excess(together).map_err(ShapeError::Body)
 }

@@ -136,6 +136,7 @@ impl Scene<'_> {
         let contact = match solver.distance(a, b).map(|answer| answer.outcome) {
             Ok(ClosestApproach::Overlapping {
                 overlap: Overlap::Pieces(contact),
+                ..
             }) => Some(contact),
             Ok(found) => found.nearest().map(|(_, contact)| contact),
             Err(_) => None,

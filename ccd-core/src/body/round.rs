@@ -40,7 +40,8 @@ enum Kind {
 ///
 /// # Guarantee
 /// It holds the shape, in exact arithmetic on the stored numbers. None of its points is farther from the shape than the
-/// [excess](Enclosure::excess): contacts may be early by that, and never late. It touches the shape in the planes of its
+/// [excess](Enclosure::excess): contacts may be early by that, and never late. Upper
+/// bounds of distances have it added. It touches the shape in the planes of its
 /// flat ends, and along four lines in the planes x = 0 and y = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enclosure {
@@ -150,12 +151,13 @@ impl Enclosure {
         self.excess
     }
 
-    /// Returns the body, solid. One that is not flat has [triangles](Body::with_surface), too.
+    /// Returns the body, solid, with its [excess](Body::excess). One that is not flat has
+    /// [triangles](Body::with_surface), too.
     ///
     /// # Errors
     /// Those of [`Body::polytope`].
     pub fn body(&self) -> Result<Body, InputError> {
-        let body = Body::polytope(self.polytope.clone())?;
+        let body = Body::polytope(self.polytope.clone())?.with_excess(self.excess)?;
         let (triangles, numbers) = self.triangles();
         if triangles.is_empty() {
             return Ok(body);

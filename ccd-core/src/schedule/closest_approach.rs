@@ -44,16 +44,26 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Answer<ClosestApproach> {
-        if let Some(distance) = problem.clearance.filter(|_| moves(problem)) {
-            return self.keeps(problem, distance, oracle);
-        }
+        let answer = match problem.clearance.filter(|_| moves(problem)) {
+            Some(distance) => self.keeps(problem, distance, oracle),
+            None => self.approach_of_bodies(problem, oracle),
+        };
+        answer.of_shapes(problem.excess())
+    }
+
+    /// Brackets the least distance of the bodies themselves, whatever their shapes are.
+    pub(super) fn approach_of_bodies(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+    ) -> Answer<ClosestApproach> {
         let answer = self.measured(problem, f64::INFINITY, oracle, or_overlap);
         answer.map(|found| {
             found.unwrap_or_else(|Beyond { lower }| unresolved(lower, Limit::OracleGaveUp))
         })
     }
 
-    /// Answers whether the bodies keep a distance.
+    /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
     fn keeps(
         &mut self,
         problem: &Problem<'_>,
@@ -64,6 +74,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             distance,
             tolerance: problem.tolerance,
             budget: problem.budget,
+            excess: problem.excess(),
         };
         let begun = problem.deadline.map(|_| Instant::now());
         let answer = required.decide(|rung| {
@@ -76,7 +87,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         answer.unwrap_or_else(|never| match never {})
     }
 
-    /// Like [`DepthFirst::closest_approach`], if the bodies come nearer than `beyond`; where they meet, it does
+    /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`; where they meet, it does
     /// not tell whether they overlap at the start.
     pub(super) fn approach_below(
         &mut self,
@@ -236,7 +247,7 @@ fn or_overlap<O: DistanceOracle>(
         return found;
     }
     match at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
-        Some(Outcome::Overlapping { overlap }) => ClosestApproach::Overlapping { overlap },
+        Some(Outcome::Overlapping { overlap }) => ClosestApproach::overlapping(overlap),
         _ => found,
     }
 }
@@ -254,7 +265,7 @@ fn at_one_pose<O: DistanceOracle>(
             time: 0.0,
             contact,
         },
-        Some(Outcome::Overlapping { overlap }) => ClosestApproach::Overlapping { overlap },
+        Some(Outcome::Overlapping { overlap }) => ClosestApproach::overlapping(overlap),
         Some(Outcome::Unresolved { reason, .. }) => {
             unresolved(greater(0.0, least_distance(problem)), reason)
         }
@@ -313,8 +324,10 @@ fn told<O: DistanceOracle>(
         },
         ClosestApproach::Overlapping {
             overlap: Overlap::Pieces(contact),
+            upper,
         } => ClosestApproach::Overlapping {
             overlap: Overlap::Pieces(told(contact, 0.0)),
+            upper,
         },
         ClosestApproach::Unresolved {
             lower,

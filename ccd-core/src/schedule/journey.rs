@@ -14,6 +14,7 @@ mod lengths;
 mod stretches;
 
 use crate::body::Body;
+use crate::body::excess::Excess;
 use crate::config::Config;
 use crate::error::InputError;
 use crate::error::check;
@@ -101,6 +102,11 @@ impl<'a> Journey<'a> {
             config: *config,
             stop: None,
         })
+    }
+
+    /// How far the bodies may exceed their shapes.
+    fn excess(&self) -> Excess {
+        Excess::of(self.a.body, self.b.body)
     }
 
     /// Lets other threads stop the query, as [`Problem::stopped_by`](crate::Problem::stopped_by) does.

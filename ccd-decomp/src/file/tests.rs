@@ -58,6 +58,11 @@ fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) 
     assert_eq!(again.hierarchy.nodes(), model.hierarchy.nodes());
     let bodies = (again.body().unwrap(), model.body().unwrap());
     assert_eq!(bodies.0.bytes(), bodies.1.bytes());
+    assert_eq!(bodies.0.excess(), model.report.sticks_out);
+    let is_exact = !matches!(detail, Detail::Vhacd { .. });
+    assert_eq!(bodies.0.excess() == 0.0, is_exact);
+    let taken_over = Model::of_body(&bodies.0).unwrap();
+    assert_eq!(taken_over.report.sticks_out, bodies.0.excess());
 }
 
 #[test]

@@ -39,6 +39,8 @@ pub struct Prepared {
 impl Model {
     /// Builds the body. O(n log n) in the number of pieces.
     ///
+    /// It [exceeds](Body::excess) its shape by what its report says that it sticks out by.
+    ///
     /// # Errors
     /// [`PrepareError::Input`] and [`PrepareError::HullTree`] when the parts of the model do not belong together.
     pub fn body(&self) -> Result<Body, PrepareError> {
@@ -47,6 +49,7 @@ impl Model {
             let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
             body = body.with_surface(surface)?;
         }
+        let body = body.with_excess(self.report.sticks_out)?;
         Ok(match &self.hull_tree {
             Some(tree) => body.with_hull_tree(tree.clone())?,
             None => body,
@@ -55,7 +58,7 @@ impl Model {
 
     /// Takes over the pieces of a body, to store them.
     ///
-    /// The model has the same pieces and the same volume, so that queries have the same answers. Its tree is built anew,
+    /// The model has the same pieces, the same volume and the same [excess](Body::excess), so that queries have the same answers. Its tree is built anew,
     /// without hulls, and without the surface of a convex solid.
     ///
     /// # Errors
@@ -65,6 +68,7 @@ impl Model {
         let hierarchy = build_hierarchy(&pieces)?;
         let report = Report {
             pieces: pieces.len(),
+            sticks_out: body.excess(),
             ..Report::new(PiecesKind::Primitive, Why::Asked, body.volume())
         };
         Ok(Model {

@@ -26,7 +26,8 @@ pub struct Report {
     /// for all exact kinds.
     pub inflated_by: f64,
     /// A bound on how far the pieces reach beyond the solid, or beyond the surface of an open mesh, in its unit of
-    /// length. Contacts may be reported early by as much. 0 for all exact kinds.
+    /// length: the [excess](ccd_core::Body::excess) of the body. Contacts may be reported early by as much. 0 for all exact
+    /// kinds.
     pub sticks_out: f64,
     /// The number of hulls of approximate pieces that the library got wrong, and that were computed exactly
     /// instead. 0 for all other kinds, whose hulls are exact from the start.

@@ -37,11 +37,14 @@ class Distance:
 
     Of `greatest_distance` it is the greatest one: at `time` it is at least `lower`, and it is never more than `upper`.
 
+    Bodies may exceed their shapes by their `sticks_out`. Then the bounds are those of the shapes: what both bodies stick out
+    by is in `upper`, and no clearance is "violated" by the bodies alone.
+
     Attributes:
         lower: the bodies are never nearer than this.
         upper: at `time` they are at most this far apart; infinite where no distance was measured.
         time: when they are nearest; 0 where they overlap at the start; None where no distance was measured.
-        is_overlapping: whether they overlap at the start.
+        is_overlapping: whether they overlap at the start; their shapes are at most `upper` apart then.
         witness_a: the nearest point of body A, in the world at that time; None where they overlap at the start.
         witness_b: the nearest point of body B.
         clearance: whether the required clearance is "kept", "violated", or "unverified" within the bounds; None where none

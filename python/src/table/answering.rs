@@ -10,7 +10,7 @@ use rigid_ccd::batch::{Bodies, Found, Question, Questions, on_threads};
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow};
 use rigid_ccd::table::motions::{RowError, RowProblem, TableError};
-use rigid_ccd::table::results::ResultRow;
+use rigid_ccd::table::results::{Compared, ResultRow};
 use rigid_ccd::{Answer, Config, InputError, Limit, Remark, Solver};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -174,10 +174,11 @@ fn result(asked: Asked<'_>, told: &Told<'_>) -> ResultRow {
         Ok(timed) => timed,
         Err(error) => return ResultRow::error(&error.id, &error.problem),
     };
+    let compared = Compared::of(asked.bodies, asked.config.clearance);
     match &timed.answer {
         Ok(answer) => ResultRow {
             micros: (asked.micros == Micros::Told).then_some(timed.micros),
-            ..ResultRow::new(timed.course, answer, timed.micros, asked.config.clearance)
+            ..ResultRow::new(timed.course, answer, timed.micros, compared)
         },
         Err(error) => ResultRow::error(timed.course.id(), &RowProblem::from(error.clone())),
     }

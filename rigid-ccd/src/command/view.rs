@@ -15,7 +15,7 @@ use super::{Exit, complain};
 use crate::batch::{Bodies, Question, Settings, Solve, SolverKind, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
-use crate::table::results::{self, ResultRow};
+use crate::table::results::{self, Compared, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Config, Instructions};
 use ccd_view::{Group, Page};
@@ -133,7 +133,7 @@ pub(super) fn answered(
     solver: &mut dyn Solve,
 ) -> ResultRow {
     match time(bodies, course, settings, solver) {
-        Ok(timed) => ResultRow::new(course, &timed.answer, timed.micros, None),
+        Ok(timed) => ResultRow::new(course, &timed.answer, timed.micros, Compared::default()),
         Err(problem) => ResultRow::error(course.id(), &problem),
     }
 }

@@ -181,7 +181,7 @@ impl Survey<'_> {
         let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
         let closest = &answer.outcome;
         let (lower, upper) = match closest {
-            ClosestApproach::Overlapping { .. } => (0.0, 0.0),
+            ClosestApproach::Overlapping { upper, .. } => (0.0, *upper),
             _ => (greater(closest.lower(), 0.0), closest.upper()),
         };
         let upper = if upper.is_finite() { upper } else { lower };

@@ -94,7 +94,7 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
             let [pose_a, pose_b] = course.poses(time).unwrap();
             let answer = solver.distance((a, pose_a), (b, pose_b)).unwrap().outcome;
             let upper = match answer {
-                ClosestApproach::Overlapping { .. } => 0.0,
+                ClosestApproach::Overlapping { upper, .. } => upper,
                 ref nearest => nearest.upper(),
             };
             let proven = at(line, time);

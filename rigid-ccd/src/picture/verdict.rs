@@ -170,14 +170,13 @@ fn apart(row: &ResultRow) -> String {
             "two pieces that a shift by {} would part; the bodies may overlap by more",
             number_up(-lower)
         ),
-        (Some(0.0), Some(upper)) => format!(
-            "at most {} apart: they touch, or nearly so",
-            number_up(upper)
-        ),
+        (Some(0.0), Some(upper)) => format!("at most {} apart: they may touch", number_up(upper)),
         (Some(lower), Some(upper)) => {
             format!("between {} and {} apart", number(lower), number_up(upper))
         }
         (Some(lower), None) => format!("at least {} apart", number(lower)),
+        // One body is inside the other, and they exceed their shapes.
+        (None, Some(upper)) => format!("their shapes at most {} apart", number_up(upper)),
         _ => "at an unknown distance".to_owned(),
     }
 }

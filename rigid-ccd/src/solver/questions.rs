@@ -54,7 +54,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// The margin and the start policy play no role.
     ///
     /// # Guarantee
-    /// The bodies are never nearer than the lower bound, and at that time at most the upper bound apart.
+    /// The bodies are never nearer than the lower bound, and at that time at most the upper bound apart; so are the shapes
+    /// that they [exceed](Body::with_excess).
     ///
     /// # Errors
     /// The errors of [`Problem::new`](crate::Problem::new): a duration or a motion out of range.
@@ -93,7 +94,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// policy play no role.
     ///
     /// # Guarantee
-    /// The bodies are never farther apart than the upper bound, and at that time at least the lower bound.
+    /// The bodies are never farther apart than the upper bound, and at that time at least the lower bound; so are the shapes
+    /// that they [exceed](Body::with_excess).
     ///
     /// # Errors
     /// The errors of [`Journey::new`](crate::Journey::new): a duration or a motion out of range.

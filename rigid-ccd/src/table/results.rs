@@ -7,7 +7,7 @@ mod status;
 
 pub use status::Status;
 
-use crate::batch::Found;
+use crate::batch::{Bodies, Found};
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
@@ -52,8 +52,36 @@ pub const COUNTER_COLUMNS: [&str; 5] = [
     "front",
 ];
 
-/// The reason of a clearance that is not verified.
-const WITHIN_BOUNDS: &str = "--clearance is within the bounds of the distance";
+/// What the distances of rows are compared with.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Compared {
+    /// The distance that is required, if there is one.
+    pub clearance: Option<f64>,
+    /// How far both bodies [exceed](ccd_core::Body::with_excess) their shapes, together: told as a reason, never added.
+    pub excess: f64,
+}
+
+impl Compared {
+    /// Returns what distances of two bodies are compared with.
+    pub fn of(bodies: Bodies<'_>, clearance: Option<f64>) -> Self {
+        Compared {
+            clearance,
+            excess: bodies.a.excess() + bodies.b.excess(),
+        }
+    }
+
+    /// Returns the reason of a clearance that is not verified.
+    fn within_bounds(&self) -> String {
+        let bounds = "--clearance is within the bounds of the distance";
+        match self.excess > 0.0 {
+            true => format!(
+                "{bounds}, which are wider by the excess of the bodies over their shapes: up to {:.3e} together",
+                self.excess
+            ),
+            false => bounds.to_owned(),
+        }
+    }
+}
 
 /// The columns of a table beside [`COLUMNS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -77,7 +105,8 @@ pub struct ResultRow {
     /// A lower bound of the distance at `time`; of the closest approach, at all times. Empty when free: those bodies
     /// are proven to keep the margin, and no distance is known.
     pub distance_lower: Option<f64>,
-    /// An upper bound of the distance at `time`.
+    /// An upper bound of the distance at `time`: of distances that are asked for, between the shapes; of contacts,
+    /// between the bodies, which may [exceed](ccd_core::Body::with_excess) them.
     pub distance_upper: Option<f64>,
     /// The unit vector from A to B, in the world frame.
     pub normal: [Option<f64>; 3],
@@ -136,22 +165,17 @@ impl ResultRow {
         }
     }
 
-    /// Creates the row of an answer; distances are compared to `clearance`, if there is one.
-    pub fn new(
-        course: &Course,
-        answer: &Answer<Found>,
-        micros: f64,
-        clearance: Option<f64>,
-    ) -> Self {
+    /// Creates the row of an answer.
+    pub fn new(course: &Course, answer: &Answer<Found>, micros: f64, compared: Compared) -> Self {
         let found = &answer.outcome;
-        let status = Status::of(found, clearance);
+        let status = Status::of(found, compared.clearance);
         let row = ResultRow {
             iterations: Some(answer.stats.iterations),
             oracle_calls: Some(answer.stats.oracle_calls),
             micros: Some(micros),
             reason: match (found.limit(), status) {
                 (Some(limit), _) => Some(limit.to_string()),
-                (None, Status::Unverified) => Some(WITHIN_BOUNDS.to_owned()),
+                (None, Status::Unverified) => Some(compared.within_bounds()),
                 (None, _) => None,
             },
             counters: Some(answer.stats),
@@ -216,8 +240,14 @@ impl ResultRow {
 
     fn with_distance(self, closest: &ClosestApproach, duration: f64) -> Self {
         let row = match (closest, closest.nearest()) {
-            (ClosestApproach::Overlapping { overlap }, _) => {
-                return self.at(0.0).with_overlap(overlap);
+            (ClosestApproach::Overlapping { overlap, upper }, _) => {
+                let row = self.at(0.0).with_overlap(overlap);
+                // No less than where one body is inside the other.
+                let exceeds = Some(*upper).filter(|upper| *upper > 0.0);
+                return ResultRow {
+                    distance_upper: row.distance_upper.or(exceeds),
+                    ..row
+                };
             }
             (ClosestApproach::Farther { .. }, _) => self.at(duration),
             (_, Some((time, contact))) => self.at(time).with_contact(&contact),

@@ -98,6 +98,29 @@ fn the_least_distance_is_bracketed_and_compared() {
     );
 }
 
+/// A clearance that the bodies violate, and the cylinders keep: their sides are 0.1 apart.
+#[test]
+fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
+    let bodies = ["--a", "cylinder:1,1,.01", "--b", "cylinder:1,1,.01"];
+    // Corners towards each other.
+    let beside =
+        "a_px,a_qw,a_qx,a_qy,a_qz,b_qw,b_qx,b_qy,b_qz\n2.1,.99786,0,0,.0654,.99786,0,0,.0654\n";
+    for (clearance, status) in [
+        (".01", "kept"),
+        (".095", "unverified"),
+        (".0999", "unverified"),
+        (".13", "violated"),
+    ] {
+        let run = ask("distance", &bodies, beside).args(&["--clearance", clearance]);
+        let row = only(&run);
+        assert_eq!(row.text("status"), status, "{clearance}");
+        let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
+        assert!(lower < 0.095 && (0.1..0.13).contains(&upper), "{upper}");
+        let names = row.text("reason").contains("excess of the bodies");
+        assert_eq!(names, status == "unverified", "{}", row.text("reason"));
+    }
+}
+
 #[test]
 fn a_clearance_that_is_decided_ends_the_search() {
     let visits = |more: &[&str]| {

@@ -67,7 +67,7 @@ impl Judge<'_> {
                 );
                 check_contact(self.query, time, &contact, bodies, f64::INFINITY)
             }
-            ClosestApproach::Overlapping { overlap } => {
+            ClosestApproach::Overlapping { overlap, .. } => {
                 self.check(&answer.map(|_| Outcome::Overlapping { overlap }), bodies)
             }
             ClosestApproach::Farther { .. } | ClosestApproach::Nearer { .. } => {
@@ -101,7 +101,7 @@ impl Judge<'_> {
         );
         match outcome {
             ClosestApproach::Unresolved { .. } => return Err("unresolved".into()),
-            ClosestApproach::Overlapping { overlap } => {
+            ClosestApproach::Overlapping { overlap, .. } => {
                 return self.check(
                     &answer.map(|_| Outcome::Overlapping { overlap: *overlap }),
                     bodies,

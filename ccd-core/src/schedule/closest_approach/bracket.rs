@@ -1,12 +1,17 @@
 //! The answer: bounds of the least distance.
 
-use crate::outcome::{Contact, Limit, Overlap};
+use crate::body::excess::Excess;
+use crate::math::order::greater;
+use crate::outcome::{Answer, Contact, Limit, Overlap};
 
 /// The answer to "how close do they come, and when?".
 ///
 /// # Guarantee
 /// The bodies are never nearer than [`lower`](ClosestApproach::lower), in floating point as well; at
 /// [`time`](ClosestApproach::time) they are at most [`upper`](ClosestApproach::upper) apart.
+///
+/// Where bodies [exceed](crate::Body::with_excess) their shapes, that holds for the shapes. All upper bounds, those of
+/// contacts too, are the distance of the witnesses and the excess of both bodies, rounded up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClosestApproach {
     /// The bodies are nearest at about `time`: then they are at most the contact's upper bound apart,
@@ -34,10 +39,13 @@ pub enum ClosestApproach {
         /// Two pieces that are nearer at that time.
         contact: Contact,
     },
-    /// The bodies overlap at the start.
+    /// The bodies overlap at the start. Their shapes do, too, unless the bodies
+    /// [exceed](crate::Body::with_excess) them.
     Overlapping {
         /// The proof.
         overlap: Overlap,
+        /// An upper bound of the distance at the start: 0, or what the bodies exceed their shapes by, together.
+        upper: f64,
     },
     /// A limit was reached before an answer.
     Unresolved {
@@ -65,7 +73,7 @@ impl ClosestApproach {
     /// An upper bound of the least distance; infinite if none is known.
     pub fn upper(&self) -> f64 {
         match self {
-            ClosestApproach::Overlapping { .. } => 0.0,
+            ClosestApproach::Overlapping { upper, .. } => *upper,
             _ => self
                 .nearest()
                 .map_or(f64::INFINITY, |(_, contact)| contact.separation.upper),
@@ -87,6 +95,51 @@ impl ClosestApproach {
             | ClosestApproach::Nearer { time, contact } => Some((time, contact)),
             ClosestApproach::Unresolved { nearest, .. } => nearest,
             ClosestApproach::Farther { .. } | ClosestApproach::Overlapping { .. } => None,
+        }
+    }
+
+    /// The answer for bodies that overlap at the start.
+    pub(in crate::schedule) fn overlapping(overlap: Overlap) -> Self {
+        ClosestApproach::Overlapping {
+            overlap,
+            upper: 0.0,
+        }
+    }
+
+    /// Returns what an answer for bodies says of their shapes.
+    fn of_shapes(self, excess: Excess) -> Self {
+        let seen = |contact| excess.of_shapes(contact);
+        match self {
+            ClosestApproach::Nearest {
+                lower,
+                time,
+                contact,
+            } => ClosestApproach::Nearest {
+                lower,
+                time,
+                contact: seen(contact),
+            },
+            ClosestApproach::Nearer { time, contact } => ClosestApproach::Nearer {
+                time,
+                contact: seen(contact),
+            },
+            ClosestApproach::Overlapping { overlap, .. } => ClosestApproach::Overlapping {
+                overlap: match overlap {
+                    Overlap::Pieces(contact) => Overlap::Pieces(seen(contact)),
+                    Overlap::AInsideB(_) | Overlap::BInsideA(_) => overlap,
+                },
+                upper: excess.of_overlap(),
+            },
+            ClosestApproach::Unresolved {
+                lower,
+                nearest,
+                reason,
+            } => ClosestApproach::Unresolved {
+                lower,
+                nearest: nearest.map(|(time, contact)| (time, seen(contact))),
+                reason,
+            },
+            ClosestApproach::Farther { .. } => self,
         }
     }
 
@@ -119,6 +172,18 @@ impl ClosestApproach {
             Clearance::Violated
         } else {
             Clearance::Unverified
+        }
+    }
+}
+
+impl Answer<ClosestApproach> {
+    /// Returns what an answer for bodies says of their shapes: once for each question that is asked.
+    pub(in crate::schedule) fn of_shapes(self, excess: Excess) -> Self {
+        let outcome = self.outcome.of_shapes(excess);
+        Answer {
+            outcome,
+            tolerance: greater(self.tolerance, outcome.width()),
+            ..self
         }
     }
 }

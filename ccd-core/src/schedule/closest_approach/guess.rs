@@ -79,9 +79,7 @@ pub(in crate::schedule) fn nearest_at<O: DistanceOracle>(
 /// Returns the answer for bodies that overlap at the start, or when a limit is reached.
 fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> ClosestApproach {
     match stop {
-        Stop::Overlap(_, contact) => ClosestApproach::Overlapping {
-            overlap: Overlap::Pieces(contact),
-        },
+        Stop::Overlap(_, contact) => ClosestApproach::overlapping(Overlap::Pieces(contact)),
         Stop::Limit(reason) => ClosestApproach::Unresolved {
             lower: greater(0.0, least_distance(problem)),
             nearest: best.map(|best| (problem.time(best.clock), best.contact.no_nearer_than(0.0))),

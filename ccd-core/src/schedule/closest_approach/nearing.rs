@@ -163,9 +163,10 @@ impl<O: DistanceOracle> Question<O> for Nearing {
                 // The pair is looked at again: it keeps a lesser distance.
                 ControlFlow::Continue(clock)
             }
-            Step::Overlap(contact) => ControlFlow::Break(Ok(ClosestApproach::Overlapping {
-                overlap: Overlap::Pieces(contact),
-            })),
+            Step::Overlap(contact) => {
+                let overlap = Overlap::Pieces(contact);
+                ControlFlow::Break(Ok(ClosestApproach::overlapping(overlap)))
+            }
             Step::Stalled => {
                 self.stuck = Some(Limit::Stalled);
                 ControlFlow::Continue(f64::INFINITY)
@@ -186,7 +187,7 @@ impl<O: DistanceOracle> Question<O> for Nearing {
             return Ok(self.unresolved(problem, limit));
         }
         match self.proven.end(problem) {
-            Outcome::Overlapping { overlap } => Ok(ClosestApproach::Overlapping { overlap }),
+            Outcome::Overlapping { overlap } => Ok(ClosestApproach::overlapping(overlap)),
             Outcome::Free { proven_gap } => self.found(problem, proven_gap),
             Outcome::Unresolved { reason, .. } => Ok(self.unresolved(problem, reason)),
             Outcome::Contact { .. } | Outcome::Touching { .. } => {

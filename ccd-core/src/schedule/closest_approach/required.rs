@@ -2,6 +2,7 @@
 
 use super::bracket::ClosestApproach;
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
 use crate::math::order::{greater, lesser};
 use crate::outcome::{Answer, Contact, Limit, Stats};
@@ -13,11 +14,13 @@ pub(in crate::schedule) struct Required {
     pub(in crate::schedule) distance: f64,
     pub(in crate::schedule) tolerance: f64,
     pub(in crate::schedule) budget: u64,
+    /// How far the bodies may exceed their shapes: only bodies that are nearer than the distance by as much violate it.
+    pub(in crate::schedule) excess: Excess,
 }
 
 impl Required {
     /// Answers whether bodies keep the distance: whether they come near it, and if they do, whether they come
-    /// nearer.
+    /// nearer by the excess. In between, neither is certain of their shapes.
     ///
     /// # Errors
     /// Those of the question for any contact.
@@ -37,7 +40,7 @@ impl Required {
         // No finer one may be certified in f64.
         asking.half = greater(asking.half, near.tolerance);
         let outcome = match self.of(near.outcome) {
-            ClosestApproach::Nearest { time, contact, .. } if self.distance > 0.0 => {
+            ClosestApproach::Nearest { time, contact, .. } if self.certain() > 0.0 => {
                 asking.nearer(time, contact)?
             }
             found => found,
@@ -59,6 +62,12 @@ impl Required {
         })
     }
 
+    /// Returns the distance of bodies whose shapes are certainly nearer than the required one; not above 0 if there is
+    /// none.
+    fn certain(&self) -> f64 {
+        self.excess.below(self.distance)
+    }
+
     /// Returns what an answer says, with the distance as its margin.
     fn of(&self, found: AnyContact) -> ClosestApproach {
         match found {
@@ -66,12 +75,12 @@ impl Required {
                 lower: greater(proven_gap, self.distance),
             },
             AnyContact::Contact { time, contact } => {
-                match contact.separation.upper < self.distance {
+                match self.excess.above(contact.separation.upper) < self.distance {
                     true => ClosestApproach::Nearer { time, contact },
                     false => bracket(0.0, time, contact),
                 }
             }
-            AnyContact::Overlapping { overlap } => ClosestApproach::Overlapping { overlap },
+            AnyContact::Overlapping { overlap } => ClosestApproach::overlapping(overlap),
             AnyContact::Unresolved { reason, .. } => ClosestApproach::Unresolved {
                 lower: 0.0,
                 nearest: None,
@@ -106,10 +115,12 @@ impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
         self.required.budget.saturating_sub(self.stats.work())
     }
 
-    /// Answers whether bodies come nearer that come within the tolerance of the distance.
+    /// Answers whether shapes come nearer whose bodies come within the tolerance of the distance, or by less than the
+    /// excess nearer.
     fn nearer(&mut self, time: f64, contact: Contact) -> Result<ClosestApproach, E> {
-        let (distance, half) = (self.required.distance, self.half);
-        // What is in contact with this margin is nearer, and what is not keeps the distance but for the tolerance.
+        let (distance, half) = (self.required.certain(), self.half);
+        // What is in contact with this margin is nearer, and what is not keeps the distance but for the tolerance and
+        // the excess.
         let margin = greater(0.0, distance - 1.5 * half);
         let finer = match margin > 0.0 {
             true => half,

@@ -1,6 +1,7 @@
 //! Brackets of the least distance against samples, with every budget and honest or lying oracles.
 
 mod conforming;
+mod excess;
 mod required;
 
 use super::bracket::Clearance;

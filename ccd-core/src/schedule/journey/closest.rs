@@ -33,10 +33,19 @@ impl<O: DistanceOracle> DepthFirst<O> {
         journey: &Journey<'_>,
         oracle: &mut O,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        if let Some(distance) = journey.config.clearance {
-            return self.keeps_along(journey, distance, oracle);
-        }
-        let journey = &journey.measuring();
+        let answer = match journey.config.clearance {
+            Some(distance) => self.keeps_along(journey, distance, oracle)?,
+            None => self.approach_of_bodies_along(&journey.measuring(), oracle)?,
+        };
+        Ok(answer.of_shapes(journey.excess()))
+    }
+
+    /// Brackets the least distance of the bodies themselves, whatever their shapes are.
+    fn approach_of_bodies_along(
+        &mut self,
+        journey: &Journey<'_>,
+        oracle: &mut O,
+    ) -> Result<Answer<ClosestApproach>, InputError> {
         let mut stretches = Stretches::new(journey);
         let ladder = Ladder::new(0.0, journey.config.budget);
         let mut found = Found {
@@ -116,7 +125,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Answers whether the bodies keep a distance.
+    /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
     fn keeps_along(
         &mut self,
         journey: &Journey<'_>,
@@ -127,6 +136,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             distance,
             tolerance: journey.config.tolerance,
             budget: journey.config.budget,
+            excess: journey.excess(),
         };
         let begun = journey.config.deadline.map(|_| Instant::now());
         required.decide(|rung| {
@@ -179,7 +189,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let Ok((pose, config)) = stretches.pose(0.0)? else {
             return Ok(nearest);
         };
-        let start = self.closest_approach(&pose.problem(journey, &config)?, oracle);
+        let start = self.approach_of_bodies(&pose.problem(journey, &config)?, oracle);
         stretches.add(&start.stats);
         Ok(Answer {
             outcome: match start.outcome {
@@ -234,7 +244,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let Ok((pose, config)) = stretches.pose(time)? else {
             return Ok(None);
         };
-        let answer = self.closest_approach(&pose.problem(stretches.journey(), &config)?, oracle);
+        let answer = self.approach_of_bodies(&pose.problem(stretches.journey(), &config)?, oracle);
         stretches.stats.add(&answer.stats);
         let ClosestApproach::Nearest { contact, .. } = answer.outcome else {
             return Ok(None);

@@ -32,6 +32,9 @@ use std::ops::ControlFlow;
 /// # Guarantee
 /// The bodies are never farther apart than [`upper`](GreatestDistance::upper), in floating point as well; at
 /// [`time`](GreatestDistance::time) they are at least [`lower`](GreatestDistance::lower) apart.
+///
+/// Where bodies [exceed](crate::Body::with_excess) their shapes, that holds for the shapes: upper bounds, those of
+/// contacts too, have the excess of both bodies added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GreatestDistance {
     /// The bodies are farthest apart at about a time, and at no time farther than `upper`.
@@ -109,7 +112,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Ok(upper) => (upper, None),
             Err((upper, reason)) => (upper, Some(reason)),
         };
-        let at = search.best;
+        let excess = journey.excess();
+        let upper = excess.above(upper);
+        let seen = |(time, contact)| (time, excess.of_shapes(contact));
+        let at = search.best.map(seen);
         let outcome = match reason {
             None => GreatestDistance::Farthest { upper, at },
             Some(reason) => GreatestDistance::Unresolved { upper, at, reason },

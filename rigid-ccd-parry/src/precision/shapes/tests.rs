@@ -118,6 +118,8 @@ fn cylinders_and_cones_are_along_y_and_exceed_their_shapes_by_what_is_told() {
         for shape in [&cylinder as &dyn Shape, &cone] {
             let made = body(shape, &within(excess)).expect("served");
             assert!((1e-6..=1e-3).contains(&made.excess()));
+            // Upper bounds of distances hold for the shape.
+            assert_eq!(made.body().excess(), made.excess());
             let points = made.body().pieces().points();
             let [mut base, mut top] = [0.0, 0.0];
             for point in points {

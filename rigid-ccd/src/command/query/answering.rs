@@ -14,7 +14,7 @@ use crate::command::view::Chosen;
 use crate::table::contacts;
 use crate::table::courses::{Course, CourseRow};
 use crate::table::motions::{RowError, RowPosition, TableError};
-use crate::table::results::{self, ResultRow};
+use crate::table::results::{self, Compared, ResultRow};
 use anyhow::{Context, Result};
 use std::time::Instant;
 
@@ -107,7 +107,8 @@ impl Answering<'_> {
     /// Returns the row of the results for an answer.
     fn result(&self, course: &Course, timed: &Timed) -> ResultRow {
         let Timed { answer, micros } = timed;
-        let row = ResultRow::new(course, answer, *micros, self.args.clearance);
+        let compared = Compared::of(self.bodies, self.args.clearance);
+        let row = ResultRow::new(course, answer, *micros, compared);
         ResultRow {
             micros: row.micros.filter(|_| !self.args.no_micros),
             ..row

@@ -66,7 +66,7 @@ Table of results:
             overlapping     intersecting at the start, or one body inside the other, which is a solid
             measured        the distance is between distance_lower and distance_upper
             kept            it is at least --clearance
-            violated        it is less than --clearance
+            violated        it is less than --clearance, also where bodies exceed their shape
             unverified      --clearance is between both bounds, or a limit was reached
             unresolved      a limit was reached; no contact before `time`, not known after
             error           the row is not a valid query; most cells are empty
@@ -75,7 +75,8 @@ Table of results:
   distance_lower, distance_upper
                             bounds of the distance at `time`; of closest-approach: distance_lower
                             holds at all times; of greatest-distance: distance_upper; empty when
-                            `free`, which proves the margin alone
+                            `free`, which proves the margin alone. What bodies exceed their shape by
+                            is in distance_upper of a distance, not of a contact
   normal_x ... normal_z     unit vector from A to B, world frame, at `time`
   witness_a_x ... witness_b_z
                             a pair of nearest points, world frame, at `time`

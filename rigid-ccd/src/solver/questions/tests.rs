@@ -3,6 +3,8 @@ use crate::{Body, Config, HitKind, Motion, Pose, Solver};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::schedule::{AnyContact, Clearance, ClosestApproach};
 
+mod enclosures;
+
 fn ball(radius: f64) -> Body {
     Body::ball(radius).unwrap()
 }

@@ -58,7 +58,15 @@ fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
 
 /// The cells of a row of any answer as written, by column.
 fn cells_of(found: Found, clearance: Option<f64>, extent: Extent) -> Vec<(&'static str, String)> {
-    let row = ResultRow::new(&course(2.5), &answer(found), 12.75, clearance);
+    let compared = Compared {
+        clearance,
+        excess: 0.0,
+    };
+    cells_compared(found, compared, extent)
+}
+
+fn cells_compared(found: Found, compared: Compared, extent: Extent) -> Vec<(&'static str, String)> {
+    let row = ResultRow::new(&course(2.5), &answer(found), 12.75, compared);
     let text = table(extent, &row);
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let columns = columns(extent);
@@ -182,7 +190,7 @@ fn counters_follow_the_other_columns() {
         },
         ..answer(Found::First(Outcome::Free { proven_gap: 0.25 }))
     };
-    let row = ResultRow::new(&course(2.5), &answer, 12.75, None);
+    let row = ResultRow::new(&course(2.5), &answer, 12.75, Compared::default());
     let text = |extent| table(extent, &row);
     let (plain, counted) = (text(Extent::default()), text(COUNTED));
     for (line, (with, more)) in plain.lines().zip(counted.lines().zip([
@@ -258,11 +266,13 @@ fn distances_are_compared_to_the_clearance() {
     });
     let overlapping = Found::Distance(ClosestApproach::Overlapping {
         overlap: Overlap::AInsideB(DVec3::ZERO),
+        upper: 0.0,
     });
+    let within = "--clearance is within the bounds of the distance";
     for (found, clearance, status, lower, reason) in [
         (nearest, None, "measured", "0.05", ""),
         (nearest, Some(0.05), "kept", "0.05", ""),
-        (nearest, Some(0.1), "unverified", "0.05", WITHIN_BOUNDS),
+        (nearest, Some(0.1), "unverified", "0.05", within),
         (nearest, Some(0.25), "violated", "0.05", ""),
         (unresolved, None, "unresolved", "0.01", "budget"),
         (unresolved, Some(0.005), "kept", "0.01", "budget"),
@@ -276,5 +286,35 @@ fn distances_are_compared_to_the_clearance() {
         let row = cells_of(found, clearance, Extent::default());
         let cells = ["status", "distance_lower", "reason"].map(|name| cell(&row, name));
         assert_eq!(cells, [status, lower, reason].map(str::to_owned));
+    }
+}
+
+/// Bodies that exceed their shapes: overlapping ones violate no clearance up to the excess, and the reason names it.
+#[test]
+fn what_bodies_exceed_their_shapes_by_is_told() {
+    let overlapping = |overlap| {
+        Found::Distance(ClosestApproach::Overlapping {
+            overlap,
+            upper: 0.01,
+        })
+    };
+    let inside = overlapping(Overlap::AInsideB(DVec3::ZERO));
+    let pieces = overlapping(Overlap::Pieces(contact()));
+    let upper = contact().separation.upper.to_string();
+    for (found, clearance, status, upper) in [
+        (inside, None, "overlapping", "0.01"),
+        (inside, Some(0.02), "violated", "0.01"),
+        (inside, Some(0.005), "unverified", "0.01"),
+        (pieces, Some(0.005), "unverified", upper.as_str()),
+    ] {
+        let compared = Compared {
+            clearance,
+            excess: 0.01,
+        };
+        let row = cells_compared(found, compared, Extent::default());
+        let cells = ["status", "distance_upper"].map(|name| cell(&row, name));
+        assert_eq!(cells, [status, upper].map(str::to_owned));
+        let names = cell(&row, "reason").contains("excess of the bodies over their shapes");
+        assert_eq!(names, status == "unverified");
     }
 }

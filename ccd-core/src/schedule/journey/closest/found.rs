@@ -115,7 +115,7 @@ impl Found {
                 seen.time = time;
                 seen.approach = leg.approach(time, &contact);
             }
-            ClosestApproach::Overlapping { overlap } => {
+            ClosestApproach::Overlapping { overlap, .. } => {
                 if let Overlap::Pieces(contact) = overlap {
                     self.take(leg.span.from, leg.contact(contact));
                 }

@@ -1,0 +1,86 @@
+//! How far a body may exceed the shape that is meant.
+
+use super::Body;
+use crate::error::{InputError, check_length};
+use crate::outcome::{Contact, Separation};
+
+impl Body {
+    /// Returns the body as an enclosure of a shape: one that may exceed it by a length.
+    ///
+    /// The body of an [`Enclosure`](crate::Enclosure) states its own excess; that of all others is 0.
+    ///
+    /// # Guarantee
+    /// That of distances holds for the shape where the body holds the shape, and no point of the body is farther than the
+    /// excess from it; neither is checked. Lower bounds and times are those of the body. Upper bounds of the [least
+    /// distance](crate::schedule::ClosestApproach) and of the [greatest one](crate::schedule::GreatestDistance) are
+    /// larger by the excess of both bodies. A first contact states the distance of the bodies themselves.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for a length that is not from 0 to [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
+    ///
+    /// ```
+    /// use ccd_core::Body;
+    /// // About a ball of radius 1, of which it touches six points.
+    /// let about = Body::cuboid([1.0; 3])?.with_excess(3f64.sqrt() - 0.99)?;
+    /// assert!(about.excess() > 0.73 && Body::ball(1.0)?.excess() == 0.0);
+    /// assert!(about.with_excess(-1.0).is_err());
+    /// # Ok::<(), ccd_core::InputError>(())
+    /// ```
+    pub fn with_excess(self, excess: f64) -> Result<Self, InputError> {
+        check_length("excess", excess)?;
+        Ok(Body { excess, ..self })
+    }
+
+    /// How far the body may exceed the shape that is meant, in its own unit of length; 0 for exact bodies.
+    pub fn excess(&self) -> f64 {
+        self.excess
+    }
+}
+
+/// How far two bodies may exceed their shapes, together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Excess(f64);
+
+impl Excess {
+    pub(crate) fn of(a: &Body, b: &Body) -> Self {
+        Excess(match (a.excess, b.excess) {
+            (0.0, other) | (other, 0.0) => other,
+            (one, other) => (one + other).next_up(),
+        })
+    }
+
+    /// The largest distance of shapes whose bodies have a common point.
+    pub(crate) fn of_overlap(self) -> f64 {
+        self.0
+    }
+
+    /// Returns an upper bound of the shapes' distance, given one of the bodies'.
+    pub(crate) fn above(self, upper: f64) -> f64 {
+        match self.0 > 0.0 {
+            true => (upper + self.0).next_up(),
+            false => upper,
+        }
+    }
+
+    /// Returns the distance of bodies whose shapes are certainly nearer than `distance`; not above 0 if there is none.
+    pub(crate) fn below(self, distance: f64) -> f64 {
+        match self.0 > 0.0 {
+            true => (distance - self.0).next_down(),
+            false => distance,
+        }
+    }
+
+    /// Returns a contact of the bodies with an upper bound for their shapes.
+    pub(crate) fn of_shapes(self, contact: Contact) -> Contact {
+        Contact {
+            separation: Separation {
+                upper: self.above(contact.separation.upper),
+                ..contact.separation
+            },
+            ..contact
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,101 @@
+//! Bodies that exceed their shapes: upper bounds hold for the shapes, and no clearance is violated by bodies alone.
+
+use super::*;
+use crate::tests::scene::Scene;
+
+/// Returns the scene with bodies that exceed their shapes by this, together.
+fn exceeding(mut scene: Scene, excess: f64) -> Scene {
+    scene.bodies = scene
+        .bodies
+        .map(|body| body.with_excess(0.5 * excess).unwrap());
+    scene
+}
+
+#[test]
+fn upper_bounds_have_the_excess_added_once() {
+    let mut rng = rng(21);
+    let (mut apart, mut overlapping) = (0, 0);
+    for number in 0..400 {
+        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let known = approach(&scene.problem());
+        let size = scene.bodies[0].span() + scene.bodies[1].span();
+        let excess = size * magnitude(&mut rng, -6.0, -1.0);
+        let scene = exceeding(scene, excess);
+        let found = approach(&scene.problem());
+        let (outcome, upper) = (found.outcome, known.outcome.upper() + excess);
+        assert_eq!(outcome.lower(), known.outcome.lower());
+        assert_eq!(outcome.time(), known.outcome.time());
+        assert!(
+            outcome.upper() >= upper && outcome.upper() <= upper * (1.0 + 1e-15),
+            "{number}: {outcome:?} of {known:?}"
+        );
+        assert!(found.tolerance >= outcome.width(), "{number}: {found:?}");
+        match outcome {
+            ClosestApproach::Overlapping { upper, .. } => {
+                overlapping += 1;
+                assert!(upper >= excess);
+            }
+            _ => apart += 1,
+        }
+    }
+    assert!(
+        apart > 200 && overlapping > 0,
+        "{apart} apart, {overlapping} not"
+    );
+}
+
+/// Shapes may keep what their bodies do not, up to the excess; nearer ones certainly violate it.
+#[test]
+fn a_clearance_is_violated_by_more_than_the_excess_only() {
+    let mut rng = rng(22);
+    let (mut kept, mut violated, mut between) = (0, 0, 0);
+    for number in 0..500 {
+        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        let known = approach(&scene.problem()).outcome;
+        let Some((lower, upper)) = known.nearest().map(|_| (known.lower(), known.upper())) else {
+            continue;
+        };
+        let tolerance = scene.problem().tolerance;
+        let size = scene.bodies[0].span() + scene.bodies[1].span();
+        let excess = greater(8.0 * tolerance, size * magnitude(&mut rng, -6.0, -1.0));
+        scene = exceeding(scene, excess);
+        for required in [
+            lower - 2.0 * tolerance,
+            upper + 0.3 * excess,
+            lower + 0.9 * excess,
+            upper + excess + 3.0 * tolerance,
+        ] {
+            if !(required > 0.0) {
+                continue;
+            }
+            scene.config.clearance = Some(required);
+            let outcome = approach(&scene.problem()).outcome;
+            assert!(outcome.lower() <= upper, "{number}: {outcome:?}");
+            match outcome.clearance(required) {
+                Clearance::Kept => {
+                    kept += 1;
+                    assert!(required <= upper, "{number}: {required:e} of {known:?}");
+                }
+                Clearance::Violated => {
+                    violated += 1;
+                    assert!(
+                        required > lower + excess,
+                        "{number}: {required:e} of {known:?} and {excess:e}: {outcome:?}"
+                    );
+                }
+                Clearance::Unverified => {
+                    between += 1;
+                    assert!(
+                        required > lower - 1.1 * tolerance
+                            && required < upper + excess + 1.1 * tolerance,
+                        "{number}: {required:e} of {known:?} and {excess:e}: {outcome:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(
+        kept > 100 && violated > 100 && between > 100,
+        "{kept} {violated} {between}"
+    );
+}
