@@ -263,3 +263,34 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
         }
     });
 }
+
+/// Open surfaces have no side: two that touch edge to edge, and others in the same plane, meet at their time.
+#[test]
+fn sheets_within_one_plane_meet() {
+    let sheet = |from: f64, to: f64| {
+        let corner = |x, y| dvec3(x, y, 0.0);
+        Shape::open(Mesh {
+            vertices: vec![
+                corner(from, -1.0),
+                corner(to, -1.0),
+                corner(to, 1.0),
+                corner(from, 1.0),
+            ],
+            faces: vec![[0, 1, 2], [0, 2, 3]],
+        })
+    };
+    let query = Query {
+        a: Actor::moving(sheet(0.0, 1.0), DVec3::ZERO, DVec3::X, DVec3::ZERO),
+        b: Actor::still(
+            Shape::union([sheet(-1.0, 0.0), sheet(3.0, 4.0)]),
+            DVec3::ZERO,
+        ),
+        duration: 3.0,
+    };
+    for query in [query.swapped(), query] {
+        for_each_setup(&query, &leave(), |_, setup, answer| match answer.outcome {
+            Outcome::Contact { time, .. } if time <= 2.0 => {}
+            other => panic!("{setup:?}\n{other:?}"),
+        });
+    }
+}
