@@ -6,6 +6,7 @@ pub(crate) mod obj;
 use crate::mesh::remark::Remarks;
 use crate::prepare::model::Model;
 use crate::prepare::report::Report;
+use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
 use error::{StoreError, StoreFault};
 use std::fs::File;
@@ -143,6 +144,10 @@ impl Model {
         }
         if self.report.pieces != pieces {
             return Err("the report counts another number of pieces");
+        }
+        // Written so that NaN is refused.
+        if !(0.0..=MAX_COORDINATE).contains(&self.report.sticks_out) {
+            return Err("what the pieces stick out by is no length");
         }
         Ok(())
     }
