@@ -293,6 +293,27 @@ fn a_unit_beside_none_is_told_once() {
     );
 }
 
+/// Between poses without orientations all of a turn would be turned back.
+#[test]
+fn angular_velocities_of_a_path_need_orientations() {
+    let message = messages_of("t,a_px,a_wz\n0,9,1\n1,9,1\n");
+    assert!(
+        message.contains("no column `a_qw`, but column `a_wz` needs it"),
+        "{message}"
+    );
+    for column in ["a_vx", "b_end_px", "duration"] {
+        let message = messages_of(&format!("t,a_px,{column}\n0,9,1\n1,9,1\n"));
+        let expected =
+            format!("unknown column `{column}`; a table with a column t holds the poses");
+        assert!(message.contains(&expected), "{message}");
+    }
+    let message = messages_of("id,time,a_px\nx,0,9\n");
+    assert!(
+        message.contains("unknown column `time`; did you mean `t`?"),
+        "{message}"
+    );
+}
+
 #[test]
 fn a_page_of_rows_is_remarked_upon() {
     let scene = Scene::new("page-remarks");
