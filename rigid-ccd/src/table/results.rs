@@ -53,7 +53,10 @@ pub const COUNTER_COLUMNS: [&str; 5] = [
 ];
 
 /// The reason of a clearance that is not verified.
-const WITHIN_BOUNDS: &str = "--clearance is within the bounds of the distance";
+const WITHIN_BOUNDS: &str =
+    "--clearance is within the bounds of the distance; a smaller --tolerance may decide";
+/// The reason where it is 0: bodies that may touch keep none, and are never nearer than that.
+const WITHIN_TOUCH: &str = "--clearance is within the bounds of the distance: the bodies may touch";
 
 /// The columns of a table beside [`COLUMNS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -151,6 +154,9 @@ impl ResultRow {
             micros: Some(micros),
             reason: match (found.limit(), status) {
                 (Some(limit), _) => Some(limit.to_string()),
+                (None, Status::Unverified) if clearance == Some(0.0) => {
+                    Some(WITHIN_TOUCH.to_owned())
+                }
                 (None, Status::Unverified) => Some(WITHIN_BOUNDS.to_owned()),
                 (None, _) => None,
             },

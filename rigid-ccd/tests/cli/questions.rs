@@ -93,7 +93,7 @@ fn the_least_distance_is_bracketed_and_compared() {
     assert_eq!(row.text("status"), "unverified");
     assert!(
         row.text("reason")
-            .contains("--clearance"),
+            .contains("a smaller --tolerance may decide"),
         "{}",
         row.text("reason")
     );
