@@ -45,7 +45,7 @@ pub(super) struct SceneCommandArgs {
     /// Write the table of contacts to this file, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     out: PathBuf,
-    /// Print only warnings and errors on standard error
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
     #[arg(long, short)]
     quiet: bool,
 }

@@ -102,7 +102,7 @@ pub(in crate::command) struct QueryArgs {
     /// End with exit code 3 unless every row is `free` or, with --clearance, `kept`
     #[arg(long)]
     pub(super) check: bool,
-    /// Print only warnings and errors on standard error
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
     #[arg(long, short)]
     pub(super) quiet: bool,
 }

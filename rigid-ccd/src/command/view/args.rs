@@ -63,7 +63,7 @@ pub(in crate::command) struct ViewArgs {
     /// Write the page to this file, HTML
     #[arg(long, value_name = "HTML", default_value = "view.html")]
     pub(super) out: PathBuf,
-    /// Print only warnings and errors on standard error
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
     #[arg(long, short)]
     pub(super) quiet: bool,
 }
