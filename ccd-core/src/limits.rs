@@ -36,5 +36,5 @@ pub const MAX_TURN: f64 = 1e6;
 /// the circle, and contacts early by a quarter of a thousandth of the radius.
 pub const EXCESS_SHARE: f64 = 1.0 / 4096.0;
 
-/// The most corners of a polygon about a circle: it exceeds the circle by 2e-8 of its radius.
+/// The most corners of a polygon about a circle: it exceeds the circle by 1.84e-8 of its radius.
 pub const MOST_CORNERS: f64 = 16384.0;

@@ -194,6 +194,14 @@ impl FromStr for BodySource {
         if text.is_empty() {
             return Err(SourceError::Empty);
         }
+        // No file of a mesh is called so: it has no extension.
+        if let Some(&(shape, expected)) = SHAPES.iter().find(|(shape, _)| *shape == text) {
+            return Err(SourceError::WrongCount {
+                shape,
+                expected,
+                given: 0,
+            });
+        }
         match text.split_once(':') {
             Some(("box", given)) => lengths("box", given).map(|sides: [f64; 3]| BodySource::Box {
                 half_extents: sides.into(),
@@ -240,6 +248,15 @@ impl FromStr for BodySource {
         }
     }
 }
+
+/// The shapes, with the number of lengths that each takes.
+const SHAPES: [(&str, usize); 5] = [
+    ("box", 3),
+    ("sphere", 1),
+    ("capsule", 2),
+    ("cylinder", 2),
+    ("cone", 2),
+];
 
 /// Returns a radius, half a height and an excess.
 fn round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {

@@ -231,7 +231,7 @@ impl PyBody {
     /// Args:
     ///     radius: its radius.
     ///     half_height: half its length.
-    ///     excess: how far the polytope may exceed it, at least 2.1e-8 of the radius; None for 1/4096 of the radius.
+    ///     excess: how far the polytope may exceed it, at least 1.9e-8 of the radius; None for 1/4096 of the radius.
     #[classmethod]
     #[pyo3(signature = (radius, half_height, excess = None))]
     fn cylinder(

@@ -88,7 +88,7 @@ pub enum Exit {
     AllAnswered,
     /// Some rows are bad; the others have an answer.
     SomeRowsBad,
-    /// Every row has an answer, and some are not free, in an audit.
+    /// Every row has an answer, and some are not free or kept, in an audit or a check.
     SomeNotFree,
 }
 
@@ -106,7 +106,7 @@ pub fn main() -> ExitCode {
 }
 
 /// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for
-/// bad input, 3 for an audit that finds something.
+/// bad input, 3 for an audit or a check that finds something.
 pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,

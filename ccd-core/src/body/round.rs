@@ -91,7 +91,7 @@ impl Round {
         EXCESS_SHARE * self.radius
     }
 
-    /// The least excess that is accepted: a little more than 2e-8 of the radius, with [`MOST_CORNERS`].
+    /// An excess that is accepted, with [`MOST_CORNERS`]: a little less than 1.9e-8 of the radius.
     pub fn least_excess(&self) -> f64 {
         1.01 * self.radius * (1.0 / (PI / MOST_CORNERS).cos() - 1.0)
     }
@@ -233,7 +233,7 @@ fn corners(radius: f64, asked: f64) -> Result<f64, InputError> {
         false => Err(InputError::OutOfRange {
             what: "excess",
             value: asked,
-            allowed: "at least 2.1e-8 of the radius",
+            allowed: "at least 1.9e-8 of the radius",
         }),
     }
 }

@@ -191,13 +191,28 @@ impl Adjustments {
 
 /// A word after a file that names no adjustment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "@{word} means nothing after a file; use @mm (the unit of its numbers: um, mm, cm, m, in or ft), @scale=0.001, \
-     @mirror=x (or y, z) or @surface"
-)]
+#[error("@{word}{}", Advice(.word))]
 pub struct UnknownAdjustment {
     /// The word.
     pub word: String,
+}
+
+/// What is wrong with a word, and what may be meant.
+struct Advice<'a>(&'a str);
+
+impl fmt::Display for Advice<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.strip_prefix("scale=") {
+            Some(factor) => write!(
+                f,
+                ": {factor} is no factor, which is a positive number; to mirror, use @mirror=x (or y, z)"
+            ),
+            None => f.write_str(
+                " means nothing after a file; use @mm (the unit of its numbers: um, mm, cm, m, in or ft), \
+                 @scale=0.001, @mirror=x (or y, z) or @surface",
+            ),
+        }
+    }
 }
 
 impl Default for Adjustments {

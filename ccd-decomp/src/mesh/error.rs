@@ -40,6 +40,9 @@ pub enum MeshFault {
         /// The content that can be read instead.
         instead: &'static str,
     },
+    /// The file is of a CAD system, whatever its name says.
+    #[error("is a STEP file, whatever its name says: {STEP}")]
+    Step,
     /// The format is known, but this build does not read it.
     #[error("is {format}, which this build cannot read; build it with the feature {feature:?}")]
     NotBuilt {
@@ -219,12 +222,21 @@ impl fmt::Display for Extension<'_> {
     }
 }
 
+/// How a STEP file becomes a mesh.
+const STEP: &str = "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
+                    `gmsh part.step -2 -o part.stl`";
+
 /// Says how a file of a well-known format becomes a mesh.
 fn conversion(extension: &str) -> Option<&'static str> {
     Some(match extension {
-        "step" | "stp" | "iges" | "igs" | "brep" => {
+        "step" | "stp" => STEP,
+        "iges" | "igs" => {
             "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
-             `gmsh part.step -2 -o part.stl`"
+             `gmsh part.iges -2 -o part.stl`"
+        }
+        "brep" => {
+            "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
+             `gmsh part.brep -2 -o part.stl`"
         }
         "sldprt" | "ipt" | "catpart" | "prt" | "f3d" | "fcstd" | "x_t" | "jt" | "sat" | "dwg" => {
             "it is a file of a CAD system: export it there as .stl or .3mf"

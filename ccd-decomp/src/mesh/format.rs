@@ -97,7 +97,9 @@ impl Format {
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
-            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) => gltf::references(bytes),
+            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) && !is_step(&text::decoded(bytes)) => {
+                gltf::references(bytes)
+            }
             _ => Ok(Vec::new()),
         }
     }
@@ -107,6 +109,9 @@ impl Format {
         let unmarked = text::decoded(bytes);
         if is_lfs_pointer(&unmarked) {
             return Err(MeshFault::LfsPointer);
+        }
+        if is_step(&unmarked) {
+            return Err(MeshFault::Step);
         }
         match self {
             Format::Obj => obj::parse(&text::plain(bytes)),
@@ -123,6 +128,11 @@ impl Format {
             Format::ThreeMf => Err(not_built(beside, "3MF", "3mf")),
         }
     }
+}
+
+/// Returns whether a file is of a CAD system, which no program takes for a mesh.
+fn is_step(bytes: &[u8]) -> bool {
+    bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
 }
 
 #[cfg(not(all(feature = "gltf", feature = "3mf")))]

@@ -51,7 +51,10 @@ pub enum SourceError {
         shape: String,
     },
     /// A shape needs another number of lengths.
-    #[error("{shape:?} takes {expected} lengths, not {given}; {EXAMPLES}")]
+    #[error(
+        "{shape:?} takes {expected} length{}, not {given}; {EXAMPLES}",
+        if *.expected == 1 { "" } else { "s" }
+    )]
     WrongCount {
         /// The shape.
         shape: &'static str,

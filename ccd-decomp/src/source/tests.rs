@@ -41,9 +41,13 @@ fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
 
 #[rstest]
 #[case("part.stl@mn", "@mn means nothing after a file; use @mm")]
-#[case("part.stl@scale=0", "@scale=0 means nothing")]
-#[case("part.stl@scale=-2", "@scale=-2 means nothing")]
-#[case("part.stl@scale=nan", "@scale=nan means nothing")]
+#[case(
+    "part.stl@scale=0",
+    "@scale=0: 0 is no factor, which is a positive number; to mirror"
+)]
+#[case("part.stl@scale=-2", "@scale=-2: -2 is no factor")]
+#[case("part.stl@scale=nan", "@scale=nan: nan is no factor")]
+#[case("part.stl@scale=1,5", "@scale=1,5: 1,5 is no factor")]
 #[case("part.stl@mirror=w", "@mirror=w means nothing")]
 #[case("part.stl@mm@", "@ means nothing")]
 #[case("part.ccd@mm", "part.ccd: a prepared body has its unit")]
@@ -164,6 +168,7 @@ fn a_stored_body_stays_as_it_is() {
 #[rstest]
 #[case("", SourceError::Empty)]
 #[case("ball:1", SourceError::UnknownShape { shape: "ball".into() })]
+#[case("sphere", SourceError::WrongCount { shape: "sphere", expected: 1, given: 0 })]
 #[case("box:1,2", SourceError::WrongCount { shape: "box", expected: 3, given: 2 })]
 #[case("sphere:", SourceError::BadLength { shape: "sphere", length: String::new() })]
 #[case("sphere:-1", SourceError::BadLength { shape: "sphere", length: "-1".into() })]
@@ -273,4 +278,16 @@ fn a_mesh_that_is_not_what_was_asked_for_is_named_with_its_file() {
     std::fs::remove_file(&file).unwrap();
     let expected = format!("{source}: open; edges with one face: 3 (e0-1, e0-2, e1-2)");
     assert!(error.starts_with(&expected), "{error}");
+}
+
+/// One length is no plural.
+#[test]
+fn the_number_of_lengths_is_worded() {
+    for (text, start) in [
+        ("sphere:1,2", "\"sphere\" takes 1 length, not 2; use box"),
+        ("cone", "\"cone\" takes 2 lengths, not 0; use box"),
+    ] {
+        let message = text.parse::<BodySource>().unwrap_err().to_string();
+        assert!(message.starts_with(start), "{message}");
+    }
 }

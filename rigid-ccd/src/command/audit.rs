@@ -58,7 +58,7 @@ pub(super) struct AuditArgs {
     /// Number of threads; it changes no answer [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Print only warnings and errors on standard error
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
     #[arg(long, short)]
     quiet: bool,
 }

@@ -78,8 +78,11 @@ impl Pair {
             false => Some(load(loading, ("--b", text_b), &source_b)?),
         };
         if let (Some((b, unit_b)), false) = (&b, loading.quiet) {
-            compare_units(unit_a, *unit_b);
-            Size::compare(Size::of(&a), Size::of(b));
+            let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
+            match mixed_units(sources) {
+                Some(remark) => complain(&remark),
+                None => Size::compare(Size::of(&a), Size::of(b)),
+            }
         }
         let b = b.map(|(b, _)| b);
         let checksums = [("--a", &source_a), ("--b", &source_b)]
@@ -138,15 +141,27 @@ fn load(
     Ok((body, unit))
 }
 
-/// Warns when two files say that their units differ.
-fn compare_units(a: Option<Unit>, b: Option<Unit>) {
-    if let (Some(a), Some(b)) = (a, b)
-        && a != b
-    {
-        complain(&format!(
-            "--a is in {a}, --b in {b}, and the numbers of both are kept: give --unit {a} or --unit {b} to convert them"
-        ));
-    }
+/// Says that two files are in different units, or that the unit of only one is known. Shapes have none: their numbers are
+/// the user's own.
+fn mixed_units([(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2]) -> Option<String> {
+    let (known, unit, other) = match (a, b) {
+        (Some(a), Some(b)) if a != b => {
+            return Some(format!(
+                "--a is in {a}, --b in {b}, and the numbers of both are kept: give --unit {a} or --unit {b} to convert them"
+            ));
+        }
+        (Some(unit), None) if is_file(source_b) => ("--a", unit, "--b"),
+        (None, Some(unit)) if is_file(source_a) => ("--b", unit, "--a"),
+        _ => return None,
+    };
+    Some(format!(
+        "{known} is in {unit}, {other} does not say its unit, and its numbers are taken to be in {unit}, too: give --unit \
+         {unit} if they are, or else say in which unit they are, such as part.stl@in"
+    ))
+}
+
+fn is_file(source: &BodySource) -> bool {
+    matches!(source, BodySource::Mesh(_) | BodySource::Stored(_))
 }
 
 fn with_hull_tree(body: Body) -> Result<Body> {

@@ -22,6 +22,7 @@ use crate::batch::{
 use crate::command::pair::{Loading, Pair};
 use crate::command::progress::{Progress, Total};
 use crate::picture::{Asked, Claim};
+use crate::table::results::Status;
 use answering::Answering;
 use anyhow::{Result, bail};
 use ccd_core::{Config, StartPolicy};
@@ -36,6 +37,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
     check_question(args)?;
+    check_check(args)?;
     let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
     check_rows(args, &rows)?;
     let places = Places::claim(args)?;
@@ -96,9 +98,9 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
                 .chain(rows.remarks()),
         );
     }
-    Ok(match exit(end) {
-        Exit::AllAnswered => shown,
-        bad => bad,
+    Ok(match (exit(args, end), shown) {
+        (Exit::AllAnswered, shown) | (_, shown @ Exit::SomeRowsBad) => shown,
+        (bad, _) => bad,
     })
 }
 
@@ -196,6 +198,26 @@ fn check_question(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
+/// Refuses to check what proves nothing.
+fn check_check(args: &QueryArgs) -> Result<()> {
+    let ask = args.ask;
+    if !args.check {
+        return Ok(());
+    }
+    if args.bound == Some(BoundKind::Published) {
+        bail!("--check needs certified answers, which --bound published does not give");
+    }
+    if ask == Question::GreatestDistance {
+        bail!("--check has no use with --ask {ask}; compare column distance_upper");
+    }
+    if ask.is_for_a_distance() && args.clearance.is_none() {
+        bail!(
+            "--check needs --clearance with --ask {ask}: a distance alone is neither good nor bad"
+        );
+    }
+    Ok(())
+}
+
 /// Refuses options that are for tables of motions, where the table is one of paths.
 fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
     match rows {
@@ -276,9 +298,22 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
     }
 }
 
-fn exit(end: Checkpoint) -> Exit {
-    match end.bad {
-        0 => Exit::AllAnswered,
+/// Returns the end of a run with these rows; says how many a check is not satisfied with.
+fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
+    let counts = Status::ALL.into_iter().zip(end.counts);
+    let failed: usize = counts
+        .filter(|(status, _)| !status.is_proof())
+        .map(|(_, count)| count)
+        .sum();
+    if args.check && failed > 0 {
+        let rows: usize = end.counts.iter().sum();
+        complain(&format!(
+            "--check: {failed} of {rows} rows are not proven free or kept"
+        ));
+    }
+    match (end.bad, failed) {
+        (0, 1..) if args.check => Exit::SomeNotFree,
+        (0, _) => Exit::AllAnswered,
         _ => Exit::SomeRowsBad,
     }
 }

@@ -29,9 +29,9 @@ pub(super) struct SceneCommandArgs {
     meshes: MeshArgs,
     #[command(flatten)]
     pieces: PiecesArgs,
-    /// End of all motions
-    #[arg(long, value_name = "TIME", default_value_t = 1.0, value_parser = not_negative, allow_hyphen_values = true)]
-    duration: f64,
+    /// End of all motions [default: 1]
+    #[arg(long, value_name = "TIME", value_parser = not_negative, allow_hyphen_values = true)]
+    duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: f64,
@@ -45,13 +45,14 @@ pub(super) struct SceneCommandArgs {
     /// Write the table of contacts to this file, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     out: PathBuf,
-    /// Print only warnings and errors on standard error
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
     #[arg(long, short)]
     quiet: bool,
 }
 
 const AFTER_HELP: &str = "\
 Examples:
+  printf 'body,id,px,vx\\nsphere:.5,ball,-3,4\\n\"box:.5,1,1\",wall,0,0\\n' > balls.csv; ccd scene balls.csv
   ccd scene scene.csv --duration 0.5 --out contacts.csv
   ccd view --scene scene.csv --duration 0.5
 
@@ -112,10 +113,11 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         SceneArgs {
             meshes: &args.meshes,
             pieces: &args.pieces,
+            duration: args.duration,
         },
     )?;
     if !args.quiet {
-        table.report();
+        table.report(args.tolerance);
     }
     for (option, path) in table.files() {
         refuse_overwriting((option, path), ("--out", &args.out))?;
@@ -127,9 +129,9 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         budget: args.budget,
         ..Config::default()
     };
-    let contacts = table.contacts(config, args.duration);
+    let contacts = table.contacts(config);
     if !args.quiet {
-        complain(&scene_verdict(&table.shown(), &contacts, args.duration));
+        complain(&scene_verdict(&table.shown(), &contacts, table.duration));
     }
     let ids: Vec<&str> = table.ids().collect();
     let mut out = Table::start(out, &COLUMNS)?;

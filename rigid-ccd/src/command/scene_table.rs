@@ -2,11 +2,13 @@
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
-use super::tell;
+use super::{complain, complain_of, tell};
 use crate::picture::Shown;
-use crate::table::motions::MotionTable;
-use crate::{Impact, PairError, Scene};
+use crate::table::motions::{MotionTable, Query, RowPosition, TableError};
+use crate::text::Number;
+use crate::{Impact, PairError, Remark, Scene};
 use anyhow::{Context, Result, bail};
+use ccd_core::order::lesser;
 use ccd_core::{Body, Config, Motion};
 use ccd_decomp::BodySource;
 use std::collections::HashMap;
@@ -15,11 +17,16 @@ use std::path::{Path, PathBuf};
 /// The column that names a body.
 const BODY: &str = "body";
 
-/// How the bodies of a scene are loaded.
+/// The end of all motions, where none is given.
+const DURATION: f64 = 1.0;
+
+/// How the bodies of a scene are loaded, and how long they move.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
     pub(super) meshes: &'a MeshArgs,
     pub(super) pieces: &'a PiecesArgs,
+    /// The end of all motions, if it is given.
+    pub(super) duration: Option<f64>,
 }
 
 /// The bodies of a scene.
@@ -29,7 +36,13 @@ pub(super) struct SceneTable {
     files: Vec<PathBuf>,
     /// What was found about each.
     reports: Vec<String>,
+    /// What is odd about the motions.
+    remarks: Vec<Remark>,
     rows: Vec<Row>,
+    /// The end of all motions.
+    pub(super) duration: f64,
+    /// Whether nobody has given it.
+    is_usual: bool,
 }
 
 /// A body of a scene.
@@ -45,15 +58,22 @@ struct Row {
 /// Reads a table, and loads each body once.
 pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     let name = || path.display().to_string();
-    let (described, table) = read_motions(path)?;
+    let duration = how.duration.unwrap_or(DURATION);
+    let (described, table) = read_motions(path, duration)?;
     if table.rows.is_empty() {
         bail!("{}: has no bodies", name());
+    }
+    if let Some(problem) = twice(&table.rows) {
+        bail!("{}: {problem}", name());
     }
     let mut scene = SceneTable {
         bodies: HashMap::new(),
         files: Vec::new(),
         reports: Vec::new(),
+        remarks: table.remarks,
         rows: Vec::new(),
+        duration,
+        is_usual: how.duration.is_none(),
     };
     for (text, (position, query)) in described.into_iter().zip(table.rows) {
         scene
@@ -73,8 +93,22 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     Ok(scene)
 }
 
+/// Says which rows have the same id: a contact would not tell which of them touches.
+fn twice(rows: &[(RowPosition, Query)]) -> Option<String> {
+    let mut known: HashMap<&str, RowPosition> = HashMap::new();
+    rows.iter().find_map(|(position, query)| {
+        let first = known.insert(&query.id, *position)?;
+        let [one, other] =
+            [first, *position].map(|RowPosition { row, line }| format!("row {row} (line {line})"));
+        Some(format!(
+            "{one} and {other} have the same id {:?}; give each body its own",
+            query.id
+        ))
+    })
+}
+
 /// Reads a table as descriptions of bodies beside motions.
-fn read_motions(path: &Path) -> Result<(Vec<String>, MotionTable)> {
+fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)> {
     let name = || path.display().to_string();
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
@@ -87,13 +121,13 @@ fn read_motions(path: &Path) -> Result<(Vec<String>, MotionTable)> {
             name()
         );
     };
-    if header.iter().any(|column| column == "duration") {
+    if let Some(time) = header.iter().find(|column| TIMES.contains(column)) {
         bail!(
-            "{}: all motions of a scene end together: give --duration in place of the column",
+            "{}: all motions of a scene end together: give --duration in place of the column `{time}`",
             name()
         );
     }
-    // The other columns are those of body A in a table of motions.
+    // The other columns are those of body A in a table of motions, which all end together.
     let mut motions = csv::Writer::from_writer(Vec::new());
     let others = |record: &csv::StringRecord, prefix: &dyn Fn(&str) -> String| -> Vec<String> {
         let cells = record.iter().enumerate().filter(|(k, _)| *k != column);
@@ -103,7 +137,9 @@ fn read_motions(path: &Path) -> Result<(Vec<String>, MotionTable)> {
         "id" => cell.to_owned(),
         _ => format!("a_{cell}"),
     };
-    motions.write_record(others(&header, &prefixed))?;
+    let mut names = others(&header, &prefixed);
+    names.push("duration".to_owned());
+    motions.write_record(names)?;
     let mut described = Vec::new();
     for record in reader.records() {
         let record = record.with_context(|| {
@@ -113,18 +149,45 @@ fn read_motions(path: &Path) -> Result<(Vec<String>, MotionTable)> {
             )
         })?;
         described.push(record.get(column).unwrap_or_default().to_owned());
-        motions.write_record(others(&record, &str::to_owned))?;
+        let mut cells = others(&record, &str::to_owned);
+        cells.push(Number(duration).to_string());
+        motions.write_record(cells)?;
     }
-    // The columns have no prefix here.
-    let plain = |error: String| error.replace("`a_", "`").replace("column a_", "column ");
     let table = match MotionTable::read(motions.into_inner()?.as_slice()) {
         Ok(table) => table,
-        Err(error) => bail!("{}: {}", name(), plain(error.to_string())),
+        Err(error) => bail!("{}: {}", name(), worded(&error)),
     };
     if let Some(error) = table.errors.first() {
-        bail!("{}: {}", name(), plain(error.to_string()));
+        bail!("{}: {}", name(), plain(&error.to_string()));
     }
     Ok((described, table))
+}
+
+/// What a column of times may be called, which a scene does not have.
+const TIMES: [&str; 3] = ["duration", "t", "time"];
+
+/// Words an error of a table of motions for one of a scene.
+fn worded(error: &TableError) -> String {
+    match error {
+        TableError::UnknownColumn {
+            column,
+            nearest: None,
+            ..
+        } => plain(&format!(
+            "header: unknown column `{column}`; known columns of a scene are body, id, px py pz, qw qx qy qz, vx vy vz, \
+             wx wy wz, end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
+        )),
+        error => plain(&error.to_string()),
+    }
+}
+
+/// Takes the prefix of body A from the names of columns, which have none in a scene; its duration is an option.
+fn plain(error: &str) -> String {
+    let error = error.replace("column duration", "--duration");
+    let words = error.split_inclusive([' ', '`']);
+    words
+        .map(|word| word.strip_prefix("a_").unwrap_or(word))
+        .collect()
 }
 
 impl SceneTable {
@@ -147,11 +210,21 @@ impl SceneTable {
         files.map(|path| ("a body of the scene", path.as_path()))
     }
 
-    /// Prints what was found about each body.
-    pub(super) fn report(&self) {
+    /// Prints what was found about each body, until when they move, and what is odd about it.
+    pub(super) fn report(&self, tolerance: f64) {
         for report in &self.reports {
             tell(report);
         }
+        if self.is_usual {
+            complain(&format!(
+                "without --duration, all motions end at {}",
+                self.duration
+            ));
+        }
+        let sizes = self.bodies.values().map(Remark::size);
+        let least = sizes.filter(|&size| size > 0.0).fold(f64::INFINITY, lesser);
+        let remarks = self.remarks.iter().copied();
+        complain_of(remarks.chain(Remark::of_tolerance(tolerance, [least; 2])));
     }
 
     /// Returns the bodies in the order of their rows.
@@ -173,11 +246,11 @@ impl SceneTable {
     }
 
     /// Finds the first contact of each pair of bodies that touch, in order of time.
-    pub(super) fn contacts(&self, config: Config, duration: f64) -> Vec<Result<Impact, PairError>> {
+    pub(super) fn contacts(&self, config: Config) -> Vec<Result<Impact, PairError>> {
         let mut scene = Scene::new().with_config(config);
         for body in self.shown() {
             scene.add(body.body, body.motion);
         }
-        scene.contacts(duration)
+        scene.contacts(self.duration)
     }
 }

@@ -7,11 +7,11 @@ use args::Subject;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::Chosen;
 
-use super::files::{input_name, open_courses, refuse_overwriting};
+use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::scene_table::{self, SceneArgs};
-use super::{Exit, complain};
+use super::{Exit, complain, complain_of};
 use crate::batch::{Bodies, Question, Settings, Solve, SolverKind, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
@@ -46,7 +46,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     for (option, path) in &read {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
-    let (rows, _) = open_courses(motions, Question::FirstContact.grouping())?;
+    let (mut rows, _) = open_courses(motions, Question::FirstContact.grouping())?;
     let out = Output::claim(&args.out)?;
     let pair = Pair::load(Loading {
         bodies,
@@ -65,7 +65,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         clearance: None,
     };
     let mut solver = settings.method.solver(Instructions::Best);
-    for row in rows.take(LOOKED_AT) {
+    for row in rows.by_ref().take(LOOKED_AT) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {
@@ -87,7 +87,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
             break;
         }
     }
-    let title = title(bodies);
+    remark(args, &pair, &rows);
     if let (Some(results), true) = (&args.results, chosen.is_empty()) {
         bail!(
             "no row of {} is in {}",
@@ -96,11 +96,19 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         );
     }
     let subject = Drawn {
-        title: &title,
+        title: &title(bodies),
         pair: &pair,
         asked,
     };
     write_rows(subject, chosen, out, args.quiet)
+}
+
+/// Says what is odd about the rows, unless they are shown as another run has answered them.
+fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
+    if args.results.is_none() && !args.quiet {
+        let of_tolerance = pair.remark(args.tolerance);
+        complain_of(of_tolerance.into_iter().chain(rows.remarks()));
+    }
 }
 
 /// What a page of rows is about.
@@ -210,16 +218,16 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     refuse_overwriting(("--scene", path), ("--out", &args.out))?;
     let table = scene_table::read(path, how)?;
     if !args.quiet {
-        table.report();
+        table.report(args.tolerance);
     }
     for (option, path) in table.files() {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let out = Output::claim(&args.out)?;
     let shown = table.shown();
-    let contacts = table.contacts(settings(args).config, args.duration);
+    let contacts = table.contacts(settings(args).config);
     let title = input_name(path);
-    let (meshes, view) = scene_view(&title, &shown, &contacts, args.duration);
+    let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
     if !args.quiet {
         complain(&view.verdict);
     }

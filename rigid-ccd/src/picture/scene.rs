@@ -94,8 +94,10 @@ pub(crate) fn scene_verdict(
         Some(first) => {
             let [a, b] = first.bodies.map(|k| bodies[k].name);
             format!(
-                "{all}, {} in contact. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
+                "{all}, {} in contact, to the end at {}. The first at {}: {a} and {b}. Proven: no pair touches before its \
+                 time.",
                 pairs(hits.len()),
+                number(duration),
                 number(first.hit.time),
             )
         }

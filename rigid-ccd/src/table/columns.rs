@@ -187,14 +187,33 @@ impl Columns {
                 let (given, missing): (Vec<usize>, Vec<usize>) =
                     self.slots(side, quantity).partition(is_there);
                 if let (Some(&given), Some(&missing)) = (given.first(), missing.first()) {
-                    return Err(TableError::MissingColumn {
-                        given: self.name(given).to_owned(),
-                        missing: self.name(missing).to_owned(),
-                    });
+                    return Err(self.missing(given, missing));
                 }
             }
+            self.check_spin(side)?;
         }
         Ok(())
+    }
+
+    /// Refuses angular velocities between poses that have no orientation: all rows would be at the identity, and what
+    /// an angular velocity leaves over would be turned back.
+    fn check_spin(&self, side: Side) -> Result<(), TableError> {
+        let is_there = |&slot: &usize| self.cells[slot].is_some();
+        let spin = self.slots(side, Quantity::Spin).find(is_there);
+        let orientation = self
+            .slots(side, Quantity::Orientation)
+            .find(|slot| !is_there(slot));
+        match (self.form, spin, orientation) {
+            (Form::Paths, Some(given), Some(missing)) => Err(self.missing(given, missing)),
+            _ => Ok(()),
+        }
+    }
+
+    fn missing(&self, given: usize, missing: usize) -> TableError {
+        TableError::MissingColumn {
+            given: self.name(given).to_owned(),
+            missing: self.name(missing).to_owned(),
+        }
     }
 
     /// Returns what a row of the table is.
@@ -263,6 +282,13 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
         return TableError::IndexOfPandas { column };
     }
     let lower = column.to_ascii_lowercase();
+    if lower == "time" {
+        return TableError::UnknownColumn {
+            column: column.to_owned(),
+            known: form.listed(),
+            nearest: Some(TIME_NAME.to_owned()),
+        };
+    }
     if let Some(prefix) = prefix_of_angle(&lower) {
         let column = column.to_owned();
         return TableError::Angle { column, prefix };

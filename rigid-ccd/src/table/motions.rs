@@ -37,6 +37,8 @@ pub struct MotionTable {
     pub rows: Vec<(RowPosition, Query)>,
     /// The errors of the other rows.
     pub errors: Vec<RowError>,
+    /// What is odd about the rows, each kind once.
+    pub remarks: Vec<Remark>,
 }
 
 impl MotionTable {
@@ -46,12 +48,14 @@ impl MotionTable {
     /// The errors of [`MotionRows`]. Bad rows are listed in [`MotionTable::errors`] instead.
     pub fn read(input: impl io::Read) -> Result<Self, TableError> {
         let mut table = MotionTable::default();
-        for row in MotionRows::new(input)? {
+        let mut rows = MotionRows::new(input)?;
+        for row in &mut rows {
             match row? {
                 Ok(row) => table.rows.push(row),
                 Err(error) => table.errors.push(error),
             }
         }
+        table.remarks = rows.remarks();
         Ok(table)
     }
 }

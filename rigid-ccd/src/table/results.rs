@@ -73,12 +73,14 @@ impl Compared {
     /// Returns the reason of a clearance that is not verified.
     fn within_bounds(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
-        match self.excess > 0.0 {
-            true => format!(
+        match self.clearance {
+            _ if self.excess > 0.0 => format!(
                 "{bounds}, which are wider by the excess of the bodies over their shapes: up to {:.3e} together",
                 self.excess
             ),
-            false => bounds.to_owned(),
+            // Bodies that may touch keep none, and are never nearer than that.
+            Some(0.0) => format!("{bounds}: the bodies may touch"),
+            _ => format!("{bounds}; a smaller --tolerance may decide"),
         }
     }
 }

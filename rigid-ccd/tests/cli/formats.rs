@@ -333,11 +333,11 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
     let expected =
         "--a is in m, --b in mm, and the numbers of both are kept: give --unit m or --unit mm";
     assert!(message.contains(expected), "{message}");
-    // What has no unit is nothing to compare with.
+    // A shape is in the unit that its user means; a file is in one that it does not say.
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
-    for other in [BALL, name(&plain)] {
+    for (other, is_told) in [(BALL, false), (name(&plain), true)] {
         let message = stderr(&query(&cube, other));
-        assert!(!message.contains("give --unit"), "{message}");
+        assert_eq!(message.contains("give --unit"), is_told, "{message}");
     }
     let output = Run::query(&["--a", BALL, "--b", BALL, "--unit", "mile"])
         .stdin(FALL)

@@ -248,3 +248,89 @@ fn traps_are_remarked_upon_once() {
         assert!(!stderr(&output).contains("turns"), "{}", stderr(&output));
     }
 }
+
+/// Where one of two files says its unit, the numbers of the other may be in another one. Shapes are in any.
+#[test]
+fn a_unit_beside_none_is_told_once() {
+    let scene = Scene::new("mixed-units");
+    let mesh = scene.file("part.obj", crate::TETRAHEDRON);
+    let plain = mesh.to_str().unwrap();
+    let in_mm = format!("{plain}@mm");
+    let large = format!("{plain}@scale=1000");
+    let told = |options: &[&str]| {
+        let output = Run::query(options).stdin(DROP).output();
+        assert!(output.status.success(), "{}", stderr(&output));
+        let message = stderr(&output);
+        let lines = message.lines().filter(|line| line.starts_with("ccd: "));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    for (a, b, start) in [
+        (
+            &*in_mm,
+            plain,
+            "ccd: --a is in mm, --b does not say its unit",
+        ),
+        (
+            plain,
+            &in_mm,
+            "ccd: --b is in mm, --a does not say its unit",
+        ),
+        (
+            &in_mm,
+            &large,
+            "ccd: --a is in mm, --b does not say its unit",
+        ),
+        (plain, &large, "ccd: --b is 1000 times as large as --a"),
+    ] {
+        let lines = told(&["--a", a, "--b", b]);
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!(lines[0].starts_with(start), "{lines:?}");
+    }
+    assert_eq!(told(&["--a", &in_mm, "--b", "sphere:1"]), [""; 0]);
+    assert_eq!(
+        told(&["--a", &in_mm, "--b", plain, "--unit", "mm"]),
+        [""; 0]
+    );
+}
+
+/// Between poses without orientations all of a turn would be turned back.
+#[test]
+fn angular_velocities_of_a_path_need_orientations() {
+    let message = messages_of("t,a_px,a_wz\n0,9,1\n1,9,1\n");
+    assert!(
+        message.contains("no column `a_qw`, but column `a_wz` needs it"),
+        "{message}"
+    );
+    for column in ["a_vx", "b_end_px", "duration"] {
+        let message = messages_of(&format!("t,a_px,{column}\n0,9,1\n1,9,1\n"));
+        let expected =
+            format!("unknown column `{column}`; a table with a column t holds the poses");
+        assert!(message.contains(&expected), "{message}");
+    }
+    let message = messages_of("id,time,a_px\nx,0,9\n");
+    assert!(
+        message.contains("unknown column `time`; did you mean `t`?"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_page_of_rows_is_remarked_upon() {
+    let scene = Scene::new("page-remarks");
+    let motions = scene.file("motions.csv", "a_px,a_wz\n9,90\n");
+    let run = Run::bare(&[
+        "view",
+        "--motions",
+        motions.to_str().unwrap(),
+        "--out",
+        "page.html",
+    ]);
+    let run = run.folder(&scene.directory).args(&SPHERES);
+    let message = stderr(&run.output());
+    assert_eq!(
+        message.matches("a round number of degrees").count(),
+        1,
+        "{message}"
+    );
+    assert_eq!(stderr(&run.args(&["-q"]).output()), "");
+}

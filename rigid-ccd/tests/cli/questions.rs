@@ -92,7 +92,8 @@ fn the_least_distance_is_bracketed_and_compared() {
     let row = only(&run);
     assert_eq!(row.text("status"), "unverified");
     assert!(
-        row.text("reason").contains("--clearance"),
+        row.text("reason")
+            .contains("a smaller --tolerance may decide"),
         "{}",
         row.text("reason")
     );
@@ -337,4 +338,61 @@ fn bodies_that_overlap_at_the_start_are_overlapping() {
         (row.text("status"), row.text("time")),
         ("overlapping", "0.0")
     );
+}
+
+/// For scripts: the exit code is 0 only where every row is proven.
+#[test]
+fn a_check_fails_unless_every_row_is_proven() {
+    let near = &["--clearance", "0.21"][..];
+    let far = &["--clearance", "0.19"][..];
+    let open = &["--clearance", "0.2", "--tolerance", "0.1"][..];
+    let short = &["--margin", "0.3", "--budget", "1"][..];
+    for (asked, options, status, code) in [
+        ("first-contact", &[][..], "free", 0),
+        ("first-contact", &["--margin", "0.3"], "contact", 3),
+        ("is-free", &["--margin", "0.3"], "contact", 3),
+        ("contact-interval", short, "unresolved", 3),
+        ("closest-approach", far, "kept", 0),
+        ("closest-approach", near, "violated", 3),
+        ("closest-approach", open, "unverified", 3),
+    ] {
+        let run = ask(asked, &BALLS, PASSES).args(options);
+        assert_eq!(only(&run).text("status"), status, "{options:?}");
+        let output = run.args(&["--check", "-q"]).output();
+        assert_eq!(output.status.code(), Some(code), "{asked} {options:?}");
+        let told = stderr(&output).contains("--check: 1 of 1 rows");
+        assert_eq!(told, code == 3, "{}", stderr(&output));
+    }
+    // A bad row is worse.
+    let two = format!("{}bad,x\n", "id,a_px\nnear,0\n");
+    let output = Run::query(&BALLS).args(&["--check"]).stdin(&two).output();
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    for (options, refusal) in [
+        (&["--ask", "distance"][..], "--check needs --clearance"),
+        (&["--ask", "greatest-distance"], "--check has no use"),
+        (
+            &["--schedule", "fast", "--bound", "published"],
+            "--check needs certified answers",
+        ),
+    ] {
+        let run = Run::query(&BALLS).args(&["--check"]).args(options);
+        let output = run.stdin(PASSES).output();
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(stderr(&output).contains(refusal), "{}", stderr(&output));
+    }
+}
+
+/// The same command with --resume finds the run finished, and its verdict as it was.
+#[test]
+fn a_finished_check_fails_again() {
+    let scene = Scene::new("check-again");
+    let motions = scene.file("motions.csv", DROP);
+    let out = scene.directory.join("results.csv");
+    let query = ["query", "--motions", motions.to_str().unwrap(), "--check"];
+    let run = Run::bare(&query)
+        .args(&FALLING_CUBE)
+        .args(&["--out", out.to_str().unwrap()]);
+    assert_eq!(run.output().status.code(), Some(3));
+    let again = run.args(&["--resume"]).output();
+    assert_eq!(again.status.code(), Some(3), "{}", stderr(&again));
 }

@@ -1,6 +1,7 @@
 //! `ccd scene`.
 
 use crate::command::{Row, Run, Scene, parse, stderr};
+use std::path::Path;
 
 /// Two balls that fall onto a table, the one below it first, and one that never does.
 const BODIES: &str = "body,id,px,pz,vz\n\
@@ -92,4 +93,121 @@ fn a_scene_is_not_overwritten() {
     let output = Run::bare(&["scene", bodies, "--out", bodies]).output();
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES);
+}
+
+/// Both commands that read a table of a scene.
+fn both(bodies: &str, options: &[&str]) -> [(Option<i32>, String); 2] {
+    let out = Path::new(bodies).with_extension("html");
+    let out = out.to_str().unwrap();
+    [
+        &["scene", bodies][..],
+        &["view", "--scene", bodies, "--out", out],
+    ]
+    .map(|command| {
+        let output = Run::bare(command).args(options).output();
+        (output.status.code(), stderr(&output))
+    })
+}
+
+#[test]
+fn a_scene_is_remarked_upon_as_a_query_is() {
+    let scene = Scene::new("scene-remarks");
+    let table = "body,px,wz,qw,qx,qy,qz\nsphere:0.001,0,90,1,1,0,0\nsphere:1,9,0,1,0,0,0\n";
+    let bodies = scene.file("scene.csv", table);
+    let bodies = bodies.to_str().unwrap();
+    let remarks = [
+        "the tolerance is large against the smaller body",
+        "an angular velocity is a round number of degrees",
+        "a quaternion is far from unit length",
+    ];
+    for (code, message) in both(bodies, &[]) {
+        assert_eq!(code, Some(0), "{message}");
+        for remark in remarks {
+            assert_eq!(message.matches(remark).count(), 1, "{message}");
+        }
+        assert!(message.contains("without --duration, all motions end at 1\n"));
+        assert!(message.contains("to the end at 1."), "{message}");
+    }
+    // Of a tenth of the time, it is a turn and a half.
+    for (_, message) in both(bodies, &["--duration", "0.1", "--tolerance", "1e-6"]) {
+        assert!(!message.contains("degrees") && !message.contains("the tolerance is"));
+        assert!(!message.contains("without --duration") && message.contains("to the end at 0.1."));
+    }
+    for (_, message) in both(bodies, &["-q"]) {
+        assert_eq!(message, "");
+    }
+}
+
+/// All motions end at the duration, also those that are given by the pose there.
+#[test]
+fn an_end_pose_is_reached_at_the_end() {
+    let scene = Scene::new("scene-end");
+    let table = "body,px,end_px,end_py,end_pz\nsphere:1,0,0,0,0\nsphere:1,8,4,0,0\n";
+    let bodies = scene.file("scene.csv", table);
+    let bodies = bodies.to_str().unwrap();
+    assert!(contacts(&Run::bare(&["scene", bodies, "--duration", "2"])).is_empty());
+    let nearer = scene.file("nearer.csv", &table.replace("8,4", "8,0"));
+    let rows = contacts(&Run::bare(&[
+        "scene",
+        nearer.to_str().unwrap(),
+        "--duration",
+        "2",
+    ]));
+    rows[0].assert_in_time(1.5, 4.0);
+    for (code, message) in both(bodies, &["--duration", "0"]) {
+        assert_eq!(code, Some(2), "{message}");
+        assert!(
+            message.contains("row 0 (line 2): --duration: 0 is not"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn tables_that_are_no_scene_are_refused_in_its_words() {
+    let scene = Scene::new("scene-words");
+    for (table, expected) in [
+        (
+            "body,id\nsphere:1,x\nsphere:2,y\nsphere:3,x\n",
+            "row 0 (line 2) and row 2 (line 4) have the same id \"x\"",
+        ),
+        (
+            "body,roll\nsphere:1,0\n",
+            "quaternions: columns qw qx qy qz, w first",
+        ),
+        (
+            "body,t\nsphere:1,0\n",
+            "give --duration in place of the column `t`",
+        ),
+        (
+            "body,time\nsphere:1,0\n",
+            "give --duration in place of the column `time`",
+        ),
+        (
+            "body,mass\nsphere:1,0\n",
+            "unknown column `mass`; known columns of a scene are body, id, px py pz",
+        ),
+        (
+            "body,qw\nsphere:1,1\n",
+            "no column `qx`, but column `qw` needs it",
+        ),
+        (
+            "body,a_px\nsphere:1,1\n",
+            "unknown column `a_px`; did you mean `px`?",
+        ),
+        (
+            "body,px\nsphere:1,a\n",
+            "row 0 (line 2): column px: `a` is not a finite number",
+        ),
+        (
+            "body,px\nsphere,1\n",
+            "line 2: \"sphere\" takes 1 length, not 0; use",
+        ),
+    ] {
+        let bodies = scene.file("scene.csv", table);
+        for (code, message) in both(bodies.to_str().unwrap(), &[]) {
+            assert_eq!(code, Some(2), "{message}");
+            assert!(message.contains(expected), "{message}");
+        }
+    }
 }

@@ -99,7 +99,10 @@ pub(in crate::command) struct QueryArgs {
     /// is left unchanged
     #[arg(long)]
     pub(super) resume: bool,
-    /// Print only warnings and errors on standard error
+    /// End with exit code 3 unless every row is `free` or, with --clearance, `kept`
+    #[arg(long)]
+    pub(super) check: bool,
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
     #[arg(long, short)]
     pub(super) quiet: bool,
 }
@@ -146,6 +149,7 @@ impl QueryArgs {
             counters,
             no_micros,
             resume: _,
+            check: _,
             quiet: _,
         } = self;
         let flag = |given| if given { "given" } else { NOT_GIVEN }.to_owned();

@@ -5,7 +5,7 @@ pub(super) const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd query --a 'robot.glb#gripper' --b part.3mf --unit mm --motions motions.csv
-  ccd query --a gripper.stl --b shelf.stl --motions paths.csv --ask closest-approach --clearance .01
+  ccd query --a gripper.stl --b shelf.stl --motions paths.csv --ask closest-approach --clearance .01 --check
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv --html knots.html
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -
 
@@ -46,7 +46,7 @@ Table of paths:
   a_px ... a_qz, b_px, ...  poses of A and B at that time, as above
   a_cx a_cy a_cz, b_cx, ... centre of rotation, as above, the same in all rows of a path
   a_wx a_wy a_wz, b_wx, ... angular velocity to the next row, for turns of more than half a turn; it may be
-                            off by a quarter turn in all, and 0 is the shortest rotation [default: 0]
+                            off by a quarter turn in all, and 0 is the shortest rotation; it needs a_qw ... [default: 0]
   The results have a row for each path, and --rows counts paths; with --ask distance, a row for each
   row. Times are those of column `t`.
 
@@ -67,7 +67,8 @@ Table of results:
             measured        the distance is between distance_lower and distance_upper
             kept            it is at least --clearance
             violated        it is less than --clearance, also where bodies exceed their shape
-            unverified      --clearance is between both bounds, or a limit was reached
+            unverified      --clearance is between both bounds (a smaller --tolerance may decide), or a
+                            limit was reached
             unresolved      a limit was reached; no contact before `time`, not known after
             error           the row is not a valid query; most cells are empty
   time                      certified: no contact before it; from 0 to the duration; of a distance,
@@ -113,10 +114,11 @@ Long runs:
 With --bound published, times are not certified: contacts may be late or missed.
 
 Exit codes:
-  0  every row has an answer; `unresolved` is an answer
+  0  every row has an answer, whatever it is: also `contact`, `violated` and `unresolved`
   1  the results or the contacts cannot be written
   2  bad input: a file or an option that cannot be used, an output that another run is writing, rows
      of status `error`, or a row with more contacts than --budget allows
+  3  with --check: every row has an answer, and some are not `free` or, with --clearance, `kept`
 
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv

@@ -76,5 +76,5 @@ pub(super) fn leave_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint)
         ));
         print_summary(args, &Summary::new(args.tolerance).with_earlier(end.counts));
     }
-    Ok(exit(end))
+    Ok(exit(args, end))
 }

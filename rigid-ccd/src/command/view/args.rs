@@ -51,9 +51,9 @@ pub(in crate::command) struct ViewArgs {
     /// Table of the bodies of one scene, CSV: `body` as for --a, and px, vx, ... as in a table of motions
     #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]
     scene: Option<PathBuf>,
-    /// End of the motions of --scene
-    #[arg(long, value_name = "TIME", default_value_t = 1.0, value_parser = not_negative, allow_hyphen_values = true)]
-    pub(super) duration: f64,
+    /// End of the motions of --scene [default: 1]
+    #[arg(long, value_name = "TIME", value_parser = not_negative, allow_hyphen_values = true)]
+    duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
@@ -63,7 +63,7 @@ pub(in crate::command) struct ViewArgs {
     /// Write the page to this file, HTML
     #[arg(long, value_name = "HTML", default_value = "view.html")]
     pub(super) out: PathBuf,
-    /// Print only warnings and errors on standard error
+    /// Print only warnings and errors on standard error: no progress, remarks or summary
     #[arg(long, short)]
     pub(super) quiet: bool,
 }
@@ -81,7 +81,13 @@ impl ViewArgs {
     pub(super) fn subject(&self) -> Option<Subject<'_>> {
         let ViewArgs { meshes, pieces, .. } = self;
         if let Some(scene) = &self.scene {
-            return Some(Subject::Scene(scene, SceneArgs { meshes, pieces }));
+            let duration = self.duration;
+            let how = SceneArgs {
+                meshes,
+                pieces,
+                duration,
+            };
+            return Some(Subject::Scene(scene, how));
         }
         let bodies = BodiesArgs {
             a: self.a.clone()?,
@@ -102,6 +108,8 @@ Examples:
   ccd view --a knot.obj --b knot.obj --motions motions.csv --ids 3,17
   ccd view --a knot.obj --b knot.obj --motions motions.csv --results results.csv --out knots.html
   ccd view --scene scene.csv --duration 0.5
+  printf 'id,a_px,a_vx\\nhit,-3,4\\n' | ccd view --a box:.5,.5,.5 --b sphere:.3 --motions -
+  printf 'body,id,px,vx\\nsphere:.5,ball,-3,4\\n\"box:.5,1,1\",wall,0,0\\n' > balls.csv; ccd view --scene balls.csv
 
 Table of a scene: a row for each body.
   body,id,px,py,pz,vx,vz,wy

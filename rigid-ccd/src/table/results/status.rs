@@ -64,6 +64,21 @@ impl Status {
         }
     }
 
+    /// Returns whether it proves that the bodies stay as far apart as was asked.
+    pub fn is_proof(self) -> bool {
+        match self {
+            Status::Free | Status::Kept => true,
+            Status::Contact
+            | Status::Touching
+            | Status::Overlapping
+            | Status::Measured
+            | Status::Violated
+            | Status::Unverified
+            | Status::Unresolved
+            | Status::Error => false,
+        }
+    }
+
     /// Returns the status of an answer; distances are compared to `clearance`, if there is one.
     pub fn of(found: &Found, clearance: Option<f64>) -> Self {
         match found {

@@ -252,7 +252,7 @@ fn files_of_other_programs_are_told_how_to_convert() {
     for (name, way) in [
         ("part.step", "gmsh part.step -2 -o part.stl"),
         ("PART.STP", "gmsh"),
-        ("part.iges", "gmsh"),
+        ("part.iges", "gmsh part.iges -2 -o part.stl"),
         ("part.sldprt", "export it there as .stl"),
         ("scene.dae", "assimp export scene.dae scene.glb"),
         ("scene.fbx", "assimp"),
@@ -266,5 +266,30 @@ fn files_of_other_programs_are_told_how_to_convert() {
     ] {
         let message = TriangleMesh::read(name).unwrap_err().to_string();
         assert!(message.contains(way), "{message}");
+    }
+}
+
+/// A STEP file that was renamed is told as one, whatever it is called.
+#[test]
+fn a_renamed_step_file_is_told_how_to_convert() {
+    let step = "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";
+    for format in [
+        Format::Stl,
+        Format::Obj,
+        Format::Ply,
+        Format::Off,
+        Format::Gltf,
+        Format::ThreeMf,
+    ] {
+        for text in [step.to_owned(), format!("\u{feff}\r\n{step}")] {
+            let fault = format
+                .parse(text.as_bytes(), &Default::default())
+                .unwrap_err();
+            let message = fault.to_string();
+            assert!(
+                message.starts_with("is a STEP file") && message.contains("gmsh part.step"),
+                "{message}"
+            );
+        }
     }
 }
