@@ -33,7 +33,7 @@ pub struct Config {
     /// Along [trajectories](crate::Trajectory) it is for each part between two
     /// [corners](crate::Trajectory::corner), such as two poses of a path, and so grows with the path: a
     /// path of `n` poses takes at most `2 n` budgets, of which those for many poses at once are hardly
-    /// used. No path takes more than 65,536. The search for the [last
+    /// used. The closest approach takes up to half as much again for early bounds. No path takes more than 65,536. The search for the [last
     /// contact](crate::schedule::ContactInterval) has as much again.
     pub budget: u64,
     /// The longest time before the query is left unresolved; with none no clock is read.

@@ -2,6 +2,8 @@
 
 use crate::command::{Row, Run, Scene, parse, stderr};
 use crate::{DROP, DROP_TIME, FALLING_CUBE};
+use std::f64::consts::{FRAC_PI_4, TAU};
+use std::fmt::Write;
 use std::fs;
 
 /// A ball that passes another one at a distance of 0.2, nearest at time 0.5.
@@ -395,4 +397,57 @@ fn a_finished_check_fails_again() {
     assert_eq!(run.output().status.code(), Some(3));
     let again = run.args(&["--resume"]).output();
     assert_eq!(again.status.code(), Some(3), "{}", stderr(&again));
+}
+
+/// A tube about z as an OBJ.
+fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
+    const CORNERS: usize = 48;
+    let mut text = String::new();
+    for z in heights {
+        for r in radii {
+            for k in 0..CORNERS {
+                let (sin, cos) = (TAU * k as f64 / CORNERS as f64).sin_cos();
+                writeln!(text, "v {} {} {z}", r * cos, r * sin).unwrap();
+            }
+        }
+    }
+    for k in 0..CORNERS {
+        let at = |ring: usize, k: usize| ring * CORNERS + k % CORNERS + 1;
+        for [one, other] in [[1, 0], [2, 3], [3, 1], [0, 2]] {
+            let [p, q, r, s] = [at(one, k), at(one, k + 1), at(other, k + 1), at(other, k)];
+            writeln!(text, "f {p} {s} {r} {q}").unwrap();
+        }
+    }
+    text
+}
+
+/// Early bounds hold for a whole path: they take from the budget of no part of it.
+#[test]
+fn a_long_path_is_measured_with_what_its_parts_need() {
+    let scene = Scene::new("long-path");
+    let wheel = scene.file("wheel.obj", &tube([5.2, 8.0], [0.0, 8.0]));
+    let axle = scene.file("axle.obj", &tube([4.0, 5.0], [-10.0, 18.0]));
+    let bodies = [
+        "--a",
+        wheel.to_str().unwrap(),
+        "--b",
+        axle.to_str().unwrap(),
+    ];
+    let turns = |quarters: u32| {
+        let mut path = String::from("t,a_qw,a_qx,a_qy,a_qz\n");
+        for k in 0..=quarters {
+            let (sin, cos) = (f64::from(k) * FRAC_PI_4).sin_cos();
+            writeln!(path, "{k},{cos},0,0,{sin}").unwrap();
+        }
+        path
+    };
+    let measured = |quarters, budget: &str| {
+        let run = ask("closest-approach", &bodies, &turns(quarters));
+        let row = only(&run.args(&["--budget", budget]));
+        assert_eq!(row.text("status"), "measured", "{budget}");
+        row.number("iterations")
+    };
+    let one = measured(1, "80000");
+    let all = measured(120, "80000");
+    assert!(all > 80_000.0 && one < 40_000.0, "{one} and {all}");
 }

@@ -162,10 +162,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
             return Ok(());
         };
         let mut journey = stretches.journey().asking(rung);
-        journey.config.budget = rung.budget.min(left.budget);
+        journey.config.budget = rung.budget;
         journey.config.deadline = left.deadline;
         let answer = self.any_contact_along(&journey, oracle)?;
-        stretches.stats.add(&answer.stats);
+        stretches.add_for_no_part(&answer.stats);
         let proven = match answer.outcome {
             AnyContact::Free { proven_gap } => Some(proven_gap),
             AnyContact::Contact { time, contact } => {

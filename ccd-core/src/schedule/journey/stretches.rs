@@ -93,6 +93,12 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.stats.add(stats);
     }
 
+    /// Adds work on the whole journey, which no part has to pay for.
+    pub(super) fn add_for_no_part(&mut self, stats: &Stats) {
+        self.stats.add(stats);
+        self.budgets.begun += stats.work();
+    }
+
     /// Returns the motions in a stretch, cut until the bodies stray from them by a length that queries
     /// take, with the settings; or the limit that was reached.
     pub(super) fn leg(
