@@ -384,7 +384,7 @@ def test_null_cells_are_errors() -> None:
     ("columns", "message"),
     [
         ({"a_x": [1.0]}, "unknown column `a_x`; did you mean `a_px`"),
-        ({"time": [1.0]}, "unknown column `time`; known columns are id, duration"),
+        ({"time": [1.0]}, "unknown column `time`; did you mean `t`?"),
         ({"a_qw": [1.0], "a_qx": [0.0]}, "no column `a_qy`, but column `a_qw` needs it"),
         ({"a_end_px": [1.0]}, "no column `a_end_py`"),
         ({"t": [0.0], "a_vx": [1.0]}, "unknown column `a_vx`; a table with a column t"),
