@@ -268,11 +268,19 @@ fn distances_are_compared_to_the_clearance() {
         overlap: Overlap::AInsideB(DVec3::ZERO),
         upper: 0.0,
     });
-    let within = "--clearance is within the bounds of the distance";
+    let at_zero = Found::Distance(ClosestApproach::Nearest {
+        lower: 0.0,
+        time: 1.5,
+        contact: contact(),
+    });
+    let within =
+        "--clearance is within the bounds of the distance; a smaller --tolerance may decide";
+    let touch = "--clearance is within the bounds of the distance: the bodies may touch";
     for (found, clearance, status, lower, reason) in [
         (nearest, None, "measured", "0.05", ""),
         (nearest, Some(0.05), "kept", "0.05", ""),
         (nearest, Some(0.1), "unverified", "0.05", within),
+        (at_zero, Some(0.0), "unverified", "0.0", touch),
         (nearest, Some(0.25), "violated", "0.05", ""),
         (unresolved, None, "unresolved", "0.01", "budget"),
         (unresolved, Some(0.005), "kept", "0.01", "budget"),
