@@ -107,6 +107,7 @@ mod swept_box;
 #[cfg(test)]
 mod tests;
 pub mod tolerance;
+mod touching_plane;
 
 pub use body::combination::Combination;
 pub use body::facets::Facets;

@@ -10,9 +10,8 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
-use crate::outcome::Contact;
-use crate::schedule::pieces::level::TouchingPlane;
 use crate::tolerance::{self, NODE_GAP};
+use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
 use glam::DVec3;
 use std::sync::atomic::AtomicBool;
@@ -276,8 +275,7 @@ impl<'a> Problem<'a> {
     /// Returns the problem with bodies let go that begin at a gap beyond the margin: pairs that
     /// part or slide keep more than half of it. Only if there is no gap worth the name, pairs of
     /// pieces are let go, and all that touch in the plane of the contact.
-    pub(crate) fn leaving(&self, contact: &Contact) -> Self {
-        let gap = contact.separation.lower - self.margin;
+    pub(crate) fn leaving(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
         let least = tolerance::least_tolerance(self.rounding);
         let (tolerance, start) = match 0.5 * gap > least {
             true => (0.5 * gap, StartPolicy::Report),
@@ -285,7 +283,7 @@ impl<'a> Problem<'a> {
         };
         let touching = match start {
             StartPolicy::Report => None,
-            StartPolicy::Leave => TouchingPlane::of(self, contact),
+            StartPolicy::Leave => touching,
         };
         Problem {
             start,

@@ -25,7 +25,7 @@ mod naive;
 mod nearest;
 mod nodes;
 mod out_of_reach;
-pub(crate) mod pieces;
+mod pieces;
 mod proven;
 mod queue;
 mod rounds;

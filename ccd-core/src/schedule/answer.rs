@@ -10,6 +10,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
 use crate::outcome::{Answer, Outcome, Stats};
 use crate::problem::Problem;
+use crate::touching_plane::TouchingPlane;
 pub(super) use given::{contact_of_given, of_given};
 
 /// Searches as the problem's policy for the start demands, in the order of time.
@@ -88,7 +89,8 @@ pub(super) fn let_go<'a, O: DistanceOracle>(
             let (within, at_start) = (problem.contact_distance(), problem.time(0.0));
             // The normal is needed, and that of two pieces alone may be any.
             let contact = contact_of_given(problem, oracle, meter, *contact, within, at_start);
-            Some(problem.leaving(&contact))
+            let gap = contact.separation.lower - problem.margin;
+            Some(problem.leaving(gap, TouchingPlane::of(problem, &contact)))
         }
         _ => None,
     }

@@ -6,7 +6,7 @@
 //! A `meeting.rs` knows the surfaces around their nearest points.
 
 mod heights;
-pub(crate) mod level;
+mod level;
 pub(super) mod meeting;
 pub(super) mod pair;
 pub(super) mod snapshot;

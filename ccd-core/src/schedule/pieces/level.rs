@@ -2,21 +2,12 @@
 
 use super::snapshot::{Plane, Snapshot};
 use crate::body::facing::Facing;
-use crate::distance::separation::support_gap;
 use crate::math::order::greater;
 use crate::outcome::Contact;
 use crate::problem::{Problem, Which};
 use crate::tolerance::{RESTED, RESTING};
+use crate::touching_plane::TouchingPlane;
 use glam::DVec3;
-
-/// The plane between two bodies that touch at the start.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct TouchingPlane {
-    /// Its unit normal from A to B, in A's frame and in B's: it may stay with either body.
-    normals: [DVec3; 2],
-    /// The gap along it that pieces have to keep at least: that of the contact, but for the rounding of resting.
-    floor: f64,
-}
 
 /// Two pieces that a [`TouchingPlane`] keeps apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +27,7 @@ impl TouchingPlane {
         let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
         let [frame_a, frame_b] = &snapshot.frames;
         let from = frame_a.inverse_point(problem.local(contact.separation.witness_a));
-        let gap = snapshot.gap_along(normal, from);
+        let gap = snapshot.gap_across(normal, from);
         let resting = RESTING * problem.rounding;
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
@@ -57,7 +48,7 @@ impl Snapshot<'_> {
         let resting = RESTING * self.problem.rounding;
         let of = |holder: Which| {
             let normal = self.normal_with(holder)?;
-            let gap = self.gap_along(normal, from);
+            let gap = self.gap_across(normal, from);
             let level = Level {
                 holder,
                 floor: greater(plane.floor, gap - resting),
@@ -65,10 +56,9 @@ impl Snapshot<'_> {
             self.is_between_solids(ids, normal, from).then_some(level)
         };
         let time = |level: &Level| self.level_time(level, from).unwrap_or(f64::INFINITY);
-        let [a, b] = [of(Which::A), of(Which::B)];
-        [a, b]
+        [Which::A, Which::B]
             .into_iter()
-            .flatten()
+            .filter_map(of)
             .map(|level| (time(&level), level))
             .filter(|(time, _)| *time > 0.0)
             .reduce(|one, other| if other.0 > one.0 { other } else { one })
@@ -81,7 +71,7 @@ impl Snapshot<'_> {
         let Some(normal) = self.normal_with(level.holder) else {
             return Some(0.0);
         };
-        let slack = self.gap_along(normal, from) - level.floor;
+        let slack = self.gap_across(normal, from) - level.floor;
         // Written so that NaN is nothing left.
         match slack > RESTED * self.problem.rounding {
             true => self.free_beside(&Plane { normal, slack }),
@@ -99,17 +89,15 @@ impl Snapshot<'_> {
         })
     }
 
-    /// Returns the gap of the pieces along a unit vector, rounding deducted.
-    fn gap_along(&self, normal: DVec3, from: DVec3) -> f64 {
-        let axis = self.frames[0].inverse_vector(normal);
-        let radii = self.pieces.a.radius + self.pieces.b.radius;
-        support_gap(&self.pieces, axis, from) - radii - self.problem.rounding
+    /// Returns the gap of the pieces along a unit vector in the problem's coordinates, rounding deducted.
+    fn gap_across(&self, normal: DVec3, from: DVec3) -> f64 {
+        self.gap_along(self.frames[0].inverse_vector(normal), from)
     }
 
     /// Returns whether the plane across a normal is between what the pieces bound. Two that are both in it are apart on
     /// either side of it, wherever the solids are.
     fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
-        let in_one_plane = self.gap_along(-normal, from) >= -2.0 * RESTING * self.problem.rounding;
+        let in_one_plane = self.gap_across(-normal, from) >= -2.0 * RESTING * self.problem.rounding;
         if !in_one_plane {
             return true;
         }

@@ -195,10 +195,7 @@ impl<'p> Snapshot<'p> {
         [a, b]: [u32; 2],
     ) -> Option<f64> {
         let rounding = self.problem.rounding;
-        let slack = |axis| {
-            let radii = self.pieces.a.radius + self.pieces.b.radius;
-            separation::support_gap(&self.pieces, axis, checked.witness_a) - radii - rounding - kept
-        };
+        let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
         // Written so that NaN counts as nothing left.
         let is_left = |slack: f64| slack > RESTED * rounding;
         let anyhow = || match is_left(checked.lower - kept) {
@@ -239,6 +236,13 @@ impl<'p> Snapshot<'p> {
         ))
     }
 
+    /// Returns the gap of the pieces along a unit vector, rounding deducted; both it and the point from which heights
+    /// are measured are in A's frame.
+    pub(super) fn gap_along(&self, axis: DVec3, from: DVec3) -> f64 {
+        let radii = self.pieces.a.radius + self.pieces.b.radius;
+        separation::support_gap(&self.pieces, axis, from) - radii - self.problem.rounding
+    }
+
     /// Returns the plane across the axis of the claim.
     fn direct(&self, checked: &Checked, kept: f64) -> Plane {
         Plane {
@@ -257,9 +261,7 @@ impl<'p> Snapshot<'p> {
         let way = b - a - velocity * nearest.clamp(0.0, self.horizon());
         let normal = unit(way)?;
         let axis = self.frames[0].inverse_vector(normal);
-        let radii = self.pieces.a.radius + self.pieces.b.radius;
-        let gap = separation::support_gap(&self.pieces, axis, checked.witness_a) - radii;
-        let slack = gap - self.problem.rounding - kept;
+        let slack = self.gap_along(axis, checked.witness_a) - kept;
         (slack > 0.0).then_some(Plane { normal, slack })
     }
 
