@@ -91,13 +91,15 @@ impl Method {
     pub fn combinations() -> Vec<Method> {
         let mut all = Vec::new();
         for &schedule in ScheduleKind::value_variants() {
-            let bounds = match schedule.uses_a_bound() {
-                true => BoundKind::value_variants(),
-                false => &[BoundKind::Sound],
+            let bounds = if schedule.uses_a_bound() {
+                BoundKind::value_variants()
+            } else {
+                &[BoundKind::Sound]
             };
-            let pieces: &[Pieces] = match schedule.uses_hull_trees() {
-                true => &[Pieces::Patches],
-                false => &Pieces::ALL,
+            let pieces: &[Pieces] = if schedule.uses_hull_trees() {
+                &[Pieces::Patches]
+            } else {
+                &Pieces::ALL
             };
             for &oracle in OracleKind::value_variants() {
                 let kinds = bounds.iter().map(|&bound| SolverKind {
@@ -145,9 +147,10 @@ impl Method {
     pub fn is_model(self) -> bool {
         match self {
             Method::Ours(kind, pieces) => {
-                let own = match kind.schedule.uses_hull_trees() {
-                    true => Pieces::Patches,
-                    false => Pieces::Least,
+                let own = if kind.schedule.uses_hull_trees() {
+                    Pieces::Patches
+                } else {
+                    Pieces::Least
                 };
                 pieces != own
             }
@@ -234,9 +237,10 @@ impl Solver for Ours<'_> {
             Outcome::Free { .. } => Claim::Free,
             Outcome::Unresolved { safe_until, .. } => Claim::Unresolved { safe_until },
         };
-        let steps = match self.kind.schedule.uses_a_bound() {
-            true => answer.stats.advancements,
-            false => answer.stats.iterations,
+        let steps = if self.kind.schedule.uses_a_bound() {
+            answer.stats.advancements
+        } else {
+            answer.stats.iterations
         };
         let reason = match answer.outcome {
             Outcome::Unresolved { reason, .. } => Some(reason.to_string()),

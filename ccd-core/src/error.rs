@@ -234,9 +234,10 @@ impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Short(value) = *self;
         // Neither NaN nor an infinity has a power of ten.
-        match value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
-            true => write!(f, "{value}"),
-            false => write!(f, "{value:e}"),
+        if value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
         }
     }
 }

@@ -243,9 +243,10 @@ impl<'a> Problem<'a> {
 
     /// Returns the clock of a time of the motions, up to rounding.
     pub(crate) fn clock(&self, time: f64) -> f64 {
-        match self.duration > 0.0 {
-            true => (time - self.begin) / self.duration,
-            false => 0.0,
+        if self.duration > 0.0 {
+            (time - self.begin) / self.duration
+        } else {
+            0.0
         }
     }
 
@@ -277,9 +278,10 @@ impl<'a> Problem<'a> {
     /// pieces are let go, and all that touch in the plane of the contact.
     pub(crate) fn leaving(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
         let least = tolerance::least_tolerance(self.rounding);
-        let (tolerance, start) = match 0.5 * gap > least {
-            true => (0.5 * gap, StartPolicy::Report),
-            false => (least, StartPolicy::Leave),
+        let (tolerance, start) = if 0.5 * gap > least {
+            (0.5 * gap, StartPolicy::Report)
+        } else {
+            (least, StartPolicy::Leave)
         };
         let touching = match start {
             StartPolicy::Report => None,

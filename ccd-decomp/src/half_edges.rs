@@ -43,17 +43,16 @@ impl Edges {
         let last = triangles.iter().flatten().max();
         let range = last.map_or(0, |&last| last as usize + 1);
         // A table of all vertices must not be larger than the triangles.
-        match range <= 8 * triangles.len() {
-            true => Edges::by_slot(triangles, Vec::new(), range, |_, vertex| vertex as usize),
-            false => {
-                let mut lower: Vec<u32> = triangles.iter().flatten().copied().collect();
-                lower.sort_unstable();
-                lower.dedup();
-                let slots = lower.len();
-                Edges::by_slot(triangles, lower, slots, |lower, vertex| {
-                    lower.partition_point(|&v| v < vertex)
-                })
-            }
+        if range <= 8 * triangles.len() {
+            Edges::by_slot(triangles, Vec::new(), range, |_, vertex| vertex as usize)
+        } else {
+            let mut lower: Vec<u32> = triangles.iter().flatten().copied().collect();
+            lower.sort_unstable();
+            lower.dedup();
+            let slots = lower.len();
+            Edges::by_slot(triangles, lower, slots, |lower, vertex| {
+                lower.partition_point(|&v| v < vertex)
+            })
         }
     }
 

@@ -140,9 +140,10 @@ fn hull_by(
 /// library's hull without a proof, which is fast. None where the library fails, or few or many points lie in one
 /// plane.
 pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
-    match (FEW_POINTS + 1..=LIKELY_POINTS).contains(&points.len()) {
-        true => library::triangles(points),
-        false => ExactHull::facets_of(points),
+    if (FEW_POINTS + 1..=LIKELY_POINTS).contains(&points.len()) {
+        library::triangles(points)
+    } else {
+        ExactHull::facets_of(points)
     }
 }
 

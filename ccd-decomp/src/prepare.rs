@@ -136,9 +136,10 @@ impl Choice {
                 (Parts::Vhacd(approximation), Why::Asked)
             }
         };
-        let volume = match topology.is_solid() && detail != Detail::Surface {
-            true => Volume::Solid,
-            false => Volume::Surface,
+        let volume = if topology.is_solid() && detail != Detail::Surface {
+            Volume::Solid
+        } else {
+            Volume::Surface
         };
         Ok(Choice {
             volume,

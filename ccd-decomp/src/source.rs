@@ -179,9 +179,10 @@ fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError
 impl BodySource {
     /// The description of a file, by its extension: a stored body, or a mesh.
     pub fn of_file(path: PathBuf) -> Self {
-        match is_stored(&path) {
-            true => BodySource::Stored(path),
-            false => BodySource::Mesh(path.into()),
+        if is_stored(&path) {
+            BodySource::Stored(path)
+        } else {
+            BodySource::Mesh(path.into())
         }
     }
 }

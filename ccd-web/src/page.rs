@@ -24,13 +24,14 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         .remove_producers_section(true);
     let mut module = bindgen.generate_output()?;
     let code = BASE64_STANDARD.encode(zipped(&module.wasm_mut().emit_wasm())?);
-    let checks = match check {
-        true => format!(
+    let checks = if check {
+        format!(
             "<script type=\"application/json\" id=\"answers\">{}</script>\n<script>\n{}</script>",
             ccd_view::json(&answers()?)?,
             include_str!("page/check.js")
-        ),
-        false => String::new(),
+        )
+    } else {
+        String::new()
     };
     let glue = module.js();
     let scripts = [

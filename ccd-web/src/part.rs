@@ -93,9 +93,10 @@ impl Part {
     }
 
     fn capsule(radius: f64, half: f64) -> Result<Self, WebError> {
-        let body = match half > 0.0 {
-            true => Body::capsule(radius, half)?,
-            false => Body::ball(radius)?,
+        let body = if half > 0.0 {
+            Body::capsule(radius, half)?
+        } else {
+            Body::ball(radius)?
         };
         let surface = shapes::capsule(radius, half);
         Ok(Part { body, surface })

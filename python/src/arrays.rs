@@ -171,8 +171,9 @@ fn of_shape<'py, T: numpy::Element>(
     let Ok(array) = array.cast::<numpy::PyArray2<T>>() else {
         return Err(wrong(&shape(array, what)?));
     };
-    match array.shape()[1] == columns {
-        true => Ok(array.readonly()),
-        false => Err(wrong(array.shape())),
+    if array.shape()[1] == columns {
+        Ok(array.readonly())
+    } else {
+        Err(wrong(array.shape()))
     }
 }

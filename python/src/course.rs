@@ -79,13 +79,12 @@ impl Pair<'_> {
             None => {
                 let mut ends = ends;
                 let first = ends.next().unwrap_or(1.0);
-                match ends.all(|end| end == first) {
-                    true => first,
-                    false => {
-                        return Err(input(
-                            "duration: the two bodies' motions end at different times; give one",
-                        ));
-                    }
+                if ends.all(|end| end == first) {
+                    first
+                } else {
+                    return Err(input(
+                        "duration: the two bodies' motions end at different times; give one",
+                    ));
                 }
             }
         };

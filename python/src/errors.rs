@@ -86,9 +86,10 @@ pub(crate) fn of_table(error: impl Display) -> PyErr {
     let text = error.to_string();
     let last = text.trim_end().lines().next_back().unwrap_or_default();
     let raised = last.rsplit("Python exception: ").next().unwrap_or_default();
-    match text.contains("Python exception: ") && raised.starts_with("KeyboardInterrupt") {
-        true => PyKeyboardInterrupt::new_err(raised.to_owned()),
-        false => input(text),
+    if text.contains("Python exception: ") && raised.starts_with("KeyboardInterrupt") {
+        PyKeyboardInterrupt::new_err(raised.to_owned())
+    } else {
+        input(text)
     }
 }
 
@@ -156,14 +157,12 @@ pub(crate) fn interrupted<'py>(
     cause: PyErr,
     results: impl IntoPyObject<'py>,
 ) -> PyErr {
-    let error = match cause.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
-        true => {
-            let error =
-                Interrupted::new_err("interrupted; `results` has the rows answered by then");
-            error.set_cause(py, Some(cause));
-            error
-        }
-        false => cause,
+    let error = if cause.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
+        let error = Interrupted::new_err("interrupted; `results` has the rows answered by then");
+        error.set_cause(py, Some(cause));
+        error
+    } else {
+        cause
     };
     with_attribute(py, error, "results", results)
 }

@@ -239,14 +239,15 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     let error = off.iter().map(|entry| entry.abs());
     // Written so that NaN is refused.
     let is_rotation = error.clone().all(|error| error <= ORTHONORMAL) && matrix.determinant() > 0.0;
-    match is_rotation {
-        true => Ok(DQuat::from_mat3(&matrix)),
-        false => Err(input(format!(
+    if is_rotation {
+        Ok(DQuat::from_mat3(&matrix))
+    } else {
+        Err(input(format!(
             "{what}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
-             is {:.1}",
+         is {:.1}",
             error.max_by(f64::total_cmp).unwrap_or_default(),
             matrix.determinant()
-        ))),
+        )))
     }
 }
 

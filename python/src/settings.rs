@@ -55,7 +55,7 @@ pub(crate) fn config(
             "margin" => config.margin = read(&name, &value)?,
             "clearance" => config.clearance = read(&name, &value)?,
             "budget" => {
-                config.budget = read::<Option<u64>>(&name, &value)?.unwrap_or(config.budget)
+                config.budget = read::<Option<u64>>(&name, &value)?.unwrap_or(config.budget);
             }
             "deadline" => config.deadline = deadline(read(&name, &value)?)?,
             _ => return Err(unknown(&name, known)),
@@ -79,12 +79,13 @@ where
     T: for<'a> FromPyObject<'a, 'py, Error = PyErr>,
 {
     let py = value.py();
-    value.extract().map_err(
-        |error: PyErr| match error.is_instance_of::<PyTypeError>(py) {
-            true => PyTypeError::new_err(format!("{name}: {}", error.value(py))),
-            false => caused(py, name, error),
-        },
-    )
+    value.extract().map_err(|error: PyErr| {
+        if error.is_instance_of::<PyTypeError>(py) {
+            PyTypeError::new_err(format!("{name}: {}", error.value(py)))
+        } else {
+            caused(py, name, error)
+        }
+    })
 }
 
 /// Reads seconds; infinitely many are none.

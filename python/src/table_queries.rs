@@ -43,9 +43,10 @@ pub(crate) fn answer_table(
         config,
         question,
         threads: settings::threads(threads)?,
-        micros: match micros {
-            true => Micros::Told,
-            false => Micros::LeftOut,
+        micros: if micros {
+            Micros::Told
+        } else {
+            Micros::LeftOut
         },
     };
     let config = asked.config;
@@ -109,9 +110,10 @@ fn question(name: &str) -> PyResult<Question> {
 }
 
 fn known(question: Question) -> &'static [&'static str] {
-    match question.is_for_a_distance() {
-        true => DISTANCES_OF_TABLES,
-        false => CONTACTS_OF_TABLES,
+    if question.is_for_a_distance() {
+        DISTANCES_OF_TABLES
+    } else {
+        CONTACTS_OF_TABLES
     }
 }
 

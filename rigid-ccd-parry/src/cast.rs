@@ -182,9 +182,10 @@ impl Cast<'_> {
 
     /// Bounds how far bodies are off for that, on their way past each other.
     fn rounded(&self, way: f64) -> f64 {
-        match self.motions[1].velocity() == DVec3::ZERO {
-            true => 0.0,
-            false => RELATIVE * way,
+        if self.motions[1].velocity() == DVec3::ZERO {
+            0.0
+        } else {
+            RELATIVE * way
         }
     }
 
@@ -223,9 +224,10 @@ impl Cast<'_> {
 impl Started {
     fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
         // All points of a body that does not turn move straight: a centre at its origin rounds least.
-        let centre = match motion.spin() == DVec3::ZERO {
-            true => DVec3::ZERO,
-            false => motion.centre(),
+        let centre = if motion.spin() == DVec3::ZERO {
+            DVec3::ZERO
+        } else {
+            motion.centre()
         };
         let motion = Motion::about(motion.start(), motion.velocity(), motion.spin(), centre)?;
         let Stretch { motion, stray, .. } = motion.stretch(start, start)?;
@@ -239,9 +241,10 @@ impl Started {
     /// Returns the motion with the reach of a body.
     fn reaching(&self, body: &Prepared) -> Reaching {
         let (middle, radius) = body.ball();
-        let about = match self.motion.spin() == DVec3::ZERO {
-            true => middle,
-            false => self.motion.centre(),
+        let about = if self.motion.spin() == DVec3::ZERO {
+            middle
+        } else {
+            self.motion.centre()
         };
         Reaching {
             motion: self.motion,
@@ -253,9 +256,10 @@ impl Started {
     /// Returns the motion of a half-space, with the point of it from which the other body is nearest.
     fn reaching_plane(&self, other: &Reaching) -> Reaching {
         let start = self.motion.start();
-        let about = match self.motion.spin() == DVec3::ZERO {
-            true => start.inverse().transform_point(other.place()),
-            false => self.motion.centre(),
+        let about = if self.motion.spin() == DVec3::ZERO {
+            start.inverse().transform_point(other.place())
+        } else {
+            self.motion.centre()
         };
         Reaching {
             motion: self.motion,

@@ -182,9 +182,10 @@ impl Form {
         let inner = inner.expanded()?;
         let place = |point: &DVec3| pose.transform_point(*point);
         let reach = (inner.points()).fold(0.0, |most, point| greater(most, length(*point)));
-        let moved = match *pose == Pose::IDENTITY {
-            true => 0.0,
-            false => PLACED * (reach + length(pose.translation())),
+        let moved = if *pose == Pose::IDENTITY {
+            0.0
+        } else {
+            PLACED * (reach + length(pose.translation()))
         };
         let first = self.vertices.len() as u32;
         self.vertices.extend(inner.vertices.iter().map(place));
@@ -374,9 +375,10 @@ fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
         });
     }
     let least = round.least_excess();
-    match asked < least {
-        true => Err(ShapeError::Excess { asked, least }),
-        false => round.enclosed(asked).map_err(ShapeError::Body),
+    if asked < least {
+        Err(ShapeError::Excess { asked, least })
+    } else {
+        round.enclosed(asked).map_err(ShapeError::Body)
     }
 }
 

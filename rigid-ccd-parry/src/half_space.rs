@@ -27,11 +27,12 @@ impl HalfSpace {
             what: "normal",
             value: length(normal),
         };
-        match normal.is_finite() {
-            true => Ok(HalfSpace {
+        if normal.is_finite() {
+            Ok(HalfSpace {
                 normal: unit(normal).ok_or(size)?,
-            }),
-            false => Err(size),
+            })
+        } else {
+            Err(size)
         }
     }
 
@@ -52,9 +53,10 @@ impl HalfSpace {
         let size = body.reach + within + length(body.place() - plane.place());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
         let most = FARTHEST_ALONG * size / speed;
-        match speed > 0.0 && horizon.duration() > most {
-            true => Horizon::Part(most),
-            false => horizon,
+        if speed > 0.0 && horizon.duration() > most {
+            Horizon::Part(most)
+        } else {
+            horizon
         }
     }
 
@@ -79,9 +81,10 @@ impl HalfSpace {
         let upright = p.start().rotation() == DQuat::IDENTITY;
         if upright && self.normal * velocity == DVec3::ZERO {
             // Exactly along the plane.
-            return Some(match spin == DVec3::ZERO {
-                true => 0.0,
-                false => TAU / length(spin) * BEYOND,
+            return Some(if spin == DVec3::ZERO {
+                0.0
+            } else {
+                TAU / length(spin) * BEYOND
             });
         }
         let normal = p.start().rotation() * self.normal;

@@ -57,9 +57,10 @@ impl Horizon {
     /// Returns the time to look at, of a time that is needed.
     pub(crate) fn needed(bodies: [Reaching; 2], needed: f64) -> Self {
         let possible = possible(bodies);
-        match needed <= possible {
-            true => Horizon::Whole(needed),
-            false => Horizon::Part(possible),
+        if needed <= possible {
+            Horizon::Whole(needed)
+        } else {
+            Horizon::Part(possible)
         }
     }
 }

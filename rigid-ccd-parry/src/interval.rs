@@ -37,17 +37,19 @@ impl Interval {
 
     /// Returns its length, rounded up.
     pub(crate) fn length(self) -> f64 {
-        match self.start == 0.0 {
-            true => self.end,
-            false => (self.end - self.start).next_up(),
+        if self.start == 0.0 {
+            self.end
+        } else {
+            (self.end - self.start).next_up()
         }
     }
 
     /// Returns the time that long after the start, rounded down.
     pub(crate) fn time_after(self, after: f64) -> f64 {
-        let time = match self.start == 0.0 {
-            true => after,
-            false => (self.start + after).next_down(),
+        let time = if self.start == 0.0 {
+            after
+        } else {
+            (self.start + after).next_down()
         };
         lesser(greater(self.start, time), self.end)
     }

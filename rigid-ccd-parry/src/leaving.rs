@@ -141,9 +141,10 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
 /// Returns the distance of a point from the segment from the origin along a vector.
 fn distance_to_way(point: DVec3, way: DVec3) -> f64 {
     let square = way.dot(way);
-    let share = match square > 0.0 {
-        true => lesser(greater(0.0, point.dot(way) / square), 1.0),
-        false => 0.0,
+    let share = if square > 0.0 {
+        lesser(greater(0.0, point.dot(way) / square), 1.0)
+    } else {
+        0.0
     };
     length(point - share * way)
 }

@@ -97,9 +97,10 @@ impl Prepared {
 
 /// Returns a body that may exceed its shape by two lengths together.
 fn exceeding(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
-    let together = match slack > 0.0 {
-        true => (slack + excess).next_up(),
-        false => excess,
+    let together = if slack > 0.0 {
+        (slack + excess).next_up()
+    } else {
+        excess
     };
     body.with_excess(together).map_err(ShapeError::Body)
 }

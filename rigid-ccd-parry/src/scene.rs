@@ -77,9 +77,10 @@ impl Scene<'_> {
             Outcome::Contact { time, contact } => Some(self.shown(time, &contact, Ending::Contact)),
             Outcome::Touching { contact } => {
                 let within = self.target > 0.0 && contact.separation.upper <= self.target;
-                let ending = match within {
-                    true => Ending::Near,
-                    false => Ending::Contact,
+                let ending = if within {
+                    Ending::Near
+                } else {
+                    Ending::Contact
                 };
                 Some(self.shown(0.0, &contact, ending))
             }

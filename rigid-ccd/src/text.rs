@@ -10,9 +10,10 @@ impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Number(value) = *self;
         // NaN and infinities have no exponent.
-        match value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
-            true => write!(f, "{value}"),
-            false => write!(f, "{value:e}"),
+        if value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
         }
     }
 }
@@ -28,9 +29,10 @@ impl fmt::Display for Printable<'_> {
         // Marks of direction turn what follows them round.
         let turns = |c| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
         for c in self.0.chars() {
-            match c.is_control() || turns(c) {
-                true => write!(f, "{}", c.escape_default())?,
-                false => f.write_char(c)?,
+            if c.is_control() || turns(c) {
+                write!(f, "{}", c.escape_default())?;
+            } else {
+                f.write_char(c)?;
             }
         }
         Ok(())

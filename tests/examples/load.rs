@@ -158,9 +158,10 @@ fn main() -> ExitCode {
             "not flat, in seconds, resident MB and heap MB: {first:?} at first, {last:?} at last"
         );
     }
-    match right && flat {
-        true => ExitCode::SUCCESS,
-        false => ExitCode::FAILURE,
+    if right && flat {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
     }
 }
 

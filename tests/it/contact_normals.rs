@@ -74,9 +74,10 @@ impl Touch {
         let shape_a = if same { shape_b.clone() } else { shape(rng) };
         let [a, b] = [&shape_a, &shape_b].map(|shape| Support::draw(rng, shape));
         let gap = GAPS[rng.random_range(0..GAPS.len())];
-        let frame = match rng.random_bool(0.3) {
-            true => Pose::IDENTITY,
-            false => Pose::new(direction(rng), rotation(rng)).unwrap(),
+        let frame = if rng.random_bool(0.3) {
+            Pose::IDENTITY
+        } else {
+            Pose::new(direction(rng), rotation(rng)).unwrap()
         };
         // A's support meets B's from the other side; its edge is along B's, or anyhow.
         let aligned = b.basis() * a.basis().conjugate();
@@ -136,9 +137,10 @@ impl Touch {
         if way > self.gap + 1e-13 {
             return None;
         }
-        let allowed = match way < WAY {
-            true => FLUSH,
-            false => FLUSH + BETWEEN / way,
+        let allowed = if way < WAY {
+            FLUSH
+        } else {
+            FLUSH + BETWEEN / way
         };
         let off_a = off_cone(&self.query.a, witness_a, normal);
         let off_b = off_cone(&self.query.b, witness_b, -normal);

@@ -139,10 +139,7 @@ fn contacts_of_random_cases_hold() {
                 Some(exact) if !bodies.kinds.contains(&Kind::Parts) => exact,
                 _ => continue,
             };
-            let count = match *exact == names {
-                true => &same,
-                false => &coarser,
-            };
+            let count = if *exact == names { &same } else { &coarser };
             count.set(count.get() + 1);
             if !matches(&query, &names, exact) {
                 return Err(format!("{:?}: {exact:?}, {names:?}", bodies.kinds));

@@ -48,9 +48,10 @@ fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
                 (j + 1) * n + i + 1,
                 (j + 1) * n + i,
             ];
-            faces.extend(match rng.random() {
-                true => [[p, q, r], [p, r, s]],
-                false => [[p, q, s], [q, r, s]],
+            faces.extend(if rng.random() {
+                [[p, q, r], [p, r, s]]
+            } else {
+                [[p, q, s], [q, r, s]]
             });
         }
     }
@@ -82,9 +83,10 @@ fn slab(top: Mesh) -> Mesh {
 fn ground(rng: &mut Pcg64) -> Shape {
     let cuts = rng.random_range(0..4);
     let sheet = cut_sheet(rng, cuts);
-    match rng.random() {
-        true => Shape::open(sheet),
-        false => Shape::closed(slab(sheet)),
+    if rng.random() {
+        Shape::open(sheet)
+    } else {
+        Shape::closed(slab(sheet))
     }
 }
 
@@ -113,9 +115,10 @@ fn frame(rng: &mut Pcg64) -> Pose {
     let mut unit = || rng.random_range(-1.0..1.0);
     let any = DQuat::from_xyzw(unit(), unit(), unit(), unit()).normalize();
     let at = 3.0 * dvec3(unit(), unit(), unit());
-    match unit() > 0.0 {
-        true => Pose::new(at, any).expect("a unit quaternion"),
-        false => Pose::IDENTITY,
+    if unit() > 0.0 {
+        Pose::new(at, any).expect("a unit quaternion")
+    } else {
+        Pose::IDENTITY
     }
 }
 
@@ -132,9 +135,10 @@ fn whatever_slides_on_cut_ground_is_free() {
         let ground = ground(rng);
         let angle = rng.random_range(-PI..PI);
         let velocity = rng.random_range(0.5..5.0) * DVec3::new(angle.cos(), angle.sin(), 0.0);
-        let turning = match rng.random() {
-            true => DVec3::ZERO,
-            false => rng.random_range(-4.0..4.0) * DVec3::Z,
+        let turning = if rng.random() {
+            DVec3::ZERO
+        } else {
+            rng.random_range(-4.0..4.0) * DVec3::Z
         };
         let at = dvec3(
             rng.random_range(-1.0..1.0),
@@ -167,9 +171,10 @@ fn what_stands_on_cut_ground_is_found_at_its_time() {
         let cuts = rng.random_range(0..4);
         let ground = Shape::union([Shape::open(cut_sheet(rng, cuts)), block]);
         let half = dvec3(0.3, 0.4, 0.5);
-        let mover = match rng.random() {
-            true => cuboid(half),
-            false => Shape::closed(cuboid(half).mesh),
+        let mover = if rng.random() {
+            cuboid(half)
+        } else {
+            Shape::closed(cuboid(half).mesh)
         };
         let speed = rng.random_range(5.0..9.0);
         let query = Query {

@@ -82,18 +82,15 @@ fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     let first = solver.answer_along(a, b, 1.0).unwrap();
     let any = solver.any_contact_along(a, b, 1.0).unwrap();
     let closest = solver.closest_approach_along(a, b, 1.0).unwrap();
-    match gap > 0.0 {
-        true => {
-            assert!(matches!(first.outcome, Outcome::Free { .. }), "{first:?}");
-            assert!(matches!(any.outcome, AnyContact::Free { .. }), "{any:?}");
-        }
-        false => {
-            assert!(
-                matches!(first.outcome, Outcome::Contact { .. }),
-                "{first:?}"
-            );
-            assert!(matches!(any.outcome, AnyContact::Contact { .. }), "{any:?}");
-        }
+    if gap > 0.0 {
+        assert!(matches!(first.outcome, Outcome::Free { .. }), "{first:?}");
+        assert!(matches!(any.outcome, AnyContact::Free { .. }), "{any:?}");
+    } else {
+        assert!(
+            matches!(first.outcome, Outcome::Contact { .. }),
+            "{first:?}"
+        );
+        assert!(matches!(any.outcome, AnyContact::Contact { .. }), "{any:?}");
     }
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // Of coordinates up to 4.
@@ -114,9 +111,10 @@ fn lowest(trajectory: &dyn Trajectory) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..100 {
         let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
-        match height(one) < height(other) {
-            true => high = other,
-            false => low = one,
+        if height(one) < height(other) {
+            high = other;
+        } else {
+            low = one;
         }
     }
     height(0.5 * (low + high))

@@ -92,10 +92,7 @@ impl Scene {
                 let [one, two] = [from + 0.382 * (to - from), to - 0.382 * (to - from)];
                 let [near, far] = [one, two].map(|time| self.distance(time));
                 samples.extend([(one, near), (two, far)]);
-                match near < far {
-                    true => to = two,
-                    false => from = one,
-                }
+                if near < far { to = two } else { from = one }
             }
         }
         Samples(samples)
@@ -323,14 +320,15 @@ impl<'s> Case<'s> {
         self.interval(&interval.outcome, interval.tolerance, &first.outcome)?;
         let closest = solver.closest_approach_along(a, b, 1.0).expect("in range");
         self.closest(&closest.outcome, tally)?;
-        match self
+        if self
             .scene
             .kinds
             .iter()
             .all(|&kind| courses::is_motion(kind))
         {
-            true => self.check_motions(solver, tally),
-            false => Ok(()),
+            self.check_motions(solver, tally)
+        } else {
+            Ok(())
         }
     }
 

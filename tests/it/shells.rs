@@ -46,9 +46,10 @@ fn with_random_windings(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
         faces: Vec::new(),
     };
     for (shell, _) in shells {
-        match rng.random() {
-            true => all.append(&shell.clone().flipped()),
-            false => all.append(shell),
+        if rng.random() {
+            all.append(&shell.clone().flipped());
+        } else {
+            all.append(shell);
         }
     }
     all

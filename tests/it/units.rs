@@ -54,9 +54,10 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
         if TESTS.iter().any(|name| path.ends_with(name)) {
             continue;
         }
-        match path.is_dir() {
-            true => collect(&path, files),
-            false => files.extend((path.extension() == Some("rs".as_ref())).then_some(path)),
+        if path.is_dir() {
+            collect(&path, files);
+        } else {
+            files.extend((path.extension() == Some("rs".as_ref())).then_some(path));
         }
     }
 }

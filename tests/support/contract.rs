@@ -182,9 +182,10 @@ fn facets(points: &[DVec3]) -> Vec<Facet> {
         origin: Origin::Virtual,
         corners,
     };
-    match closed {
-        true => out.into_iter().map(facet).collect(),
-        false => Vec::new(),
+    if closed {
+        out.into_iter().map(facet).collect()
+    } else {
+        Vec::new()
     }
 }
 

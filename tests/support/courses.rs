@@ -152,9 +152,10 @@ fn keys(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
 fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
     let origin = Pose::at(vector(rng, 0.7 * reach))?;
     let axis = vector(rng, 1.0);
-    match rng.random_bool(0.8) {
-        true => Joint::revolute(origin, axis),
-        false => Joint::prismatic(origin, axis),
+    if rng.random_bool(0.8) {
+        Joint::revolute(origin, axis)
+    } else {
+        Joint::prismatic(origin, axis)
     }
 }
 
@@ -222,9 +223,10 @@ impl Zigzag {
 impl Trajectory for Zigzag {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let ends = [from, to].map(|time| self.at(time));
-        let velocity = match to > from {
-            true => (ends[1] - ends[0]) / (to - from),
-            false => DVec3::ZERO,
+        let velocity = if to > from {
+            (ends[1] - ends[0]) / (to - from)
+        } else {
+            DVec3::ZERO
         };
         // It is farthest from the chord at a corner.
         let off = |time: f64| self.at(time).distance(ends[0] + velocity * (time - from));

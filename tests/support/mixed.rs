@@ -61,9 +61,10 @@ impl Mixed {
         let config = Config {
             tolerance: 10f64.powi(-rng.random_range(2..=7)),
             margin: if rng.random_bool(0.2) { 0.05 } else { 0.0 },
-            start: match rng.random_bool(0.1) {
-                true => StartPolicy::Leave,
-                false => StartPolicy::Report,
+            start: if rng.random_bool(0.1) {
+                StartPolicy::Leave
+            } else {
+                StartPolicy::Report
             },
             ..Config::default()
         };

@@ -158,11 +158,12 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
     named.sort_unstable();
     let mut faces = claim.faces.to_vec();
     faces.sort_unstable();
-    match named == faces {
-        true => Ok(()),
-        false => Err(format!(
+    if named == faces {
+        Ok(())
+    } else {
+        Err(format!(
             "the faces are {faces:?}, but named are {named:?}: {polytope:?}"
-        )),
+        ))
     }
 }
 
@@ -197,9 +198,10 @@ fn outward(mesh: &Mesh, id: u32) -> Result<[DVec3; 3], String> {
         return Err(format!("there is no face {id}"));
     }
     let [a, b, c] = mesh.triangle(id as usize);
-    Ok(match mesh.signed_volume() < 0.0 {
-        true => [a, c, b],
-        false => [a, b, c],
+    Ok(if mesh.signed_volume() < 0.0 {
+        [a, c, b]
+    } else {
+        [a, b, c]
     })
 }
 

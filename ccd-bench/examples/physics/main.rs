@@ -102,13 +102,12 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
     let mut moving = Vec::new();
     for (simulated, body) in world.bodies.iter().zip(&bodies) {
         let start = pose(&world.physics.bodies[simulated.handle])?;
-        match simulated.is_fixed {
-            true => scene.add_fixed(body, start),
-            false => {
-                let index = scene.add(body, Motion::still(start));
-                moving.push((index, simulated.handle));
-                index
-            }
+        if simulated.is_fixed {
+            scene.add_fixed(body, start)
+        } else {
+            let index = scene.add(body, Motion::still(start));
+            moving.push((index, simulated.handle));
+            index
         };
     }
     let (mut seen, mut time) = (Seen::default(), Duration::ZERO);

@@ -142,9 +142,10 @@ const AT_A_GLANCE: (Allowance, Allowance) = (
 );
 
 pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
-    let extent = match args.full {
-        true => Extent::Full,
-        false => Extent::Glance,
+    let extent = if args.full {
+        Extent::Full
+    } else {
+        Extent::Glance
     };
     let mut plan = plan(&args.common, extent)?;
     plan.listings = chosen(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
@@ -174,9 +175,10 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         let trials = joined::read_trials(file);
         foreign.extend(trials.with_context(|| format!("joining {}", file.display()))?);
     }
-    let evaluated = match args.redraw {
-        true => plan.recall()?,
-        false => plan.run()?,
+    let evaluated = if args.redraw {
+        plan.recall()?
+    } else {
+        plan.run()?
     };
     present(&args.common, evaluated, foreign, &args.splice)
 }

@@ -90,30 +90,34 @@ impl StabilityArgs {
 }
 
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
-    let methods = match args.ours {
-        true => Method::combinations(),
-        false => all_methods(args.peers.as_deref()),
+    let methods = if args.ours {
+        Method::combinations()
+    } else {
+        all_methods(args.peers.as_deref())
     };
     // The folder may hold more than what is asked.
-    let drawn = match args.ours {
-        true => methods.clone(),
-        false => known_methods(),
+    let drawn = if args.ours {
+        methods.clone()
+    } else {
+        known_methods()
     };
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
         methods: chosen(methods, &args.methods, "method", Method::to_string)?,
-        extent: match args.full {
-            true => Extent::Full,
-            false => Extent::Quick,
+        extent: if args.full {
+            Extent::Full
+        } else {
+            Extent::Quick
         },
         programs: Programs {
             script: args.peers.clone(),
         },
         folder: args.out.clone(),
     };
-    let journal = match args.redraw {
-        true => Journal::read(&args.out),
-        false => survey.run()?,
+    let journal = if args.redraw {
+        Journal::read(&args.out)
+    } else {
+        survey.run()?
     };
     let findings = Findings::new(families(), drawn, &journal);
     ensure!(

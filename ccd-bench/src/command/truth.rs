@@ -89,9 +89,10 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     // A referee has no memory to work in: all threads share one.
     let mut referees = on_threads(args.threads, || &referee);
     let mut size = BatchSize::new(referees.threads());
-    let progress = match args.quiet {
-        true => Progress::hidden(),
-        false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
+    let progress = if args.quiet {
+        Progress::hidden()
+    } else {
+        Progress::new(length.map_or(Total::Unknown, Total::Bytes))
     };
     let mut bad_rows = BadRows::new(input_name(&args.motions));
     let (mut seen, start) = (Seen::default(), Instant::now());
@@ -136,9 +137,10 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
 /// Returns both surfaces. B is `None` if it comes from the same file as A.
 fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
     let surface = |option: &str, path: &Path| -> Result<(Surface, Size)> {
-        let progress = match args.quiet {
-            true => Progress::hidden(),
-            false => Progress::of(&format!("reading {}", path.display())),
+        let progress = if args.quiet {
+            Progress::hidden()
+        } else {
+            Progress::of(&format!("reading {}", path.display()))
         };
         let mesh = TriangleMesh::read(path).with_context(|| option.to_owned())?;
         let surface = Surface::new(&mesh);

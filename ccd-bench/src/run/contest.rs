@@ -80,9 +80,10 @@ impl<'s> Contest<'s> {
     /// If a motion has no screw between its ends.
     pub fn new(scene: &'s Scene) -> Result<Self, ContestError> {
         let a = Arc::new(Surface::new(scene.a.mesh()));
-        let b = match Arc::ptr_eq(&scene.a.body, &scene.b.body) {
-            true => Arc::clone(&a),
-            false => Arc::new(Surface::new(scene.b.mesh())),
+        let b = if Arc::ptr_eq(&scene.a.body, &scene.b.body) {
+            Arc::clone(&a)
+        } else {
+            Arc::new(Surface::new(scene.b.mesh()))
         };
         let screws: Result<Vec<Query>, InputError> = scene.queries.iter().map(screw).collect();
         Ok(Contest {

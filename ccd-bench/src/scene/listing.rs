@@ -132,9 +132,10 @@ mod tests {
                 .iter()
                 .filter(|q| q.a.spin().length() > 1e-3)
                 .count();
-            let share = match listing.name.ends_with("translating") {
-                true => 0..=0,
-                false => queries.len() / 3..=queries.len(),
+            let share = if listing.name.ends_with("translating") {
+                0..=0
+            } else {
+                queries.len() / 3..=queries.len()
             };
             assert!(share.contains(&turns), "{}: {turns} turn", listing.name);
         }

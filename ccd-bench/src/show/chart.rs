@@ -220,9 +220,12 @@ impl Charts<'_> {
                 .filter(known)
                 .any(|cell| cell.method == name)
         };
-        let fill = |name: &str| match self.is_unsafe(name) {
-            true => Fill::Hollow,
-            false => Fill::Solid,
+        let fill = |name: &str| {
+            if self.is_unsafe(name) {
+                Fill::Hollow
+            } else {
+                Fill::Solid
+            }
         };
         self.methods
             .iter()

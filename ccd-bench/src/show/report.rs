@@ -82,9 +82,10 @@ impl Page<'_> {
 
 fn table_html(table: &TextTable) -> String {
     let cell = |text: &String| {
-        let class = match text.starts_with(char::is_alphabetic) {
-            true => "",
-            false => " class=\"number\"",
+        let class = if text.starts_with(char::is_alphabetic) {
+            ""
+        } else {
+            " class=\"number\""
         };
         format!("<td{class}>{}</td>", escape(text))
     };

@@ -81,9 +81,10 @@ impl Seen<'_> {
                 wrong.push(format!("{method} {}", faults.join(", ")));
             }
         }
-        let wrong = match wrong.is_empty() {
-            true => "no contact late, missed, false or early".to_owned(),
-            false => wrong.join("; "),
+        let wrong = if wrong.is_empty() {
+            "no contact late, missed, false or early".to_owned()
+        } else {
+            wrong.join("; ")
         };
         (count > 0).then(|| {
             format!("{name} ({count} of the methods, {rows} queries): {wrong}; {open} unresolved.")

@@ -122,9 +122,10 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -
             cell.false_contacts.to_string(),
             cell.early.to_string(),
             cell.unresolved.to_string(),
-            match cell.mean_error.is_nan() {
-                true => NOTHING.to_owned(),
-                false => format!("{:.0e}", cell.mean_error),
+            if cell.mean_error.is_nan() {
+                NOTHING.to_owned()
+            } else {
+                format!("{:.0e}", cell.mean_error)
             },
         ]);
     }
@@ -220,17 +221,19 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         let name = verdict.to_string();
         other.values().any(|trial| trial.verdict == name)
     };
-    let given_up = match occurs(Verdict::CutOff) || occurs(Verdict::Unresolved) {
-        true => "> ",
-        false => "",
+    let given_up = if occurs(Verdict::CutOff) || occurs(Verdict::Unresolved) {
+        "> "
+    } else {
+        ""
     };
     let rows = match ratios.len() {
         few @ ..FEW => format!(" [{few}]"),
         _ => String::new(),
     };
-    let mark = match occurs(Verdict::Late) || occurs(Verdict::Missed) {
-        true => " †",
-        false => "",
+    let mark = if occurs(Verdict::Late) || occurs(Verdict::Missed) {
+        " †"
+    } else {
+        ""
     };
     let (typical, total) = (
         three_digits(median(&mut ratios)),

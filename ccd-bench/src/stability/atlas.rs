@@ -179,9 +179,10 @@ fn given(trial: &Trial) -> String {
     };
     let parts = [answer, trial.note.clone()];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-    match parts.is_empty() {
-        true => "none".to_owned(),
-        false => parts.join("; "),
+    if parts.is_empty() {
+        "none".to_owned()
+    } else {
+        parts.join("; ")
     }
 }
 

@@ -157,9 +157,10 @@ impl Survey {
                             source,
                         })?;
                 let cut_off = Verdict::CutOff.to_string();
-                match trials.iter().any(|trial| trial.verdict == cut_off) {
-                    true => *stopped += 1,
-                    false => *stopped = 0,
+                if trials.iter().any(|trial| trial.verdict == cut_off) {
+                    *stopped += 1;
+                } else {
+                    *stopped = 0;
                 }
                 locked().add(sum_up(&trials), trials)?;
             }

@@ -234,9 +234,10 @@ impl<'a> Search<'a> {
                     triangles.is_some_and(|[a, b]| instant.certainly_meet(a, b))
                 }
             };
-            match touches {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
+            if touches {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
             }
         })
     }

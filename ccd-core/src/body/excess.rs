@@ -56,17 +56,19 @@ impl Excess {
 
     /// Returns an upper bound of the shapes' distance, given one of the bodies'.
     pub(crate) fn above(self, upper: f64) -> f64 {
-        match self.0 > 0.0 {
-            true => (upper + self.0).next_up(),
-            false => upper,
+        if self.0 > 0.0 {
+            (upper + self.0).next_up()
+        } else {
+            upper
         }
     }
 
     /// Returns the distance of bodies whose shapes are certainly nearer than `distance`; not above 0 if there is none.
     pub(crate) fn below(self, distance: f64) -> f64 {
-        match self.0 > 0.0 {
-            true => (distance - self.0).next_down(),
-            false => distance,
+        if self.0 > 0.0 {
+            (distance - self.0).next_down()
+        } else {
+            distance
         }
     }
 

@@ -80,9 +80,10 @@ impl Body {
         let middle = triangle.iter().sum::<DVec3>() / 3.0;
         let samples = [middle, triangle[0], triangle[1], triangle[2]].map(|p| 0.5 * (p + middle));
         let [first, others @ ..] = samples.map(|at| self.facing_at(at, normal));
-        let facing = match others.iter().all(|other| *other == first) {
-            true => first,
-            false => Facing::Unclear,
+        let facing = if others.iter().all(|other| *other == first) {
+            first
+        } else {
+            Facing::Unclear
         };
         let size = triangle
             .iter()
@@ -112,9 +113,10 @@ impl Body {
             std::cmp::Ordering::Less => true,
             std::cmp::Ordering::Greater => false,
         };
-        match ahead_is_out == (normal.dot(found.along) > 0.0) {
-            true => Facing::Out(normal),
-            false => Facing::Out(-normal),
+        if ahead_is_out == (normal.dot(found.along) > 0.0) {
+            Facing::Out(normal)
+        } else {
+            Facing::Out(-normal)
         }
     }
 

@@ -199,9 +199,10 @@ impl Pieces {
     /// Returns the corners of a piece that is a triangle, or of the first of the mesh's triangles
     /// on it.
     pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
-        match self.all_triangles() {
-            true => Some(self.triangle(index)),
-            false => self.get(index).mesh_triangles().next().map(|(_, t)| t),
+        if self.all_triangles() {
+            Some(self.triangle(index))
+        } else {
+            self.get(index).mesh_triangles().next().map(|(_, t)| t)
         }
     }
 

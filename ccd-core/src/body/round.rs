@@ -174,9 +174,10 @@ impl Enclosure {
             let fan = 1..corners.len().saturating_sub(1);
             fan.map(move |k| ([corners[0], corners[k], corners[k + 1]], number))
         });
-        match self.is_flat {
-            true => Default::default(),
-            false => fans.unzip(),
+        if self.is_flat {
+            Default::default()
+        } else {
+            fans.unzip()
         }
     }
 }
@@ -228,13 +229,14 @@ fn corners(radius: f64, asked: f64) -> Result<f64, InputError> {
     let half_angle = (share * (2.0 + share)).sqrt().atan();
     let count = 4.0 * greater(1.0, (PI / half_angle / 4.0).ceil());
     // Written so that NaN is refused.
-    match asked >= 0.0 && share > 0.0 && count <= MOST_CORNERS {
-        true => Ok(count),
-        false => Err(InputError::OutOfRange {
+    if asked >= 0.0 && share > 0.0 && count <= MOST_CORNERS {
+        Ok(count)
+    } else {
+        Err(InputError::OutOfRange {
             what: "excess",
             value: asked,
             allowed: "at least 1.9e-8 of the radius",
-        }),
+        })
     }
 }
 

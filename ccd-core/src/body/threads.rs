@@ -16,11 +16,12 @@ pub(super) fn for_each<T: Send, W: Clone + Send>(
     workspace: &W,
     work: impl Fn(&mut W, usize, &mut T) + Sync,
 ) {
-    let threads = match list.len() < WORTHWHILE {
-        true => 1,
-        false => available_parallelism()
+    let threads = if list.len() < WORTHWHILE {
+        1
+    } else {
+        available_parallelism()
             .map_or(1, NonZero::get)
-            .min(list.len() / WORTHWHILE + 1),
+            .min(list.len() / WORTHWHILE + 1)
     };
     for_each_in(threads, list, workspace, work);
 }

@@ -36,9 +36,10 @@ pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (P
     let way = |&(_, at): &(Part, DVec3)| from.distance(at);
     let mut best = corner(0);
     for part in parts.into_iter().flatten() {
-        let nearer = match same_kind(part.0, best.0) {
-            true => way(&part) < way(&best),
-            false => way(&part) + rounding < way(&best),
+        let nearer = if same_kind(part.0, best.0) {
+            way(&part) < way(&best)
+        } else {
+            way(&part) + rounding < way(&best)
         };
         if nearer {
             best = part;
@@ -85,9 +86,10 @@ fn inner_foot(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
 
 /// Returns the nearest point of a segment.
 fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
-    let nearer_end = match from.distance_squared(edge[1]) < from.distance_squared(edge[0]) {
-        true => edge[1],
-        false => edge[0],
+    let nearer_end = if from.distance_squared(edge[1]) < from.distance_squared(edge[0]) {
+        edge[1]
+    } else {
+        edge[0]
     };
     inner_foot(from, edge).unwrap_or(nearer_end)
 }

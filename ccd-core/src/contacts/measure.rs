@@ -33,9 +33,10 @@ pub(super) fn measure(
     let points = [0, 1].map(|k| skins[k].points(spots[k], candidate.faces[k]));
     let [a, b] = candidate.points;
     let (distance, radii) = (vector::distance(a, b), face(0).radius + face(1).radius);
-    let towards = match distance > problem.rounding {
-        true => b - a,
-        false => outward(skins, spots, candidate),
+    let towards = if distance > problem.rounding {
+        b - a
+    } else {
+        outward(skins, spots, candidate)
     };
     let mut normal = unit(towards).unwrap_or(DVec3::X);
     for across in across(&points).into_iter().flatten() {

@@ -164,9 +164,10 @@ impl<'a> Skin<'a> {
         }
         let [a, b, c] = self.triangle(face);
         let unknown = self.body.pieces().get(piece as usize).is_flat();
-        match unknown {
-            true => DVec3::ZERO,
-            false => normal([a, b, c]).unwrap_or(DVec3::ZERO),
+        if unknown {
+            DVec3::ZERO
+        } else {
+            normal([a, b, c]).unwrap_or(DVec3::ZERO)
         }
     }
 
@@ -180,9 +181,10 @@ impl<'a> Skin<'a> {
         let index = self.face(face).piece;
         let piece = self.body.pieces().get(index as usize);
         let corners = self.triangle(face);
-        let points = match piece.facets.is_empty() {
-            true => piece.points,
-            false => &[],
+        let points = if piece.facets.is_empty() {
+            piece.points
+        } else {
+            &[]
         };
         let inside = self.body.point_inside(index);
         let placed = points

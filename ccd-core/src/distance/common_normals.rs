@@ -48,9 +48,12 @@ impl CommonNormals {
         let [x, y, z] = DVec3::AXES;
         // If there is only one, one of these is less than 55 degrees from it.
         let axes = [x, y, z, -x, -y, -z];
-        let nearer = |one: DVec3, other: DVec3| match other.dot(towards) > one.dot(towards) {
-            true => other,
-            false => one,
+        let nearer = |one: DVec3, other: DVec3| {
+            if other.dot(towards) > one.dot(towards) {
+                other
+            } else {
+                one
+            }
         };
         let others = || {
             axes.into_iter()

@@ -37,9 +37,10 @@ pub(crate) fn intersects(
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
         // Witnesses of the cores that are nearer than the radii are a proof.
-        return match checked.core_distance + rounding < radii {
-            true => Intersection::Certain,
-            false => Intersection::None,
+        return if checked.core_distance + rounding < radii {
+            Intersection::Certain
+        } else {
+            Intersection::None
         };
     }
     if checked.lower >= -2.0 * rounding {
@@ -161,10 +162,8 @@ impl Inner {
 /// up to rounding, so that no point is deeper than that.
 fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     let both = |along: DVec3| [along, -along].map(|along| farthest_difference(pair, along));
-    let farther = |best: (f64, DVec3), next: (f64, DVec3)| match next.0 > best.0 {
-        true => next,
-        false => best,
-    };
+    let farther =
+        |best: (f64, DVec3), next: (f64, DVec3)| if next.0 > best.0 { next } else { best };
     let pick = |points: &[DVec3], measure: &dyn Fn(DVec3) -> f64| {
         let measured = points.iter().map(|&p| (measure(p), p));
         let (size, point) = measured.fold((0.0, DVec3::ZERO), farther);
@@ -181,9 +180,10 @@ fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     })?;
     let normal = unit_or_any(across(b - a, c - a));
     let d = pick(&both(normal), &|p| normal.dot(p - a).abs())?;
-    Some(match normal.dot(d - a) < 0.0 {
-        true => [a, b, c, d],
-        false => [a, c, b, d],
+    Some(if normal.dot(d - a) < 0.0 {
+        [a, b, c, d]
+    } else {
+        [a, c, b, d]
     })
 }
 
@@ -191,9 +191,12 @@ fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
 /// the cross product's rounding that lies along the needle would tilt the normal.
 fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     let edges = [b - a, c - b, a - c];
-    let longest = |e: DVec3, f: DVec3| match f.length_squared() > e.length_squared() {
-        true => f,
-        false => e,
+    let longest = |e: DVec3, f: DVec3| {
+        if f.length_squared() > e.length_squared() {
+            f
+        } else {
+            e
+        }
     };
     let along = unit_or_any(edges.into_iter().fold(DVec3::ZERO, longest));
     let normal = unit_or_any(across(edges[0], edges[1]));

@@ -79,9 +79,10 @@ impl PointTree {
         self.nodes.push(Node {
             middle,
             half,
-            points: match is_leaf {
-                true => range.start as u32..range.end as u32,
-                false => 0..0,
+            points: if is_leaf {
+                range.start as u32..range.end as u32
+            } else {
+                0..0
             },
             next: 0,
         });

@@ -48,9 +48,10 @@ fn half_angle(y: f64, x: f64) -> (f64, f64) {
     // The larger of the two is a root of a sum, in which nothing cancels.
     let larger = (0.5 + 0.5 * x.abs() / length).sqrt();
     let smaller = 0.5 * y.abs() / (length * larger);
-    let (sine, cosine) = match x > 0.0 {
-        true => (smaller, larger),
-        false => (larger, smaller),
+    let (sine, cosine) = if x > 0.0 {
+        (smaller, larger)
+    } else {
+        (larger, smaller)
     };
     (sine.copysign(y), cosine)
 }

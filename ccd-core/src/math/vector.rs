@@ -23,9 +23,10 @@ use glam::DVec3;
 #[inline]
 pub fn unit(v: DVec3) -> Option<DVec3> {
     let square = v.length_squared();
-    match SQUARES.contains(&square) {
-        true => Some(v / square.sqrt()),
-        false => unit_of_extreme(v),
+    if SQUARES.contains(&square) {
+        Some(v / square.sqrt())
+    } else {
+        unit_of_extreme(v)
     }
 }
 
@@ -76,9 +77,10 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let across_both = (b - a).cross(c - a);
     let square = across_both.length_squared();
     // Products that underflowed or overflowed leave a square outside of this range.
-    match SQUARES.contains(&square) {
-        true => Some(across_both / square.sqrt()),
-        false => unit_of_extreme(across(b - a, c - a)),
+    if SQUARES.contains(&square) {
+        Some(across_both / square.sqrt())
+    } else {
+        unit_of_extreme(across(b - a, c - a))
     }
 }
 

@@ -47,14 +47,16 @@ impl Gap {
         let (square, lost) = (rate * rate, -2.0 * bend * gap);
         // A sum that is lost to rounding, or to underflow, counts as none.
         let left = (square - lost) + RATE_F64 * (square + lost) + f64::MIN_POSITIVE;
-        let tau = match rate > 0.0 && left >= 0.0 {
-            true => 2.0 * gap / (rate + left.sqrt()),
-            false => f64::INFINITY,
+        let tau = if rate > 0.0 && left >= 0.0 {
+            2.0 * gap / (rate + left.sqrt())
+        } else {
+            f64::INFINITY
         };
         // Written so that NaN gives no time.
-        match gap > 0.0 && tau > 0.0 && lost <= f64::MAX && square <= f64::MAX {
-            true => tau * (1.0 - RATE_F64),
-            false => 0.0,
+        if gap > 0.0 && tau > 0.0 && lost <= f64::MAX && square <= f64::MAX {
+            tau * (1.0 - RATE_F64)
+        } else {
+            0.0
         }
     }
 }

@@ -44,13 +44,12 @@ impl Path {
         let rate = length(spin);
         let axis = unit(spin).unwrap_or(DVec3::ZERO);
         // A body that does not turn has only the constant part.
-        let [cosine, sine, constant] = match rate > 0.0 {
-            true => {
-                let constant = outer(axis) * start.rotation;
-                let sine = cross_matrix(axis) * start.rotation;
-                [start.rotation - constant, sine, constant]
-            }
-            false => [DMat3::ZERO, DMat3::ZERO, start.rotation],
+        let [cosine, sine, constant] = if rate > 0.0 {
+            let constant = outer(axis) * start.rotation;
+            let sine = cross_matrix(axis) * start.rotation;
+            [start.rotation - constant, sine, constant]
+        } else {
+            [DMat3::ZERO, DMat3::ZERO, start.rotation]
         };
         let velocity = motion.velocity() * duration;
         Path {

@@ -37,9 +37,10 @@ impl Period {
     /// Returns the periods that fit in twice, short ones first. Later ones are longer, and after them less changes.
     pub(crate) fn all(bodies: [Reaching<'_>; 2]) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;
-        let [slow, fast] = match a.path.rate > b.path.rate {
-            true => [b, a],
-            false => [a, b],
+        let [slow, fast] = if a.path.rate > b.path.rate {
+            [b, a]
+        } else {
+            [a, b]
         };
         let velocity = length(a.path.velocity - b.path.velocity);
         let speed = velocity + length(a.path.acceleration - b.path.acceleration);

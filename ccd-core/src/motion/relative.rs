@@ -70,16 +70,17 @@ impl View {
         let acceleration = other.acceleration - own.acceleration;
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
         let inverse = own.rotations().map(|part| part.transpose());
-        let seen = match own.turns() && other.turns() {
-            true => Parts::BothTurn {
+        let seen = if own.turns() && other.turns() {
+            Parts::BothTurn {
                 inverse: Turning::new(own.rate, inverse),
                 other: Turning::new(other.rate, other.rotations()),
                 way: row(way),
                 change: row(change),
                 acceleration: acceleration.map(row),
                 spin: row(other.spin),
-            },
-            false => Parts::one_turns(own, other, inverse, [way, change], acceleration),
+            }
+        } else {
+            Parts::one_turns(own, other, inverse, [way, change], acceleration)
         };
         View {
             seen,
@@ -156,9 +157,12 @@ impl Parts {
     ) -> Self {
         let others = other.rotations();
         let rate = if other.turns() { other.rate } else { own.rate };
-        let rotation = [0, 1, 2].map(|k| match other.turns() {
-            true => inverse[2] * others[k],
-            false => inverse[k] * others[2],
+        let rotation = [0, 1, 2].map(|k| {
+            if other.turns() {
+                inverse[2] * others[k]
+            } else {
+                inverse[k] * others[2]
+            }
         });
         let seen = |v: DVec3| Turning {
             rate,

@@ -36,9 +36,10 @@ impl Track {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
         let turn = self.omega * horizon;
         // Written so that NaN is a full turn.
-        let turned = match turn < TAU && !self.passes_trough(turn, end) {
-            true => lesser(0.0, end.cos_minus_one * self.p + end.sin * self.q),
-            false => -self.p - swing,
+        let turned = if turn < TAU && !self.passes_trough(turn, end) {
+            lesser(0.0, end.cos_minus_one * self.p + end.sin * self.q)
+        } else {
+            -self.p - swing
         };
         // The angle at the end is rounded, too.
         self.height + (turned - RATE_F64 * swing * (1.0 + turn))
@@ -48,9 +49,10 @@ impl Track {
     fn passes_trough(&self, turn: f64, end: Angle) -> bool {
         // The trough is at the angle of (−p, −q): compared to the start, and to the end.
         let (after_start, before_end) = (-self.q, self.q * end.cos - self.p * end.sin);
-        match turn < PI {
-            true => after_start > 0.0 && before_end > 0.0,
-            false => after_start > 0.0 || before_end > 0.0,
+        if turn < PI {
+            after_start > 0.0 && before_end > 0.0
+        } else {
+            after_start > 0.0 || before_end > 0.0
         }
     }
 

@@ -88,9 +88,10 @@ impl Stretch {
     /// Returns the pose after a time, up to the stray.
     pub fn pose(&self, time: f64) -> Pose {
         let pose = self.motion.pose(time);
-        match self.acceleration == DVec3::ZERO {
-            true => pose,
-            false => pose.moved(0.5 * time * (time * self.acceleration)),
+        if self.acceleration == DVec3::ZERO {
+            pose
+        } else {
+            pose.moved(0.5 * time * (time * self.acceleration))
         }
     }
 

@@ -101,11 +101,11 @@ impl<O: DistanceOracle> Question<O> for Proven {
 
     #[inline]
     fn arrive(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
-        match s > 0.0 {
-            true => self
-                .past_start(problem)
-                .map_or(ControlFlow::Continue(()), ControlFlow::Break),
-            false => ControlFlow::Continue(()),
+        if s > 0.0 {
+            self.past_start(problem)
+                .map_or(ControlFlow::Continue(()), ControlFlow::Break)
+        } else {
+            ControlFlow::Continue(())
         }
     }
 

@@ -283,9 +283,10 @@ pub(super) struct Beyond {
 /// Begins with what balls about the bodies prove.
 fn ladder(problem: &Problem<'_>) -> Ladder {
     let ladder = Ladder::new(least_distance(problem), problem.budget);
-    match problem.deadline.is_some() || problem.stop.is_some() {
-        true => ladder.timed(),
-        false => ladder,
+    if problem.deadline.is_some() || problem.stop.is_some() {
+        ladder.timed()
+    } else {
+        ladder
     }
 }
 

@@ -159,9 +159,10 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
                     self.start = StartPolicy::Report;
                 }
                 None => {
-                    let tolerance = match self.start == self.problem.start {
-                        true => self.problem.tolerance,
-                        false => shown(&self.current, &outcome),
+                    let tolerance = if self.start == self.problem.start {
+                        self.problem.tolerance
+                    } else {
+                        shown(&self.current, &outcome)
                     };
                     return ControlFlow::Break((outcome, tolerance));
                 }

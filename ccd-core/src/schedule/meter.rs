@@ -27,9 +27,10 @@ impl Meter {
         Meter {
             stats: Stats::default(),
             kept: None,
-            next_look: match end.is_some() || problem.stop.is_some() {
-                true => 0,
-                false => u64::MAX,
+            next_look: if end.is_some() || problem.stop.is_some() {
+                0
+            } else {
+                u64::MAX
             },
             end,
         }
@@ -48,9 +49,10 @@ impl Meter {
         if work > problem.budget {
             return Err(Limit::Budget);
         }
-        match work >= self.next_look {
-            true => self.look(problem, work),
-            false => Ok(()),
+        if work >= self.next_look {
+            self.look(problem, work)
+        } else {
+            Ok(())
         }
     }
 
@@ -64,9 +66,10 @@ impl Meter {
         {
             return Err(Limit::Stopped);
         }
-        match self.end.is_some_and(|end| Instant::now() >= end) {
-            true => Err(Limit::Deadline),
-            false => Ok(()),
+        if self.end.is_some_and(|end| Instant::now() >= end) {
+            Err(Limit::Deadline)
+        } else {
+            Ok(())
         }
     }
 }

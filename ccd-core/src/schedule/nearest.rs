@@ -189,9 +189,10 @@ impl<'p> Nearest<'p> {
     /// Pairs at least this far apart are not examined.
     fn near_enough(&self) -> f64 {
         let upper = self.upper();
-        match upper <= self.problem.contact_distance() {
-            true => upper * (1.0 - NEAREST_SHARE),
-            false => upper,
+        if upper <= self.problem.contact_distance() {
+            upper * (1.0 - NEAREST_SHARE)
+        } else {
+            upper
         }
     }
 

@@ -72,9 +72,10 @@ fn least_length(from: DVec3, change: DVec3) -> f64 {
 /// Returns the `s` from 0 to 1 at which `from + s · change` is shortest.
 fn least_at(from: DVec3, change: DVec3) -> f64 {
     let square = change.length_squared();
-    match square > 0.0 {
-        true => (-from.dot(change) / square).clamp(0.0, 1.0),
-        false => 0.0,
+    if square > 0.0 {
+        (-from.dot(change) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
     }
 }
 

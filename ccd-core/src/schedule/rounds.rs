@@ -68,9 +68,10 @@ impl<'a> Rounds<'a> {
     /// Returns the rounds of a problem that repeats itself often enough for a gain; none for others.
     #[inline]
     pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
-        match turns_often(problem) && free_at_once(problem).is_none() {
-            true => Rounds::of_many_turns(problem),
-            false => None,
+        if turns_often(problem) && free_at_once(problem).is_none() {
+            Rounds::of_many_turns(problem)
+        } else {
+            None
         }
     }
 
@@ -190,9 +191,10 @@ impl<'a> Rounds<'a> {
                 }
                 ControlFlow::Continue(())
             }
-            _ => ControlFlow::Break(match time > 0.0 {
-                true => Outcome::Contact { time, contact },
-                false => Outcome::Touching { contact },
+            _ => ControlFlow::Break(if time > 0.0 {
+                Outcome::Contact { time, contact }
+            } else {
+                Outcome::Touching { contact }
             }),
         }
     }
@@ -211,9 +213,10 @@ impl<'a> Rounds<'a> {
         let (Round::Repeated(count) | Round::Each(count)) = self.round;
         let end = self.from + count * self.period.length;
         // What rounding leaves of the time is covered, too.
-        match end + 0.5 * TURNS_F64 * self.period.length < 1.0 {
-            true => end,
-            false => 1.0,
+        if end + 0.5 * TURNS_F64 * self.period.length < 1.0 {
+            end
+        } else {
+            1.0
         }
     }
 
@@ -252,9 +255,10 @@ impl<'a> Sample<'a> {
     /// Returns the first period of a problem that repeats itself, up to a part of the tolerance; none for others.
     #[inline]
     pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
-        match turns_often(problem) {
-            true => Sample::of_many_turns(problem),
-            false => None,
+        if turns_often(problem) {
+            Sample::of_many_turns(problem)
+        } else {
+            None
         }
     }
 

@@ -94,12 +94,11 @@ fn bodies_whose_boxes_are_apart_are_free() {
             .solve(&scene.problem(), &mut Exhaustive)
             .outcome;
         let is_free = matches!(outcome, Outcome::Free { .. });
-        match a.meets(&b) {
-            true => others += 1,
-            false => {
-                apart += 1;
-                assert!(is_free, "{number}: {outcome:?}");
-            }
+        if a.meets(&b) {
+            others += 1;
+        } else {
+            apart += 1;
+            assert!(is_free, "{number}: {outcome:?}");
         }
         contacts += usize::from(!is_free);
     }

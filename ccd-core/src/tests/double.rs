@@ -254,9 +254,10 @@ impl Ends {
         let ([x, y, z], w) = self.turn();
         let axis = Double3([x, y, z]);
         let sine = axis.length();
-        let arm = match sine.high > 0.0 {
-            true => arm.turned(axis.unit(), Double::from(2.0) * sine.atan2(w) * share),
-            false => arm,
+        let arm = if sine.high > 0.0 {
+            arm.turned(axis.unit(), Double::from(2.0) * sine.atan2(w) * share)
+        } else {
+            arm
         };
         start + (end - start).scale(share) + arm
     }
@@ -269,9 +270,10 @@ impl Ends {
         // u w* of quaternions (b, u) and (a, −v)
         let Double3(xyz) = u.scale(a) - v.scale(b) - u.cross(v);
         let w = a * b + u.dot(v);
-        match w.high < 0.0 {
-            true => (xyz.map(|x| -x), -w),
-            false => (xyz, w),
+        if w.high < 0.0 {
+            (xyz.map(|x| -x), -w)
+        } else {
+            (xyz, w)
         }
     }
 }

@@ -19,9 +19,10 @@ pub(crate) fn cube(half: f64, n: usize) -> Vec<Triangle> {
             for i in 0..n {
                 for j in 0..n {
                     let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-                    out.extend(match sign > 0.0 {
-                        true => [[a, b, c], [a, c, d]],
-                        false => [[a, c, b], [a, d, c]],
+                    out.extend(if sign > 0.0 {
+                        [[a, b, c], [a, c, d]]
+                    } else {
+                        [[a, c, b], [a, d, c]]
                     });
                 }
             }

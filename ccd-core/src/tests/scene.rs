@@ -212,9 +212,10 @@ impl Scene {
         let clock = self.clock;
         let size = self.bodies[0].tree().span() + self.bodies[1].tree().span();
         for (motion, acceleration) in self.motions.iter_mut().zip(&mut self.accelerations) {
-            let speed = match rng.random_bool(0.5) {
-                true => size,
-                false => motion.velocity().length(),
+            let speed = if rng.random_bool(0.5) {
+                size
+            } else {
+                motion.velocity().length()
             };
             *acceleration = direction(rng) * speed * magnitude(rng, -3.0, 1.5);
             let (pose, change) = (motion.start(), clock * *acceleration);

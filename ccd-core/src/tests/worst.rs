@@ -66,9 +66,10 @@ impl Worst {
         let (mut here, mut worst, mut number) = (nothing(), nothing(), 0);
         let (mut drawn, mut stale, mut judged) = (0, 0, 0u64);
         for case in 1..=count {
-            let words = match drawn < DRAWN {
-                true => Vec::new(),
-                false => dice.changed(&here.1),
+            let words = if drawn < DRAWN {
+                Vec::new()
+            } else {
+                dice.changed(&here.1)
             };
             drawn += 1;
             let mut tape = Tape {
@@ -99,9 +100,10 @@ impl Worst {
         }
         let (name, share) = (self.name, worst.0);
         let ratio = 1.0 / share;
-        let ratio = match ratio < 1e6 {
-            true => format!("{ratio:.3}"),
-            false => format!("{ratio:.1e}"),
+        let ratio = if ratio < 1e6 {
+            format!("{ratio:.3}")
+        } else {
+            format!("{ratio:.1e}")
         };
         println!("{name}: allowance / worst error = {ratio} at case {number} of {judged}");
         assert!(4 * judged > count, "{name}: {judged} of {count} are cases");

@@ -43,9 +43,10 @@ impl Projection {
     /// the direction from `a` to `b`, seen from the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
-        match self.turned {
-            true => turn_along(self.axis, [b, a], point),
-            false => turn_along(self.axis, [a, b], point),
+        if self.turned {
+            turn_along(self.axis, [b, a], point)
+        } else {
+            turn_along(self.axis, [a, b], point)
         }
     }
 }
@@ -61,18 +62,16 @@ pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
 
 /// The power of two that takes a small number to about 1; 1 for any other number.
 fn scale_to_one(x: f64) -> f64 {
-    match x < 1.0 {
-        true => to_one(x),
-        false => 1.0,
-    }
+    if x < 1.0 { to_one(x) } else { 1.0 }
 }
 
 /// The power of two that takes a positive number to about 1; 1 for any other number.
 fn to_one(x: f64) -> f64 {
     const EXPONENT: u64 = f64::INFINITY.to_bits();
-    match x > 0.0 && x.is_finite() {
-        true => greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip(),
-        false => 1.0,
+    if x > 0.0 && x.is_finite() {
+        greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip()
+    } else {
+        1.0
     }
 }
 

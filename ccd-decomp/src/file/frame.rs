@@ -39,9 +39,10 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     if !header.starts_with(&MAGIC) {
         // A few bytes more identify a pointer. A file cut within the magic number is more likely foreign.
         header.extend(bytes(&mut reader, HEADER as u64)?);
-        return Err(match is_lfs_pointer(&header) {
-            true => StoreFault::LfsPointer,
-            false => StoreFault::Foreign,
+        return Err(if is_lfs_pointer(&header) {
+            StoreFault::LfsPointer
+        } else {
+            StoreFault::Foreign
         });
     }
     let mut fields = &header[MAGIC.len()..];
@@ -58,9 +59,10 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     if u32::from_le_bytes(array(&mut &end[..])?) != checksum(&header, &payload) {
         return Err(StoreFault::Damaged);
     }
-    match bytes(&mut reader, 1)?.is_empty() {
-        true => Ok(payload),
-        false => Err(StoreFault::Damaged),
+    if bytes(&mut reader, 1)?.is_empty() {
+        Ok(payload)
+    } else {
+        Err(StoreFault::Damaged)
     }
 }
 

@@ -58,9 +58,10 @@ impl ExactHull {
     /// Computes the facets of the hull of all points; none when they lie in one plane. O(n log n).
     pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         let simplex = ExactHull::simplex(points)?;
-        Some(match points.len() <= FEW_POINTS {
-            true => few::facets(points, simplex),
-            false => conflicts::facets(points, simplex),
+        Some(if points.len() <= FEW_POINTS {
+            few::facets(points, simplex)
+        } else {
+            conflicts::facets(points, simplex)
         })
     }
 

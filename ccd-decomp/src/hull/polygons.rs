@@ -123,9 +123,10 @@ impl<'a> Surface<'a> {
             pairs: twins(triangles).unwrap_or_default(),
             edges: Vec::new(),
         };
-        match surface.pairs.is_empty() {
-            true => surface.with_edges(),
-            false => surface,
+        if surface.pairs.is_empty() {
+            surface.with_edges()
+        } else {
+            surface
         }
     }
 

@@ -32,9 +32,10 @@ pub(super) enum Refutation {
 pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     let polygons = prove_convex(points, polygons)?;
     let outside = outside(points, &polygons);
-    match outside.is_empty() {
-        true => Ok(polygons),
-        false => Err(Refutation::Outside(outside)),
+    if outside.is_empty() {
+        Ok(polygons)
+    } else {
+        Err(Refutation::Outside(outside))
     }
 }
 

@@ -73,13 +73,14 @@ impl Adjustments {
     pub fn scaled(self, factor: f64) -> Result<Self, InputError> {
         let factors = self.factors * factor;
         // Written so that NaN is refused; several factors may leave the range together.
-        match factor > 0.0 && factors.abs().min_element() > 0.0 && factors.is_finite() {
-            true => Ok(Adjustments { factors, ..self }),
-            false => Err(InputError::OutOfRange {
+        if factor > 0.0 && factors.abs().min_element() > 0.0 && factors.is_finite() {
+            Ok(Adjustments { factors, ..self })
+        } else {
+            Err(InputError::OutOfRange {
                 what: "scale",
                 value: factor,
                 allowed: "positive and finite",
-            }),
+            })
         }
     }
 

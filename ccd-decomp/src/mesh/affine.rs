@@ -40,9 +40,10 @@ impl AffineMap {
     /// Exact for the identity. Otherwise each coordinate is off by at most `4u (|m x| + |n y| + |o z| + |t|)`, where
     /// `m n o` is its row of the matrix, `t` its translation, and `u` is 2⁻⁵³. Equal points have equal images.
     pub fn apply(&self, point: DVec3) -> DVec3 {
-        match self.is_identity() {
-            true => point,
-            false => self.0.transform_point3(point),
+        if self.is_identity() {
+            point
+        } else {
+            self.0.transform_point3(point)
         }
     }
 

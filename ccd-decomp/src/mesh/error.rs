@@ -290,9 +290,10 @@ impl fmt::Display for Numbers<'_> {
         for (k, number) in self.0.iter().enumerate().take(NAMED_PARTS) {
             write!(f, "{}{number}", if k == 0 { "" } else { ", " })?;
         }
-        match self.0.len() > NAMED_PARTS {
-            true => write!(f, ", …"),
-            false => Ok(()),
+        if self.0.len() > NAMED_PARTS {
+            write!(f, ", …")
+        } else {
+            Ok(())
         }
     }
 }

@@ -283,12 +283,13 @@ fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault>
 fn relative(name: &str) -> Result<PathBuf, MeshFault> {
     let path = PathBuf::from(name);
     let stays = |part| matches!(part, Component::Normal(_) | Component::CurDir);
-    match path.components().all(stays) && path.file_name().is_some() {
-        true => Ok(path),
-        false => Err(MeshFault::Beside {
+    if path.components().all(stays) && path.file_name().is_some() {
+        Ok(path)
+    } else {
+        Err(MeshFault::Beside {
             name: name.into(),
             reason: "it is not in the folder of the mesh; put it there".into(),
-        }),
+        })
     }
 }
 

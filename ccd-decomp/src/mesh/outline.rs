@@ -55,9 +55,10 @@ fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let axis = normal.abs().max_position();
     let flat = |p: &DVec3| {
         let (x, y) = (p[(axis + 1) % 3], p[(axis + 2) % 3]);
-        match normal[axis] > 0.0 {
-            true => Point2::new(x, y),
-            false => Point2::new(y, x),
+        if normal[axis] > 0.0 {
+            Point2::new(x, y)
+        } else {
+            Point2::new(y, x)
         }
     };
     Some(points.iter().map(flat).collect())
@@ -94,9 +95,12 @@ fn order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
     let spans = |&k: &usize| !is_without_area([point(0), point(second), point(k)]);
     let third = (1..places.len()).find(spans)?;
     let mut order: Vec<usize> = (0..places.len()).collect();
-    order.sort_by_cached_key(|&k| match [0, second, third].contains(&k) {
-        true => 0,
-        false => mixed(k as u64),
+    order.sort_by_cached_key(|&k| {
+        if [0, second, third].contains(&k) {
+            0
+        } else {
+            mixed(k as u64)
+        }
     });
     Some(order)
 }

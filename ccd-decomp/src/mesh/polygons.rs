@@ -117,9 +117,10 @@ impl Polygons {
 /// Checks that there are no more elements than pieces can name.
 pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFault> {
     // A fan makes less than one triangle per corner; pieces name corners by u32.
-    match count < u32::MAX as usize / 12 {
-        true => Ok(()),
-        false => Err(MeshFault::TooMany { what, count }),
+    if count < u32::MAX as usize / 12 {
+        Ok(())
+    } else {
+        Err(MeshFault::TooMany { what, count })
     }
 }
 
@@ -131,9 +132,10 @@ pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), 
         return Ok(());
     };
     let line = lines.get(vertex).copied();
-    Err(match vertices[vertex].is_finite() {
-        true => MeshFault::TooLarge { vertex, line },
-        false => MeshFault::NotFinite { vertex, line },
+    Err(if vertices[vertex].is_finite() {
+        MeshFault::TooLarge { vertex, line }
+    } else {
+        MeshFault::NotFinite { vertex, line }
     })
 }
 

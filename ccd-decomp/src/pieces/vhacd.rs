@@ -123,9 +123,10 @@ pub(crate) fn approximate(
         .collect::<Result<_, HullError>>()
         .map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(target.farthest_coordinate());
-    let excess = match is_convex {
-        true => 0.0,
-        false => excess::bound(&target, &parts),
+    let excess = if is_convex {
+        0.0
+    } else {
+        excess::bound(&target, &parts)
     };
     let sticks_out = (excess + uncovered).next_up();
     let limit = tolerance::TOO_COARSE * target.reach() + 2.0 * uncovered;

@@ -153,9 +153,10 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
     let is_leaf = elements.len() <= LEAF;
     nodes.push(Node {
         bounds: Bounds::of(elements.iter().flat_map(|element| element.corners)),
-        elements: match is_leaf {
-            true => first as u32..(first + elements.len()) as u32,
-            false => 0..0,
+        elements: if is_leaf {
+            first as u32..(first + elements.len()) as u32
+        } else {
+            0..0
         },
         oriented,
         count: 1,

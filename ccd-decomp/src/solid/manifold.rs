@@ -147,9 +147,10 @@ impl<'m> Manifold<'m> {
             Ordering::Equal => {
                 let [start, end] = self.ends(half_edge).map(|v| self.point(v));
                 let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
-                match Projection::of(triangle).is_some_and(beyond) {
-                    true => Dihedral::Flat,
-                    false => Dihedral::Folded,
+                if Projection::of(triangle).is_some_and(beyond) {
+                    Dihedral::Flat
+                } else {
+                    Dihedral::Folded
                 }
             }
         }

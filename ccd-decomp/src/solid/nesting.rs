@@ -90,12 +90,15 @@ impl<'m> Shells<'m> {
     fn nesting(&self) -> Nesting {
         let exact = too_fine(self.mesh.vertices()).is_none();
         let around: Vec<Surroundings> = (0..self.faces_of.len() as u32)
-            .map(|shell| match exact {
-                true => self.surroundings(shell),
-                false => Surroundings {
-                    unknown: true,
-                    ..Surroundings::default()
-                },
+            .map(|shell| {
+                if exact {
+                    self.surroundings(shell)
+                } else {
+                    Surroundings {
+                        unknown: true,
+                        ..Surroundings::default()
+                    }
+                }
             })
             .collect();
         let orientations: Vec<i32> = self
@@ -219,9 +222,10 @@ impl<'m> Shells<'m> {
         let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
             let other = self.shell_of[face as usize];
             let may_wind = other != shell && self.shell_boxes.is_about(other, ray[0]);
-            let found = match may_wind {
-                true => crossing(ray, self.mesh.triangle(face)),
-                false => Some(0),
+            let found = if may_wind {
+                crossing(ray, self.mesh.triangle(face))
+            } else {
+                Some(0)
             };
             met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
             found.is_some()

@@ -68,9 +68,10 @@ impl MeshSource {
 
     /// Returns the kind of pieces, where another one is asked for: a mesh that is to be hollow has its own.
     pub fn detail(&self, asked: Detail) -> Detail {
-        match self.adjustments.is_hollow() {
-            true => Detail::Surface,
-            false => asked,
+        if self.adjustments.is_hollow() {
+            Detail::Surface
+        } else {
+            asked
         }
     }
 

@@ -85,12 +85,13 @@ impl Grower<'_> {
             below: below_right,
             first: start,
         };
-        let (grown_left, grown_right) = match count >= SIDE_BY_SIDE {
-            true => rayon::join(
+        let (grown_left, grown_right) = if count >= SIDE_BY_SIDE {
+            rayon::join(
                 || self.grow(of_left, to_left),
                 || self.grow(of_right, to_right),
-            ),
-            false => (self.grow(of_left, to_left), self.grow(of_right, to_right)),
+            )
+        } else {
+            (self.grow(of_left, to_left), self.grow(of_right, to_right))
         };
         grown_left.and(grown_right)?;
         let corners = [&*left, &*right].map(|child| corners(child, self.pieces));

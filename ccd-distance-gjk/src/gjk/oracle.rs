@@ -66,9 +66,10 @@ pub(crate) const NOTHING: Claim = Claim {
 /// Faces that have turned out of one plane by rounding leave a simplex from which no step gets nearer.
 pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Found {
     let found = solve(difference, cache.simplex(difference));
-    match found.gap > 0.0 && !certified(&found) {
-        true => found.better(solve(difference, Cache::default().simplex(difference))),
-        false => found,
+    if found.gap > 0.0 && !certified(&found) {
+        found.better(solve(difference, Cache::default().simplex(difference)))
+    } else {
+        found
     }
 }
 

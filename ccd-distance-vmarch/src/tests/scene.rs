@@ -242,9 +242,10 @@ fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (D
         2 => crossed(a, b, rotation, rng).unwrap_or(DVec3::Z),
         _ => normal(a, rng).unwrap_or_else(|| direction(rng)),
     };
-    let gap = match whole {
-        true => f64::from(rng.random_range(1i32..5)),
-        false => magnitude(rng, -6.0, 3.0),
+    let gap = if whole {
+        f64::from(rng.random_range(1i32..5))
+    } else {
+        magnitude(rng, -6.0, 3.0)
     };
     let high = a
         .shape

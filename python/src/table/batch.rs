@@ -139,12 +139,11 @@ impl Batch {
         let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
             let column = flat(column, unpacked(field.data_type())).map_err(unreadable)?;
-            columns.push(match field.name() == ID {
-                true => {
-                    id = Some(column);
-                    None
-                }
-                false => Some(Numbers::of(&column)?),
+            columns.push(if field.name() == ID {
+                id = Some(column);
+                None
+            } else {
+                Some(Numbers::of(&column)?)
             });
         }
         Ok(Batch {
@@ -180,13 +179,13 @@ impl Numbers {
             }
             _ => None,
         };
-        let values = match column.data_type().is_decimal() {
-            // As text, to the nearest number; the cast alone divides rounded numbers.
-            true => cast(
+        let values = if column.data_type().is_decimal() {
+            cast(
                 &cast(column, &DataType::Utf8).map_err(unreadable)?,
                 &DataType::Float64,
-            ),
-            false => flat(column, &DataType::Float64),
+            )
+        } else {
+            flat(column, &DataType::Float64)
         };
         let values = values.map_err(unreadable)?;
         Ok(Numbers {

@@ -89,9 +89,10 @@ fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
             types.set_item(name, polars.getattr(as_kind)?)?;
         }
     }
-    match types.is_empty() {
-        true => Ok(frame.clone()),
-        false => frame.call_method1("cast", (types,)),
+    if types.is_empty() {
+        Ok(frame.clone())
+    } else {
+        frame.call_method1("cast", (types,))
     }
 }
 
@@ -177,9 +178,10 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
         let id = id?;
         let text: Option<String> = id.extract().ok();
         // What fails makes an exception, which takes longer than the rest of a row.
-        let number: Option<i64> = match text.is_some() || id.is_instance_of::<PyBool>() {
-            true => None,
-            false => id.extract().ok(),
+        let number: Option<i64> = if text.is_some() || id.is_instance_of::<PyBool>() {
+            None
+        } else {
+            id.extract().ok()
         };
         if !id.is_none() && text.is_none() && number.is_none() {
             return Err(wrong_type(

@@ -92,9 +92,10 @@ impl Placed {
         let at = |corner: u32| points[corner as usize];
         // The corners of a piece without known facets are taken for one loop.
         let whole: Vec<u32> = (0..points.len() as u32).collect();
-        let loops: Vec<&[u32]> = match piece.facets.is_empty() {
-            true => vec![&whole],
-            false => piece.facets.iter().collect(),
+        let loops: Vec<&[u32]> = if piece.facets.is_empty() {
+            vec![&whole]
+        } else {
+            piece.facets.iter().collect()
         };
         let (mut normals, mut edges) = (Vec::new(), Vec::new());
         for corners in loops {

@@ -104,8 +104,9 @@ fn of(which: u8, motion: Result<Motion, InputError>) -> Result<Motion, CastError
 }
 
 fn policy(stop_at_penetration: bool) -> StartPolicy {
-    match stop_at_penetration {
-        true => StartPolicy::Report,
-        false => StartPolicy::Leave,
+    if stop_at_penetration {
+        StartPolicy::Report
+    } else {
+        StartPolicy::Leave
     }
 }

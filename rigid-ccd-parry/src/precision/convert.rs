@@ -53,9 +53,10 @@ pub(super) fn vector(v: DVec3) -> Vector {
 /// Returns the time in parry's precision, rounded down.
 pub(super) fn time(time: f64) -> Real {
     let near = time as Real;
-    match f64::from(near) > time {
-        true => near.next_down(),
-        false => near,
+    if f64::from(near) > time {
+        near.next_down()
+    } else {
+        near
     }
 }
 

@@ -45,9 +45,10 @@ pub(super) fn form(shape: &dyn Shape, settings: &Settings) -> Result<Form, Shape
         return Ok(form);
     };
     let oriented = mesh.flags().contains(TriMeshFlags::ORIENTED);
-    match settings.meshes == Meshes::SolidIfOriented && oriented {
-        true => form.filled(),
-        false => Ok(form),
+    if settings.meshes == Meshes::SolidIfOriented && oriented {
+        form.filled()
+    } else {
+        Ok(form)
     }
 }
 
@@ -228,9 +229,10 @@ fn size(what: &'static str, value: Real) -> Result<f64, ShapeError> {
 }
 
 fn checked(what: &'static str, value: f64) -> Result<f64, ShapeError> {
-    match value >= 0.0 && value.is_finite() {
-        true => Ok(value),
-        false => Err(ShapeError::Size { what, value }),
+    if value >= 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(ShapeError::Size { what, value })
     }
 }
 

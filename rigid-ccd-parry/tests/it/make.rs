@@ -43,9 +43,10 @@ pub(crate) fn shape(recipe: &Recipe) -> SharedShape {
         }),
         Recipe::Hull(points, r) => {
             let points: Vec<Vector> = points.iter().map(|p| vector(*p)).collect();
-            match *r > 0.0 {
-                true => SharedShape::round_convex_hull(&points, real(*r)).expect("a hull"),
-                false => SharedShape::convex_hull(&points).expect("a hull"),
+            if *r > 0.0 {
+                SharedShape::round_convex_hull(&points, real(*r)).expect("a hull")
+            } else {
+                SharedShape::convex_hull(&points).expect("a hull")
             }
         }
         Recipe::Mesh(vertices, faces) => {
@@ -58,14 +59,20 @@ pub(crate) fn shape(recipe: &Recipe) -> SharedShape {
             let heights = Array2::new(*rows, columns, heights);
             SharedShape::new(HeightField::new(heights, vector(*scale)))
         }
-        Recipe::Cylinder(half, radius, border) => match *border > 0.0 {
-            true => SharedShape::round_cylinder(real(*half), real(*radius), real(*border)),
-            false => SharedShape::new(Cylinder::new(real(*half), real(*radius))),
-        },
-        Recipe::Cone(half, radius, border) => match *border > 0.0 {
-            true => SharedShape::round_cone(real(*half), real(*radius), real(*border)),
-            false => SharedShape::new(Cone::new(real(*half), real(*radius))),
-        },
+        Recipe::Cylinder(half, radius, border) => {
+            if *border > 0.0 {
+                SharedShape::round_cylinder(real(*half), real(*radius), real(*border))
+            } else {
+                SharedShape::new(Cylinder::new(real(*half), real(*radius)))
+            }
+        }
+        Recipe::Cone(half, radius, border) => {
+            if *border > 0.0 {
+                SharedShape::round_cone(real(*half), real(*radius), real(*border))
+            } else {
+                SharedShape::new(Cone::new(real(*half), real(*radius)))
+            }
+        }
         Recipe::Voxels(size, cells) => {
             let cells: Vec<IVector> = (cells.iter())
                 .map(|[x, y, z]| IVector::new((*x).into(), (*y).into(), (*z).into()))

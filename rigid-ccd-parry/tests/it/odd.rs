@@ -11,9 +11,10 @@ use rand_pcg::Pcg64Mcg;
 
 /// Returns an odd number in one of a few cases, an even one otherwise.
 fn odd(rng: &mut Pcg64Mcg, share: f32) -> Real {
-    match rng.random::<f32>() < share {
-        true => ODD[rng.random_range(0..ODD.len())],
-        false => Real::from(number(rng, -2.0, 2.0)),
+    if rng.random::<f32>() < share {
+        ODD[rng.random_range(0..ODD.len())]
+    } else {
+        Real::from(number(rng, -2.0, 2.0))
     }
 }
 

@@ -113,9 +113,10 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
         pages: pages(args, &pair)?,
         counts: [0; Status::ALL.len()],
         bad_rows: BadRows::new(input_name(&args.motions)),
-        progress: match args.quiet {
-            true => Progress::hidden(),
-            false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
+        progress: if args.quiet {
+            Progress::hidden()
+        } else {
+            Progress::new(length.map_or(Total::Unknown, Total::Bytes))
         },
     };
     audit.all(&mut rows)?;

@@ -129,9 +129,10 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let out = args.out.as_deref().map(|out| claim(out, &source.file));
     let out = out.transpose()?;
     let (mesh, unit) = source.read()?;
-    let spinner = match args.quiet {
-        true => Progress::hidden(),
-        false => Progress::of("preparing"),
+    let spinner = if args.quiet {
+        Progress::hidden()
+    } else {
+        Progress::of("preparing")
     };
     let name = source.to_string();
     let start = Instant::now();

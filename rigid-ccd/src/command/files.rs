@@ -80,9 +80,10 @@ fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
 
 /// Returns the name of an input for messages.
 pub fn input_name(path: &Path) -> String {
-    match is_standard(path) {
-        true => "standard input".to_owned(),
-        false => path.display().to_string(),
+    if is_standard(path) {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
     }
 }
 

@@ -100,8 +100,9 @@ pub(super) fn is_standard(path: &Path) -> bool {
 }
 
 fn output_name(path: &Path) -> String {
-    match is_standard_output(path) {
-        true => "standard output".to_owned(),
-        false => path.display().to_string(),
+    if is_standard_output(path) {
+        "standard output".to_owned()
+    } else {
+        path.display().to_string()
     }
 }

@@ -73,9 +73,10 @@ impl Pair {
         let source_b = source(b).context("--b")?;
         let (text_a, text_b) = (a, b);
         let (a, unit_a) = load(loading, ("--a", text_a), &source_a)?;
-        let b = match same(&source_a, &source_b) {
-            true => None,
-            false => Some(load(loading, ("--b", text_b), &source_b)?),
+        let b = if same(&source_a, &source_b) {
+            None
+        } else {
+            Some(load(loading, ("--b", text_b), &source_b)?)
         };
         if let (Some((b, unit_b)), false) = (&b, loading.quiet) {
             let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
@@ -115,9 +116,10 @@ fn load(
         quiet,
     } = loading;
     let detail = bodies.pieces.detail()?;
-    let progress = match quiet {
-        true => Progress::hidden(),
-        false => Progress::of(&format!("preparing {text}")),
+    let progress = if quiet {
+        Progress::hidden()
+    } else {
+        Progress::of(&format!("preparing {text}"))
     };
     let loaded = source.load_adjusted(&bodies.meshes.adjustments(), detail);
     let Prepared {

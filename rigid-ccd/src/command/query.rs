@@ -77,9 +77,10 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
             .map(|_| Chosen::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
         bad_rows: BadRows::new(input_name(&args.motions)),
-        progress: match args.quiet {
-            true => Progress::hidden(),
-            false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
+        progress: if args.quiet {
+            Progress::hidden()
+        } else {
+            Progress::new(length.map_or(Total::Unknown, Total::Bytes))
         },
     };
     let end = answering.answer_all(&mut rows, start)?;
@@ -278,12 +279,13 @@ fn settings(args: &QueryArgs) -> Settings {
 /// Warns that there was no row to answer: this is hardly what the user meant.
 fn report_no_rows(args: &QueryArgs, skipped: usize) {
     let input = input_name(&args.motions);
-    match args.rows.is_all() {
-        true => complain(&format!("{input}: has a header, but no rows")),
-        false => complain(&format!(
+    if args.rows.is_all() {
+        complain(&format!("{input}: has a header, but no rows"));
+    } else {
+        complain(&format!(
             "{input}: has {skipped} rows, and --rows {} selects none of them",
             args.rows
-        )),
+        ));
     }
 }
 

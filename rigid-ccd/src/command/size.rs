@@ -45,9 +45,10 @@ impl Size {
     /// Warns when two bodies may have different units of length.
     pub fn compare(a: Size, b: Size) {
         let (of_a, of_b) = (a.largest(), b.largest());
-        let (large, small, ratio) = match of_a > of_b {
-            true => ("--a", "--b", of_a / of_b),
-            false => ("--b", "--a", of_b / of_a),
+        let (large, small, ratio) = if of_a > of_b {
+            ("--a", "--b", of_a / of_b)
+        } else {
+            ("--b", "--a", of_b / of_a)
         };
         if ratio > RATIO && ratio.is_finite() {
             complain(&format!(

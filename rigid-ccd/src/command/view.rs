@@ -173,9 +173,10 @@ pub(super) fn write_rows(
         return Ok(Exit::SomeRowsBad);
     }
     write_page(&painter.page(title, views), out, quiet)?;
-    Ok(match all_found && chosen.is_whole() {
-        true => Exit::AllAnswered,
-        false => Exit::SomeRowsBad,
+    Ok(if all_found && chosen.is_whole() {
+        Exit::AllAnswered
+    } else {
+        Exit::SomeRowsBad
     })
 }
 

@@ -94,11 +94,12 @@ impl Sketch {
 
     /// Adds the hull of a piece's points, grown by its radius. A flat one without a radius is not drawn.
     fn push_hull(&mut self, piece: &Piece<'_>) {
-        let around: Vec<DVec3> = match piece.radius > 0.0 {
-            true => directions()
+        let around: Vec<DVec3> = if piece.radius > 0.0 {
+            directions()
                 .map(|direction| piece.radius * direction)
-                .collect(),
-            false => vec![DVec3::ZERO],
+                .collect()
+        } else {
+            vec![DVec3::ZERO]
         };
         let grown = piece
             .points

@@ -73,9 +73,12 @@ impl<'a> Pages<'a> {
 
     /// Returns a name that no other page has, on file systems that ignore case, too.
     fn name(&mut self, id: &str) -> String {
-        let plain = |c: char| match c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') {
-            true => c,
-            false => '_',
+        let plain = |c: char| {
+            if c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') {
+                c
+            } else {
+                '_'
+            }
         };
         // A leading dot hides a file; a name of 255 bytes is the longest that file systems take.
         let stem: String = id

@@ -36,10 +36,10 @@ pub(crate) fn scene_view(
             .entry(address)
             .or_insert_with(|| meshes.add(&drawn(shown.body)));
         let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
-        let color = match moves {
-            // With commas, as three.js reads it.
-            true => format!("hsl({:.0}, 55%, 52%)", (150.0 + HUE * k as f64) % 360.0),
-            false => FIXED.to_owned(),
+        let color = if moves {
+            format!("hsl({:.0}, 55%, 52%)", (150.0 + HUE * k as f64) % 360.0)
+        } else {
+            FIXED.to_owned()
         };
         ShownBody::new(shown.name, mesh, &color, &shown.motion)
     });

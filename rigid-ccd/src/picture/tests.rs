@@ -62,9 +62,10 @@ fn at(line: &[[f64; 2]], time: f64) -> f64 {
         .partition_point(|[t, _]| *t < time)
         .clamp(1, line.len() - 1);
     let ([t0, g0], [t1, g1]) = (line[next - 1], line[next]);
-    match t1 > t0 {
-        true => g0 + (g1 - g0) * (time - t0) / (t1 - t0),
-        false => g0,
+    if t1 > t0 {
+        g0 + (g1 - g0) * (time - t0) / (t1 - t0)
+    } else {
+        g0
     }
 }
 

@@ -96,17 +96,18 @@ fn after(row: &ResultRow) -> String {
 /// Returns the words for a contact on the way.
 fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
     let margin = number(asked.margin);
-    let (first, at, before) = match asked.margin > 0.0 {
-        true => (
+    let (first, at, before) = if asked.margin > 0.0 {
+        (
             format!("First within the margin of {margin}"),
             format!("Within the margin of {margin}"),
             "not within it before",
-        ),
-        false => (
+        )
+    } else {
+        (
             "First contact".to_owned(),
             "Contact".to_owned(),
             "nothing touches before",
-        ),
+        )
     };
     let touching = contact(row);
     match (asked.claim, row.last_time) {
@@ -215,20 +216,20 @@ fn number_up(value: f64) -> String {
 }
 
 fn short(value: f64) -> String {
-    match is_plain(value) {
-        true => {
-            let text = format!("{value:.6}");
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        }
-        false => format!("{value:.3e}"),
+    if is_plain(value) {
+        let text = format!("{value:.6}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{value:.3e}")
     }
 }
 
 /// Returns the worth of the last digit that is written.
 fn last_digit(value: f64) -> f64 {
-    match is_plain(value) {
-        true => 1e-6,
-        false => 10f64.powf(value.abs().log10().floor() - 3.0),
+    if is_plain(value) {
+        1e-6
+    } else {
+        10f64.powf(value.abs().log10().floor() - 3.0)
     }
 }
 

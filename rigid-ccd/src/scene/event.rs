@@ -81,9 +81,12 @@ impl Event {
 
     /// Returns the event of bodies that were asked from a time on; rounded so that it is never late.
     pub(super) fn later(self, from: f64) -> Self {
-        let later = |time: f64| match from > 0.0 {
-            true => greater(from, (from + time).next_down()),
-            false => time,
+        let later = |time: f64| {
+            if from > 0.0 {
+                greater(from, (from + time).next_down())
+            } else {
+                time
+            }
         };
         let what = match self.what {
             What::Hit(hit) => What::Hit(Hit {

@@ -50,9 +50,10 @@ impl Stop {
         let Impact { bodies, hit } = self.contact?;
         let normal = hit.contact?.separation.normal;
         // That of a hit is from the lower index to the higher one.
-        match self.by == Some(bodies[0]) {
-            true => Some(-normal),
-            false => Some(normal),
+        if self.by == Some(bodies[0]) {
+            Some(-normal)
+        } else {
+            Some(normal)
         }
     }
 }
@@ -156,12 +157,11 @@ impl<'s, 'a> Stopping<'s, 'a> {
         let mut coming = BinaryHeap::new();
         for event in events {
             let [a, b] = event.bodies;
-            match event.overlaps() {
-                true => {
-                    self.others[a].retain(|&other| other != b);
-                    self.others[b].retain(|&other| other != a);
-                }
-                false => coming.push(Reverse(self.coming(event, 0.0))),
+            if event.overlaps() {
+                self.others[a].retain(|&other| other != b);
+                self.others[b].retain(|&other| other != a);
+            } else {
+                coming.push(Reverse(self.coming(event, 0.0)));
             }
         }
         while let Some(Reverse(Coming { event, moving })) = coming.pop() {
@@ -216,9 +216,10 @@ impl<'s, 'a> Stopping<'s, 'a> {
     /// than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
     fn coming(&self, event: Event, from: f64) -> Coming {
         let kept = self.scene.settings.config.margin;
-        let event = match event.is_nearer_than(kept) {
-            true => event.at_once(),
-            false => event,
+        let event = if event.is_nearer_than(kept) {
+            event.at_once()
+        } else {
+            event
         };
         Coming {
             moving: event.bodies.map(|index| self.moves(index)),
@@ -245,13 +246,11 @@ impl<'s, 'a> Stopping<'s, 'a> {
     /// Returns a body with its motion from a time on.
     fn going_on(&self, time: f64, index: usize) -> Result<Moving<'a>, InputError> {
         let Moving { body, motion } = self.scene.members[index].moving();
-        let motion = match self.moves(index) {
-            true => {
-                let [velocity, spin] = [motion.velocity(), motion.spin()];
-                Motion::about(motion.pose(time), velocity, spin, motion.centre())?
-            }
-            // A fixed body has no stop.
-            false => Motion::still(motion.pose(self.stops[index].time)),
+        let motion = if self.moves(index) {
+            let [velocity, spin] = [motion.velocity(), motion.spin()];
+            Motion::about(motion.pose(time), velocity, spin, motion.centre())?
+        } else {
+            Motion::still(motion.pose(self.stops[index].time))
         };
         Ok(Moving { body, motion })
     }

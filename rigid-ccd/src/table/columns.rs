@@ -132,9 +132,10 @@ impl Columns {
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
     pub fn of(header: &[String]) -> Result<Self, TableError> {
-        let form = match header.iter().any(|name| name == TIME_NAME) {
-            true => Form::Paths,
-            false => Form::Motions,
+        let form = if header.iter().any(|name| name == TIME_NAME) {
+            Form::Paths
+        } else {
+            Form::Motions
         };
         Columns::of_form(header, form)
     }

@@ -231,9 +231,10 @@ fn follows(body: char, [before, row]: [Posed; 2], duration: f64) -> Result<(), R
     }
     let left = length(left_over([&before.pose, &row.pose], before.spin, duration));
     // Written so that NaN is refused.
-    match before.spin == DVec3::ZERO || left <= MOST_LEFT {
-        true => Ok(()),
-        false => Err(RowProblem::LedElsewhere { body, left }),
+    if before.spin == DVec3::ZERO || left <= MOST_LEFT {
+        Ok(())
+    } else {
+        Err(RowProblem::LedElsewhere { body, left })
     }
 }
 
@@ -245,9 +246,10 @@ impl Path {
             let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
             let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
-            match spins.clone().any(|spin| spin != DVec3::ZERO) {
-                true => path.turning(spins.map(DVec3::into).collect()),
-                false => Ok(path),
+            if spins.clone().any(|spin| spin != DVec3::ZERO) {
+                path.turning(spins.map(DVec3::into).collect())
+            } else {
+                Ok(path)
             }
         };
         let (a, b) = (of(|row| row.a)?, of(|row| row.b)?);

@@ -34,14 +34,15 @@ impl Ballistic {
     /// [`InputError::NotFinite`].
     pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         let acceleration = DVec3::from_array(acceleration.into());
-        match acceleration.is_finite() {
-            true => Ok(Ballistic {
+        if acceleration.is_finite() {
+            Ok(Ballistic {
                 thrown,
                 acceleration,
-            }),
-            false => Err(InputError::NotFinite {
+            })
+        } else {
+            Err(InputError::NotFinite {
                 what: "acceleration",
-            }),
+            })
         }
     }
 }

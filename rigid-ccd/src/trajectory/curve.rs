@@ -88,12 +88,11 @@ impl Curve {
 
     /// The velocity at a time.
     pub fn velocity(&self, time: f64) -> DVec3 {
-        match (0.0..=self.duration()).contains(&time) {
-            true => {
-                let segment = self.at(time);
-                segment.derivative(1, segment.share(time))
-            }
-            false => DVec3::ZERO,
+        if (0.0..=self.duration()).contains(&time) {
+            let segment = self.at(time);
+            segment.derivative(1, segment.share(time))
+        } else {
+            DVec3::ZERO
         }
     }
 
@@ -232,8 +231,9 @@ fn checked(points: &[[f64; 3]], least: usize, duration: f64) -> Result<Vec<DVec3
         return refuse("duration", duration, "positive and finite");
     }
     let points: Vec<DVec3> = points.iter().map(|&p| DVec3::from_array(p)).collect();
-    match points.iter().all(|p| p.is_finite()) {
-        true => Ok(points),
-        false => Err(InputError::NotFinite { what: "point" }),
+    if points.iter().all(|p| p.is_finite()) {
+        Ok(points)
+    } else {
+        Err(InputError::NotFinite { what: "point" })
     }
 }

@@ -124,9 +124,10 @@ impl Joint {
                 allowed: "positive and finite",
             });
         }
-        let rate = match from == to {
-            true => 0.0,
-            false => (to - from) / duration,
+        let rate = if from == to {
+            0.0
+        } else {
+            (to - from) / duration
         };
         let along = |axis: DVec3| self.origin.rotation() * axis * rate;
         match self.kind {
@@ -145,13 +146,14 @@ impl Joint {
         };
         // Written so that NaN is refused.
         let allowed = position >= least - rounding && position <= greatest + rounding;
-        match self.is_fixed() || allowed {
-            true => Ok(()),
-            false => Err(InputError::JointPosition {
+        if self.is_fixed() || allowed {
+            Ok(())
+        } else {
+            Err(InputError::JointPosition {
                 joint,
                 position,
                 limits: [least, greatest],
-            }),
+            })
         }
     }
 

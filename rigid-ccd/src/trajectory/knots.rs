@@ -30,8 +30,9 @@ pub(super) fn middle_knot<P>(
 /// Returns the acceleration in half of a stretch by which velocities that jump at knots stray as far.
 pub(super) fn spread(jumps: impl Iterator<Item = f64>, from: f64, to: f64) -> f64 {
     let jumps: f64 = jumps.sum();
-    match jumps > 0.0 {
-        true => 2.0 * jumps / (0.5 * (to - from)),
-        false => 0.0,
+    if jumps > 0.0 {
+        2.0 * jumps / (0.5 * (to - from))
+    } else {
+        0.0
     }
 }

@@ -115,15 +115,16 @@ impl<'c> Link<'c> {
     /// # Errors
     /// [`InputError::NotSeenFrom`] if the other link is farther from the base.
     pub fn seen_from(self, link: usize) -> Result<Self, InputError> {
-        match link <= self.link {
-            true => Ok(Link {
+        if link <= self.link {
+            Ok(Link {
                 seen_from: Some(link),
                 ..self
-            }),
-            false => Err(InputError::NotSeenFrom {
+            })
+        } else {
+            Err(InputError::NotSeenFrom {
                 from: link,
                 link: self.link,
-            }),
+            })
         }
     }
 
@@ -134,9 +135,10 @@ impl<'c> Link<'c> {
         let range = self.seen_from.unwrap_or(0)..self.link;
         range.map(move |k| {
             let joint = &self.chain.joints()[k];
-            let change = match joint.is_fixed() {
-                true => 0.0,
-                false => to[k] - from[k],
+            let change = if joint.is_fixed() {
+                0.0
+            } else {
+                to[k] - from[k]
             };
             (joint, from[k] + change * share, change / duration)
         })
@@ -325,13 +327,11 @@ impl Moved {
             }
             Kind::Revolute(axis) => {
                 self.angles += positions.ever;
-                match rate > 0.0 {
-                    true => self.turn(axis, rate),
-                    // Axes before a joint that is held are turned by it.
-                    false => {
-                        let held = turn(axis, -positions.first);
-                        self.axis = self.axis.map(|before| held * before);
-                    }
+                if rate > 0.0 {
+                    self.turn(axis, rate);
+                } else {
+                    let held = turn(axis, -positions.first);
+                    self.axis = self.axis.map(|before| held * before);
                 }
             }
         }

@@ -79,9 +79,10 @@ impl Poses {
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         let centre = DVec3::from_array(centre.into());
-        match centre.is_finite() {
-            true => Ok(Poses { centre, ..self }),
-            false => Err(InputError::NotFinite { what: "centre" }),
+        if centre.is_finite() {
+            Ok(Poses { centre, ..self })
+        } else {
+            Err(InputError::NotFinite { what: "centre" })
         }
     }
 
@@ -149,9 +150,10 @@ impl Poses {
     /// Returns the motion between the poses that a time is between, as it is at that time: that before a pose
     /// where `to` is not later, else that after it. Bounds how fast its angular velocity changes, too.
     fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
-        let next = match to > time {
-            true => self.poses.partition_point(|&(at, _)| at <= time),
-            false => self.poses.partition_point(|&(at, _)| at < time),
+        let next = if to > time {
+            self.poses.partition_point(|&(at, _)| at <= time)
+        } else {
+            self.poses.partition_point(|&(at, _)| at < time)
         };
         match (next.checked_sub(1), self.poses.get(next)) {
             (Some(k), Some(&(end, pose))) => {
@@ -243,18 +245,16 @@ impl Poses {
 
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let stretch = match self.between(from, to).is_empty() {
-            // The motion itself: one from pose to pose might turn the other way.
-            true => {
-                let (motion, bend) = self.at(from, to)?;
-                let mut stretch = Stretch::exact(motion);
-                // Twice the integral of what the angular velocity is off by is a square.
-                if bend > 0.0 {
-                    stretch.stray.turn = 0.5 * bend * (to - from) * (to - from);
-                }
-                stretch
+        let stretch = if self.between(from, to).is_empty() {
+            let (motion, bend) = self.at(from, to)?;
+            let mut stretch = Stretch::exact(motion);
+            // Twice the integral of what the angular velocity is off by is a square.
+            if bend > 0.0 {
+                stretch.stray.turn = 0.5 * bend * (to - from) * (to - from);
             }
-            false => self.chord(from, to)?,
+            stretch
+        } else {
+            self.chord(from, to)?
         };
         Ok(Stretch {
             stray: stretch.stray + self.rounding(from, to),

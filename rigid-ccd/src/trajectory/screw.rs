@@ -39,13 +39,14 @@ pub fn screw(
 /// Returns an axis of unit length.
 pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
     let axis = DVec3::from_array(axis.into());
-    unit(axis).ok_or(match axis.is_finite() {
-        true => InputError::OutOfRange {
+    unit(axis).ok_or(if axis.is_finite() {
+        InputError::OutOfRange {
             what: "the length of an axis",
             value: 0.0,
             allowed: "positive",
-        },
-        false => InputError::NotFinite { what: "axis" },
+        }
+    } else {
+        InputError::NotFinite { what: "axis" }
     })
 }
 

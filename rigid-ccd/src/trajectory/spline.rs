@@ -38,9 +38,10 @@ impl Spline {
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         let centre = DVec3::from_array(centre.into());
-        match centre.is_finite() {
-            true => Ok(Spline { centre, ..self }),
-            false => Err(InputError::NotFinite { what: "centre" }),
+        if centre.is_finite() {
+            Ok(Spline { centre, ..self })
+        } else {
+            Err(InputError::NotFinite { what: "centre" })
         }
     }
 }

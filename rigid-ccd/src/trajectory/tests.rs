@@ -289,9 +289,12 @@ impl Owned {
         let chain = arm(rng, count, axes);
         let first: Vec<f64> = (0..count).map(|_| rng.random_range(-2.0..2.0)).collect();
         // Some joints are held.
-        let last = first.iter().map(|&first| match rng.random_bool(0.3) {
-            true => first,
-            false => rng.random_range(-2.0..2.0),
+        let last = first.iter().map(|&first| {
+            if rng.random_bool(0.3) {
+                first
+            } else {
+                rng.random_range(-2.0..2.0)
+            }
         });
         let positions = [first.clone(), last.collect()];
         let link = rng.random_range(0..=count);

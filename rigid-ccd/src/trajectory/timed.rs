@@ -75,13 +75,16 @@ impl<T> Timed<T> {
     /// [`InputError::OutOfRange`] for times that are not finite, or a duration that is not positive.
     pub fn new(inner: T, times: Range<f64>, duration: f64, pace: Pace) -> Result<Self, InputError> {
         let length = times.end - times.start;
-        let check = |what, value: f64, allowed: bool, words| match allowed {
-            true => Ok(()),
-            false => Err(InputError::OutOfRange {
-                what,
-                value,
-                allowed: words,
-            }),
+        let check = |what, value: f64, allowed: bool, words| {
+            if allowed {
+                Ok(())
+            } else {
+                Err(InputError::OutOfRange {
+                    what,
+                    value,
+                    allowed: words,
+                })
+            }
         };
         check(
             "length",
@@ -103,15 +106,14 @@ impl<T> Timed<T> {
     /// Returns the inner time at a time, and its rate.
     fn time(&self, time: f64) -> [f64; 2] {
         let u = time / self.duration;
-        match (0.0..=1.0).contains(&u) {
-            true => {
-                let [way, rate] = self.pace.at(u);
-                [
-                    self.first + self.length * way,
-                    self.length / self.duration * rate,
-                ]
-            }
-            false => [self.first + self.length * u.clamp(0.0, 1.0), 0.0],
+        if (0.0..=1.0).contains(&u) {
+            let [way, rate] = self.pace.at(u);
+            [
+                self.first + self.length * way,
+                self.length / self.duration * rate,
+            ]
+        } else {
+            [self.first + self.length * u.clamp(0.0, 1.0), 0.0]
         }
     }
 
@@ -147,9 +149,10 @@ impl<T: Bounded> Smooth for Timed<T> {
         let inner = self.inner.accelerations(first, last);
         // An even pace jumps to rest at both ends.
         let jumps = |end: f64| from < end && end < to;
-        let jump = match self.pace == Pace::Even && (jumps(0.0) || jumps(self.duration)) {
-            true => 2.0 * rate / (0.5 * (to - from)),
-            false => change,
+        let jump = if self.pace == Pace::Even && (jumps(0.0) || jumps(self.duration)) {
+            2.0 * rate / (0.5 * (to - from))
+        } else {
+            change
         };
         Accelerations {
             linear: inner.linear * rate * rate + speeds.linear * jump,

@@ -211,12 +211,13 @@ fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
         let turned = last.is_some_and(|(_, before)| before.dot(unit) < 0.0);
         units.push((time, if turned { -unit } else { unit }));
     }
-    match units.is_empty() {
-        true => Err(InputError::OutOfRange {
+    if units.is_empty() {
+        Err(InputError::OutOfRange {
             what: "number of orientations",
             value: 0.0,
             allowed: "at least 1",
-        }),
-        false => Ok(units),
+        })
+    } else {
+        Ok(units)
     }
 }

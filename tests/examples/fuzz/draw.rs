@@ -57,9 +57,10 @@ impl Draw {
     }
 
     pub fn pose(&mut self, position: [f64; 3]) -> RawPose {
-        let quaternion = match self.chance(0.3) {
-            true => [1.0, 0.0, 0.0, 0.0],
-            false => self.quaternion(),
+        let quaternion = if self.chance(0.3) {
+            [1.0, 0.0, 0.0, 0.0]
+        } else {
+            self.quaternion()
         };
         RawPose {
             position,

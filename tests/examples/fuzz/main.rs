@@ -114,9 +114,10 @@ fn run(family: Family, args: &Args) -> bool {
         }
         if let Ok(mut tally) = tally.lock() {
             for failure in tally.add(number, &trial, args.print) {
-                let case = match args.shrink {
-                    true => trial::shrunk(&trial.case, failure),
-                    false => trial.case.clone(),
+                let case = if args.shrink {
+                    trial::shrunk(&trial.case, failure)
+                } else {
+                    trial.case.clone()
                 };
                 let report = trial::report(failure, family, args.seed, number, &case);
                 bar.suspend(|| println!("{report}"));

@@ -99,9 +99,10 @@ pub fn hull(draw: &mut Draw, count: usize) -> Shape {
         let [a, b, c, p] = [face[0], face[1], face[2], p].map(|v| Vector(vertices[v as usize]));
         (b - a).cross(c - a).dot(p - a) > 0.0
     };
-    let mut faces: Vec<[u32; 3]> = match above([0, 1, 2], 3) {
-        true => vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
-        false => vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]],
+    let mut faces: Vec<[u32; 3]> = if above([0, 1, 2], 3) {
+        vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+    } else {
+        vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]]
     };
     for p in 4..vertices.len() as u32 {
         let (seen, kept): (Vec<_>, Vec<_>) = faces.iter().partition(|&&face| above(face, p));

@@ -119,9 +119,10 @@ impl fmt::Display for Tally {
             let all: Vec<String> = map.iter().map(|(k, n)| format!("{k}: {n}")).collect();
             writeln!(f, "  {name}: {}", all.join("; "))?;
         }
-        match self.failed() {
-            true => write!(f, "  FAULTS: {:?}", self.faults),
-            false => write!(f, "  no fault"),
+        if self.failed() {
+            write!(f, "  FAULTS: {:?}", self.faults)
+        } else {
+            write!(f, "  no fault")
         }
     }
 }

@@ -124,9 +124,10 @@ fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>
     let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
     let cos = end[0] * w + v.dot(u);
     let sin = v * w - u * end[0] - v.cross(u);
-    let (cos, sin) = match cos < Double::default() {
-        true => (-cos, -sin),
-        false => (cos, sin),
+    let (cos, sin) = if cos < Double::default() {
+        (-cos, -sin)
+    } else {
+        (cos, sin)
     };
     let axis = sin.unit().unwrap_or(Vector::of([0.0; 3]));
     (axis, Double::angle(sin.length(), cos) * Double::new(2.0))
@@ -154,18 +155,17 @@ pub struct Snapshot {
 impl Track {
     pub fn at(&self, t: f64) -> Snapshot {
         let centre = self.start + self.velocity * Double::new(t);
-        let columns = match self.rate.rounded() > 0.0 {
-            true => {
-                let (sin, cos) = (self.rate * Double::new(t)).sin_cos();
-                let n = self.axis;
-                let [a, b, c] = self.columns;
-                let turned = |c: Vector<Double>| {
-                    let along = n * n.dot(c);
-                    (c - along) * cos + n.cross(c) * sin + along
-                };
-                [turned(a), turned(b), turned(c)]
-            }
-            false => self.columns,
+        let columns = if self.rate.rounded() > 0.0 {
+            let (sin, cos) = (self.rate * Double::new(t)).sin_cos();
+            let n = self.axis;
+            let [a, b, c] = self.columns;
+            let turned = |c: Vector<Double>| {
+                let along = n * n.dot(c);
+                (c - along) * cos + n.cross(c) * sin + along
+            };
+            [turned(a), turned(b), turned(c)]
+        } else {
+            self.columns
         };
         Snapshot { columns, centre }
     }

@@ -230,9 +230,10 @@ impl<'a> Judge<'a> {
             faults.push((Fault::UpperBound, text(d)));
         }
         // At the start this is the distance of the bodies, later that of the pair.
-        let lower = match time > 0.0 {
-            true => self.piece_distance(given.bodies, contact, time),
-            false => Some(d),
+        let lower = if time > 0.0 {
+            self.piece_distance(given.bodies, contact, time)
+        } else {
+            Some(d)
         };
         if let Some(d) = lower.filter(|d| found.lower > d + error) {
             faults.push((Fault::LowerBound, format!("pieces {}", text(d))));

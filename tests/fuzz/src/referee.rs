@@ -194,9 +194,10 @@ impl Scene {
         let pairs = a.iter().flat_map(|s| {
             b.iter().map(move |t| {
                 let flat = |t: &Triangle<Double>| t.map(Vector::rounded);
-                match depth(&flat(s), &flat(t)) > 0.0 {
-                    true => depth(s, t).rounded(),
-                    false => 0.0,
+                if depth(&flat(s), &flat(t)) > 0.0 {
+                    depth(s, t).rounded()
+                } else {
+                    0.0
                 }
             })
         });

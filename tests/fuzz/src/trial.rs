@@ -193,9 +193,10 @@ pub fn shrunk(case: &Case, failure: &Failure) -> Case {
             fewer.shapes[side].faces.remove(face);
             fewer.shapes[side].form = Form::Soup;
             fewer.shapes[side] = used(&fewer.shapes[side]);
-            match fails(&fewer) {
-                true => case = fewer,
-                false => face += 1,
+            if fails(&fewer) {
+                case = fewer;
+            } else {
+                face += 1;
             }
         }
     }

@@ -216,9 +216,10 @@ impl Judge<'_> {
     /// Bounds the distance of two pieces in contact at a time; there is no bound for bodies that overlap, whose
     /// pieces may meet anywhere in a solid.
     fn reach(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
-        match self.may_overlap(time, contact) {
-            false => self.config.margin + tolerance + self.query.rounding(),
-            true => f64::INFINITY,
+        if !self.may_overlap(time, contact) {
+            self.config.margin + tolerance + self.query.rounding()
+        } else {
+            f64::INFINITY
         }
     }
 

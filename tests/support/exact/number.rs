@@ -59,15 +59,16 @@ pub(super) struct Interval {
 impl Interval {
     /// Encloses a rounded result; the error is 0 only if nothing was rounded.
     fn rounded(result: f64, error: f64) -> Self {
-        match error == 0.0 {
-            true => Interval {
+        if error == 0.0 {
+            Interval {
                 lo: result,
                 hi: result,
-            },
-            false => Interval {
+            }
+        } else {
+            Interval {
                 lo: result.next_down(),
                 hi: result.next_up(),
-            },
+            }
         }
     }
 
@@ -149,8 +150,9 @@ fn quotient(x: f64, y: u32) -> Interval {
 /// Returns the error of a product or quotient by a fused multiplication. It is itself inexact if
 /// the result is so small that half its digits are subnormal.
 fn residue(result: f64, error: f64) -> f64 {
-    match result == 0.0 || result.abs() > 1e-200 {
-        true => error,
-        false => f64::NAN,
+    if result == 0.0 || result.abs() > 1e-200 {
+        error
+    } else {
+        f64::NAN
     }
 }

@@ -59,9 +59,10 @@ fn cubes(size: i64, full: impl Fn([i64; 3]) -> bool) -> Shape {
                     })
                 });
                 let [a, b, c, d] = quad;
-                mesh.faces.extend(match up {
-                    true => [[a, b, c], [a, c, d]],
-                    false => [[a, c, b], [a, d, c]],
+                mesh.faces.extend(if up {
+                    [[a, b, c], [a, c, d]]
+                } else {
+                    [[a, c, b], [a, d, c]]
                 });
             }
         }

@@ -98,9 +98,10 @@ impl Contact {
             return Reply::new(claim, 0);
         }
         // A body that does not turn encloses the other's motion in its frame without loss.
-        let order = match courses[0].rate < courses[1].rate {
-            true => [1, 0],
-            false => [0, 1],
+        let order = if courses[0].rate < courses[1].rate {
+            [1, 0]
+        } else {
+            [0, 1]
         };
         let [first, second] = order.map(|k| (&courses[k], self.trees[k].origin));
         let relative = Relative::new(first, second);

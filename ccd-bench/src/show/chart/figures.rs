@@ -189,9 +189,10 @@ fn draw_column(
         ..upper
     };
     // Only the first column has labels.
-    let left = match upper.left > MARGIN + LEFT_MARGIN {
-        true => Label::Left,
-        false => Label::Written,
+    let left = if upper.left > MARGIN + LEFT_MARGIN {
+        Label::Left
+    } else {
+        Label::Written
     };
     let rows: [Row<'_>; 2] = [
         (upper, &column.title, time, Label::Left, milliseconds),

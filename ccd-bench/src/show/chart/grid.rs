@@ -104,8 +104,9 @@ pub(super) fn foot_height(remarks: &[String]) -> f64 {
 }
 
 fn written(outermost: bool) -> Label {
-    match outermost {
-        true => Label::Written,
-        false => Label::Left,
+    if outermost {
+        Label::Written
+    } else {
+        Label::Left
     }
 }

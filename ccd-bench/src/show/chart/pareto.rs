@@ -97,9 +97,10 @@ fn draw(
     let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
     let svg = grid.draw(&titles, |sheet, number, panel| {
         draw_scene(charts, sheet, (scenes[number], panel), &shown)?;
-        match strip > 0.0 {
-            true => draw_strip(charts, sheet, (scenes[number], panel), &shown, strip),
-            false => Ok(()),
+        if strip > 0.0 {
+            draw_strip(charts, sheet, (scenes[number], panel), &shown, strip)
+        } else {
+            Ok(())
         }
     });
     Ok(Some(Drawing {
@@ -212,8 +213,9 @@ fn draw_strip(
 
 /// Returns `AtLeast` if the median of a cell is the time of queries that were given up or cut off.
 pub(super) fn kind(cell: &Cell) -> Kind {
-    match cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
-        true => Kind::AtLeast,
-        false => Kind::Measured,
+    if cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
+        Kind::AtLeast
+    } else {
+        Kind::Measured
     }
 }

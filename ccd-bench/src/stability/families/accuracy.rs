@@ -161,9 +161,10 @@ fn hardly_meeting(overlap: f64) -> Result<Step, StepError> {
     let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = Expected::at(1.0 / 3.0, SLACK);
     let step = Step::new(cube()?, cube()?);
-    Ok(match overlap > 1e-12 {
-        true => step.turned_too(flying, Course::STILL, expected)?,
-        false => step.exactly(flying, Course::STILL, expected)?,
+    Ok(if overlap > 1e-12 {
+        step.turned_too(flying, Course::STILL, expected)?
+    } else {
+        step.exactly(flying, Course::STILL, expected)?
     })
 }
 

@@ -37,9 +37,10 @@ fn free(step: Step, gap: f64, a: Course, b: Course) -> Result<Step, StepError> {
         tolerance: tolerance(gap),
         ..step
     };
-    Ok(match gap >= 1e-12 {
-        true => step.turned_too(a, b, Expected::Free)?,
-        false => step.exactly(a, b, Expected::Free)?,
+    Ok(if gap >= 1e-12 {
+        step.turned_too(a, b, Expected::Free)?
+    } else {
+        step.exactly(a, b, Expected::Free)?
     })
 }
 

@@ -135,9 +135,10 @@ fn free(step: Step, gap: f64, moving: Course) -> Result<Step, StepError> {
         tolerance: greater(0.25 * gap, 1e-11),
         ..step
     };
-    Ok(match gap >= 1e-12 {
-        true => step.turned_too(moving, Course::STILL, Expected::Free)?,
-        false => step.exactly(moving, Course::STILL, Expected::Free)?,
+    Ok(if gap >= 1e-12 {
+        step.turned_too(moving, Course::STILL, Expected::Free)?
+    } else {
+        step.exactly(moving, Course::STILL, Expected::Free)?
     })
 }
 

@@ -53,9 +53,10 @@ fn after_the_end(after: f64) -> Result<Step, StepError> {
         ..step
     };
     let slab = Course::UNDER;
-    Ok(match after > 1e-12 {
-        true => step.turned_too(falling, slab, Expected::Free)?,
-        false => step.exactly(falling, slab, Expected::Free)?,
+    Ok(if after > 1e-12 {
+        step.turned_too(falling, slab, Expected::Free)?
+    } else {
+        step.exactly(falling, slab, Expected::Free)?
     })
 }
 

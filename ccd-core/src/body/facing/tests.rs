@@ -29,10 +29,10 @@ fn shells_side_by_side_need_not_agree() {
     let middles = [DVec3::ZERO, 10.0 * DVec3::X];
     let mut shells = inside_out(&cube(0.5, 2));
     shells.extend(moved(&cube(1.5, 2), middles[1]));
-    check(&solid(&shells), |p| match p.x < 5.0 {
-        true => p,
-        false => p - middles[1],
-    });
+    check(
+        &solid(&shells),
+        |p| if p.x < 5.0 { p } else { p - middles[1] },
+    );
 }
 
 #[test]
@@ -40,9 +40,8 @@ fn a_cavity_faces_inward_however_the_whole_is_wound() {
     let mut shells = cube(3.0, 2);
     shells.extend(inside_out(&cube(2.0, 2)));
     for shells in [inside_out(&shells), shells] {
-        check(&solid(&shells), |p| match p.abs().max_element() > 2.5 {
-            true => p,
-            false => -p,
+        check(&solid(&shells), |p| {
+            if p.abs().max_element() > 2.5 { p } else { -p }
         });
     }
 }

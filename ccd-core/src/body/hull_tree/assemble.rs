@@ -42,14 +42,13 @@ impl HullTree {
         let mut class_ends = Vec::with_capacity(done.len());
         for node in &done {
             // A bridge between thick and thin pieces is level with neither.
-            classes.extend(
-                node.facet_data
-                    .iter()
-                    .map(|facet| match node.evenly_rounded {
-                        true => facet.class,
-                        false => FacetClass::Free,
-                    }),
-            );
+            classes.extend(node.facet_data.iter().map(|facet| {
+                if node.evenly_rounded {
+                    facet.class
+                } else {
+                    FacetClass::Free
+                }
+            }));
             class_ends.push(classes.len() as u32);
         }
         let (meeting, meeting_ends) = meeting(&done);

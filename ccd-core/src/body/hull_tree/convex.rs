@@ -10,9 +10,10 @@ use std::cmp::Ordering;
 /// Prepares the search for extremal points of a hull of many points. Edges are climbed if they are
 /// proven to be those of the hull. Otherwise a tree is searched, which relies on no facets.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
-    match is_convex(hull) {
-        true => Support::new(hull.points, hull.facets),
-        false => Support::of_points(hull.points),
+    if is_convex(hull) {
+        Support::new(hull.points, hull.facets)
+    } else {
+        Support::of_points(hull.points)
     }
 }
 

@@ -12,9 +12,10 @@ pub(super) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Cl
 
 /// Checks that the facets are loops of corners that close a surface. O(n log n).
 pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
-    match is_closed(hull) {
-        true => Ok(()),
-        false => find_fault(hull),
+    if is_closed(hull) {
+        Ok(())
+    } else {
+        find_fault(hull)
     }
 }
 
@@ -110,14 +111,16 @@ impl EdgeMap {
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
         let [start, end] = [from, from + 1].map(|k| self.starts[k as usize] as usize);
         let from = &self.edges[start..end];
-        let up_to = match from.len() > MANY {
-            true => from.partition_point(|edge| edge.0 <= to),
-            false => from.len(),
+        let up_to = if from.len() > MANY {
+            from.partition_point(|edge| edge.0 <= to)
+        } else {
+            from.len()
         };
         let mut found = from[..up_to].iter().rev();
-        match from.len() > MANY {
-            true => found.next().filter(|edge| edge.0 == to),
-            false => found.find(|edge| edge.0 == to),
+        if from.len() > MANY {
+            found.next().filter(|edge| edge.0 == to)
+        } else {
+            found.find(|edge| edge.0 == to)
         }
         .map(|edge| edge.1)
     }

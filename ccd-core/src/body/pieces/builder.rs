@@ -102,9 +102,10 @@ impl PiecesBuilder {
     ) -> Result<(), InputError> {
         let (piece, count) = (self.point_ends.len(), polytope.points.len());
         self.points.extend_from_slice(polytope.points);
-        match polytope.vertex_ids.len() == count {
-            true => self.vertex_ids.extend_from_slice(polytope.vertex_ids),
-            false => self.vertex_ids.extend(0..count as u32),
+        if polytope.vertex_ids.len() == count {
+            self.vertex_ids.extend_from_slice(polytope.vertex_ids);
+        } else {
+            self.vertex_ids.extend(0..count as u32);
         }
         self.point_ends.push(self.points.len() as u32);
         self.radii.push(polytope.radius);

@@ -62,9 +62,12 @@ fn cyclic(count: u32) -> Pieces {
 /// A prism over a convex polygon on a parabola.
 fn prism(corners: u32) -> Pieces {
     let base = |k: u32| DVec3::new(f64::from(k), f64::from(k * k), 0.0);
-    let points = (0..2 * corners).map(|k| match k < corners {
-        true => base(k),
-        false => base(k - corners) + 7.0 * DVec3::Z,
+    let points = (0..2 * corners).map(|k| {
+        if k < corners {
+            base(k)
+        } else {
+            base(k - corners) + 7.0 * DVec3::Z
+        }
     });
     let sides = (0..corners).map(|k| {
         let next = (k + 1) % corners;

@@ -241,9 +241,10 @@ impl Disc {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         // An axis that is not of unit length, due to rounding or underflow, makes no disc.
         let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_F64;
-        let frame = match [0, 1, 2].into_iter().all(|k| is_unit(frame.col(k))) {
-            true => frame,
-            false => DMat3::IDENTITY,
+        let frame = if [0, 1, 2].into_iter().all(|k| is_unit(frame.col(k))) {
+            frame
+        } else {
+            DMat3::IDENTITY
         };
         let turned = frame.transpose();
         let (low, high) = extent(points.iter().map(|&p| turned * p));

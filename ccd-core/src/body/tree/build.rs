@@ -117,9 +117,10 @@ impl Layout {
             ranges,
             whole: if triangles { LANES } else { 1 },
             // Other pieces than triangles are no groups.
-            layers: match triangles {
-                true => layers(ranges.order.len()),
-                false => Vec::new(),
+            layers: if triangles {
+                layers(ranges.order.len())
+            } else {
+                Vec::new()
             },
         };
         let mut layout = Layout::default();

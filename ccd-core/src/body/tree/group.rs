@@ -169,10 +169,10 @@ impl TriangleGroup {
 pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
     let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let square = across.length_squared();
-    match SQUARES.contains(&square) {
-        // In f32 a reciprocal is accurate enough.
-        true => (across * square.sqrt().recip()).as_vec3(),
-        false => normal(corners).unwrap_or(DVec3::ZERO).as_vec3(),
+    if SQUARES.contains(&square) {
+        (across * square.sqrt().recip()).as_vec3()
+    } else {
+        normal(corners).unwrap_or(DVec3::ZERO).as_vec3()
     }
 }
 
@@ -181,9 +181,10 @@ pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     let squares = vectors.clone().map(DVec3::length_squared);
     let square = squares.fold(0.0, greater);
     // The square of a longer vector is no less, so that one root does for all.
-    match SQUARES.contains(&square) {
-        true => square.sqrt(),
-        false => vectors.map(length).fold(0.0, greater),
+    if SQUARES.contains(&square) {
+        square.sqrt()
+    } else {
+        vectors.map(length).fold(0.0, greater)
     }
 }
 

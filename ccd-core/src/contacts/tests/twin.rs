@@ -297,9 +297,10 @@ impl Offers {
                 continue;
             }
             let brink = nearer > 0.25 * self.rounding;
-            match brink || self.doubtful.iter().any(|other| larger(key, other)) {
-                true => drop(doubtful.insert(name(key))),
-                false => drop(sure.insert(name(key), distance)),
+            if brink || self.doubtful.iter().any(|other| larger(key, other)) {
+                doubtful.insert(name(key));
+            } else {
+                sure.insert(name(key), distance);
             }
         }
         doubtful.extend(self.doubtful.iter().map(name));

@@ -347,9 +347,10 @@ impl Directions {
     fn of(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
         let points: Vec<Double3> = piece.points.iter().map(|&p| place(p).into()).collect();
         let all: Vec<u32> = (0..points.len() as u32).collect();
-        let loops: Vec<&[u32]> = match piece.facets.is_empty() {
-            true => vec![&all],
-            false => piece.facets.iter().collect(),
+        let loops: Vec<&[u32]> = if piece.facets.is_empty() {
+            vec![&all]
+        } else {
+            piece.facets.iter().collect()
         };
         let (mut edges, mut normals) = (Vec::new(), Vec::new());
         for corners in loops {

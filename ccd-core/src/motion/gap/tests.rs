@@ -16,9 +16,10 @@ fn worst_free_time() {
         let [apart, rate, bend] = [gap.gap, gap.rate, gap.bend].map(Double::from);
         let two = Double::from(2.0);
         let root = (rate * rate + two * bend * apart).sqrt();
-        let exact = match gap.rate > 0.0 {
-            true => two * apart / (rate + root),
-            false => (root - rate) / bend,
+        let exact = if gap.rate > 0.0 {
+            two * apart / (rate + root)
+        } else {
+            (root - rate) / bend
         };
         let free = Double::from(gap.free_time()) / Double::from(1.0 - RATE_F64);
         Some(share((free / exact - Double::from(1.0)).get(), RATE_F64))
@@ -35,9 +36,10 @@ fn a_free_time_of_parting_is_never_late_and_near() {
         let [gap, rate] = [0; 2].map(|_| magnitude(&mut rng, -12.0, 6.0));
         // The bend at which the gap just closes, or any other.
         let just = rate * rate / (2.0 * gap);
-        let bend = match rng.random_bool(0.5) {
-            true => just * (1.0 + magnitude(&mut rng, -16.0, 0.0) * rng.random_range(-1.0..1.0)),
-            false => magnitude(&mut rng, -12.0, 6.0),
+        let bend = if rng.random_bool(0.5) {
+            just * (1.0 + magnitude(&mut rng, -16.0, 0.0) * rng.random_range(-1.0..1.0))
+        } else {
+            magnitude(&mut rng, -12.0, 6.0)
         };
         let found = Gap {
             gap,

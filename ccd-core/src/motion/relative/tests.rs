@@ -21,9 +21,10 @@ fn path(rng: &mut Pcg64) -> Path {
     let spin = direction(rng) * turn;
     let motion = Motion::about(start, within(rng, 5.0), spin, within(rng, 3.0)).unwrap();
     let path = Path::new(&motion, within(rng, 9.0), 1.0);
-    match rng.random_bool(0.5) {
-        true => path.accelerated(within(rng, 5.0)),
-        false => path,
+    if rng.random_bool(0.5) {
+        path.accelerated(within(rng, 5.0))
+    } else {
+        path
     }
 }
 

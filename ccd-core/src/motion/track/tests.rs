@@ -257,9 +257,10 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         let step = horizon / 400.0;
         let missed = track.bend() * step * step + 1e-13 * (1.0 + track.omega);
         assert!(seen - least <= missed, "{seen} {least} {track:?}");
-        match least < track.at(horizon) - missed && least < track.at(0.0) - missed {
-            true => past_trough += 1,
-            false => before_trough += 1,
+        if least < track.at(horizon) - missed && least < track.at(0.0) - missed {
+            past_trough += 1;
+        } else {
+            before_trough += 1;
         }
     }
     assert!(
@@ -295,9 +296,10 @@ fn worst_least_until() {
         let two = Double::from(2.0);
         let at_end = two * sin * (cos * q - sin * p);
         // A turn that all but reaches the lowest point comes as low.
-        let exact = match turn >= trough {
-            true => -p - swing,
-            false => at_end.min(Double::ZERO),
+        let exact = if turn >= trough {
+            -p - swing
+        } else {
+            at_end.min(Double::ZERO)
         };
         let allowance = RATE_F64 * swing.get() * (1.0 + turn);
         let above = (Double::from(least) + Double::from(allowance) - exact).get();

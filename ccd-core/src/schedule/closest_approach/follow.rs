@@ -84,9 +84,10 @@ impl<O: DistanceOracle> Descent<'_, O> {
         let turning = self.problem.a.path.rate + self.problem.b.path.rate;
         let mut step = lesser((here.distance / here.rate).abs(), FOLLOWED_TURN / turning);
         for _ in 0..FOLLOWING_LOOKS {
-            let next = match forward {
-                true => here.clock + step,
-                false => here.clock - step,
+            let next = if forward {
+                here.clock + step
+            } else {
+                here.clock - step
             };
             // Written so that NaN is beyond the end.
             let next = if (0.0..=1.0).contains(&next) {
@@ -119,17 +120,19 @@ impl<O: DistanceOracle> Descent<'_, O> {
             // Where a straight line through both rates is zero; every other time in the middle, for
             // rates that jump.
             let zero = falling.rate / (falling.rate - other.rate);
-            let share = match look % 2 == 0 && (0.0..=1.0).contains(&zero) {
-                true => zero,
-                false => 0.5,
+            let share = if look % 2 == 0 && (0.0..=1.0).contains(&zero) {
+                zero
+            } else {
+                0.5
             };
             let Some(middle) = self.look(falling.clock + share * width) else {
                 return;
             };
             let falls = (middle.rate < 0.0) == (falling.rate < 0.0);
-            match falls && middle.distance < falling.distance {
-                true => falling = middle,
-                false => other = middle,
+            if falls && middle.distance < falling.distance {
+                falling = middle;
+            } else {
+                other = middle;
             }
         }
     }

@@ -41,9 +41,10 @@ pub(super) fn guess<O: DistanceOracle>(
         }
     }
     // Beyond all distances there is nothing to look for.
-    match best.is_none() && beyond == f64::INFINITY {
-        true => ControlFlow::Break(super::unresolved(0.0, Limit::OracleGaveUp)),
-        false => ControlFlow::Continue(best),
+    if best.is_none() && beyond == f64::INFINITY {
+        ControlFlow::Break(super::unresolved(0.0, Limit::OracleGaveUp))
+    } else {
+        ControlFlow::Continue(best)
     }
 }
 

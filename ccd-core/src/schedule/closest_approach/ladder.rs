@@ -73,9 +73,10 @@ impl Ladder {
         if work < self.next {
             return None;
         }
-        self.next = match work < self.last {
-            true => work.saturating_mul(8).min(self.last),
-            false => u64::MAX,
+        self.next = if work < self.last {
+            work.saturating_mul(8).min(self.last)
+        } else {
+            u64::MAX
         };
         self.rung(upper, work / 2)
     }

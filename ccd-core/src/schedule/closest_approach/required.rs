@@ -75,9 +75,10 @@ impl Required {
                 lower: greater(proven_gap, self.distance),
             },
             AnyContact::Contact { time, contact } => {
-                match self.excess.above(contact.separation.upper) < self.distance {
-                    true => ClosestApproach::Nearer { time, contact },
-                    false => bracket(0.0, time, contact),
+                if self.excess.above(contact.separation.upper) < self.distance {
+                    ClosestApproach::Nearer { time, contact }
+                } else {
+                    bracket(0.0, time, contact)
                 }
             }
             AnyContact::Overlapping { overlap } => ClosestApproach::overlapping(overlap),
@@ -122,9 +123,10 @@ impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
         // What is in contact with this margin is nearer, and what is not keeps the distance but for the tolerance and
         // the excess.
         let margin = greater(0.0, distance - 1.5 * half);
-        let finer = match margin > 0.0 {
-            true => half,
-            false => lesser(half, 0.5 * distance),
+        let finer = if margin > 0.0 {
+            half
+        } else {
+            lesser(half, 0.5 * distance)
         };
         let found = self.ask(margin, finer, self.left())?.outcome;
         Ok(match (found, self.required.of(found)) {

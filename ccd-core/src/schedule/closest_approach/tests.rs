@@ -60,9 +60,10 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
                     "{number}: {near:e} in {outcome:?}"
                 );
                 assert!(contact.separation.lower <= lower);
-                match lower > 0.0 {
-                    true => apart += 1,
-                    false => touching += 1,
+                if lower > 0.0 {
+                    apart += 1;
+                } else {
+                    touching += 1;
                 }
             }
             ClosestApproach::Overlapping { .. } => {
@@ -118,9 +119,10 @@ fn a_clearance_is_kept_violated_or_unknown() {
         assert_eq!(outcome.clearance(upper.next_up()), Clearance::Violated);
         assert_ne!(outcome.clearance(f64::NAN), Clearance::Kept);
         // Bodies that may touch keep no clearance.
-        match lower > 0.0 {
-            true => assert_eq!(outcome.clearance(lower), Clearance::Kept),
-            false => assert_ne!(outcome.clearance(0.0), Clearance::Kept),
+        if lower > 0.0 {
+            assert_eq!(outcome.clearance(lower), Clearance::Kept);
+        } else {
+            assert_ne!(outcome.clearance(0.0), Clearance::Kept);
         }
         if lower < upper {
             let between = 0.5 * (lower + upper);

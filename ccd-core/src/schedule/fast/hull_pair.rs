@@ -77,9 +77,10 @@ impl<'a> HullPair<'a> {
     }
 
     fn larger(&self, [a, b]: [u32; 2]) -> Which {
-        match self.b.size(b) > self.a.size(a) {
-            true => Which::B,
-            false => Which::A,
+        if self.b.size(b) > self.a.size(a) {
+            Which::B
+        } else {
+            Which::A
         }
     }
 }

@@ -71,9 +71,10 @@ struct Scene {
 impl Scene {
     fn new(rng: &mut Pcg64) -> Self {
         let way = direction(rng);
-        let (clock, near) = match rng.random_bool(0.4) {
-            true => (0.0, rng.random_range(0.0..0.4)),
-            false => (rng.random_range(0.0..1.0), rng.random_range(0.0..2.0)),
+        let (clock, near) = if rng.random_bool(0.4) {
+            (0.0, rng.random_range(0.0..0.4))
+        } else {
+            (rng.random_range(0.0..1.0), rng.random_range(0.0..2.0))
         };
         let motion = |rng: &mut Pcg64, place: DVec3| {
             let passage = Passage {
@@ -82,9 +83,10 @@ impl Scene {
                 place,
                 middle: DVec3::ZERO,
                 velocity: within(rng, 8.0),
-                spin: match rng.random_bool(0.3) {
-                    true => DVec3::ZERO,
-                    false => within(rng, 9.0),
+                spin: if rng.random_bool(0.3) {
+                    DVec3::ZERO
+                } else {
+                    within(rng, 9.0)
                 },
                 centre: within(rng, 1.0),
             };
@@ -363,9 +365,10 @@ fn contacts_at_the_start_are_reported_or_let_go() {
         .iter()
         .map(|piece| (piece.points[0], piece.radius));
     let (top, radius) = end.fold((DVec3::ZERO, 0.0), |best, next| {
-        match next.0.length() > best.0.length() {
-            true => next,
-            false => best,
+        if next.0.length() > best.0.length() {
+            next
+        } else {
+            best
         }
     });
     let way = top.normalize();

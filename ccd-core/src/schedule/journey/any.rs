@@ -78,9 +78,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 return Ok(unresolved(&kept, &stretches, leg.span.from, Limit::Stalled));
             }
         }
-        Ok(match undecided.is_finite() {
-            true => kept.unresolved(&stretches, undecided, Limit::Undecided),
-            false => kept.free(&stretches),
+        Ok(if undecided.is_finite() {
+            kept.unresolved(&stretches, undecided, Limit::Undecided)
+        } else {
+            kept.free(&stretches)
         }
         .map(AnyContact::from))
     }

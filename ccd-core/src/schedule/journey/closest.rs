@@ -51,9 +51,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut found = Found {
             lower: f64::INFINITY,
             best: None,
-            ladder: match journey.config.deadline.is_some() || journey.stop.is_some() {
-                true => ladder.timed(),
-                false => ladder,
+            ladder: if journey.config.deadline.is_some() || journey.stop.is_some() {
+                ladder.timed()
+            } else {
+                ladder
             },
         };
         while let Some(span) = {
@@ -119,9 +120,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
             }
         }
         let nearest = found.nearest(journey, &stretches);
-        match nearest.outcome.meets_later(nearest.tolerance) {
-            true => self.or_overlap_along(journey, oracle, nearest, &mut stretches),
-            false => Ok(nearest),
+        if nearest.outcome.meets_later(nearest.tolerance) {
+            self.or_overlap_along(journey, oracle, nearest, &mut stretches)
+        } else {
+            Ok(nearest)
         }
     }
 
@@ -274,9 +276,10 @@ impl Doubt {
 
     /// Returns true if the distance grows from an end of a leg on.
     fn rises_into(&self, leg: &Leg, end: f64) -> bool {
-        match end > leg.span.from {
-            true => self.rate <= 0.0,
-            false => self.rate >= 0.0,
+        if end > leg.span.from {
+            self.rate <= 0.0
+        } else {
+            self.rate >= 0.0
         }
     }
 }

@@ -131,9 +131,10 @@ impl SoFar {
     ) -> Result<Answer, InputError> {
         let at = |time: f64, contact: Contact| {
             let contact = leg.contact(contact);
-            match time > 0.0 {
-                true => Outcome::Contact { time, contact },
-                false => Outcome::Touching { contact },
+            if time > 0.0 {
+                Outcome::Contact { time, contact }
+            } else {
+                Outcome::Touching { contact }
             }
         };
         let outcome = match outcome {

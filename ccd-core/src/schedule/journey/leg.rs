@@ -88,9 +88,10 @@ impl Leg {
     /// The power of the time with which strays grow.
     fn order(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
-        match self.motions.iter().any(accelerates) {
-            true => 3.0,
-            false => 2.0,
+        if self.motions.iter().any(accelerates) {
+            3.0
+        } else {
+            2.0
         }
     }
 
@@ -158,18 +159,20 @@ impl Leg {
 
     /// Returns what a distance of the motions says of the bodies where they stray.
     pub(super) fn at_least(&self, distance: f64) -> f64 {
-        match self.stray > 0.0 {
-            true => (distance - self.stray).next_down(),
-            false => distance,
+        if self.stray > 0.0 {
+            (distance - self.stray).next_down()
+        } else {
+            distance
         }
     }
 
     /// Returns a time of the journey, rounded so that it is never late.
     pub(super) fn time(&self, time: f64) -> f64 {
         let Span { from, to, .. } = self.span;
-        match from > 0.0 {
-            true => lesser(greater(from, (from + time).next_down()), to),
-            false => time,
+        if from > 0.0 {
+            lesser(greater(from, (from + time).next_down()), to)
+        } else {
+            time
         }
     }
 
@@ -195,8 +198,9 @@ fn reach(travelling: &Travelling<'_>, stretch: &Stretch) -> f64 {
 
 /// Returns a sum, rounded up; nothing added is exact.
 fn sum(a: f64, b: f64) -> f64 {
-    match b > 0.0 && a != 0.0 {
-        true => (a + b).next_up(),
-        false => a + b,
+    if b > 0.0 && a != 0.0 {
+        (a + b).next_up()
+    } else {
+        a + b
     }
 }

@@ -27,9 +27,10 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
         return Ok(false);
     };
     // Backwards in time, rates have the other sign.
-    let approach = match time > leg.span.from {
-        true => -approach,
-        false => approach,
+    let approach = if time > leg.span.from {
+        -approach
+    } else {
+        approach
     };
     let length = worthwhile(stretches.journey(), leg, (contact, approach));
     Ok(leg.is_worth_a_cut(length) && stretches.cut_about(leg.span, time, 2.0 * length))
@@ -69,8 +70,9 @@ fn worthwhile(journey: &Journey<'_>, leg: &Leg, (contact, approach): (Contact, f
     let gap = greater(contact.separation.upper - margin, tolerance);
     let nearest = 2.0 * gap / approach;
     // Written so that NaN is no time.
-    match nearest > 0.0 {
-        true => lesser(leg.length_for(STRAY_SHARE * gap), nearest),
-        false => leg.length_for((1.0 - STRAY_SHARE) * gap),
+    if nearest > 0.0 {
+        lesser(leg.length_for(STRAY_SHARE * gap), nearest)
+    } else {
+        leg.length_for((1.0 - STRAY_SHARE) * gap)
     }
 }

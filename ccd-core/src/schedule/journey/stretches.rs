@@ -240,9 +240,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
         // Written so that NaN is a half of the stretch, and so is a length that is lost to rounding.
         let is_part = length < 0.5 * whole && first < time && last > time;
         if !is_part || early.to != span.middle() {
-            match time < late.from {
-                true => self.waiting.extend([late, early]),
-                false => self.waiting.extend([early, late]),
+            if time < late.from {
+                self.waiting.extend([late, early]);
+            } else {
+                self.waiting.extend([early, late]);
             }
             return true;
         }

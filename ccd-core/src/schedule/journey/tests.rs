@@ -175,9 +175,10 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
                 "{number}: {found:e} in {answer:?}"
             );
         }
-        match lower > 0.0 {
-            true => apart += 1,
-            false => touching += 1,
+        if lower > 0.0 {
+            apart += 1;
+        } else {
+            touching += 1;
         }
     }
     assert!(apart > 60 && touching > 60, "{apart} {touching}");

@@ -53,9 +53,10 @@ pub(super) fn bound<L: Simd, C: Children, P: OtherNode>(
         free = free.max(past.attached);
         waits |= bits(past.waits(free, widest.gap - motion.slack));
     }
-    let thicker = match other.is_piece() {
-        true => u8::MAX,
-        false => bits(thicker.simd_gt(0.0)),
+    let thicker = if other.is_piece() {
+        u8::MAX
+    } else {
+        bits(thicker.simd_gt(0.0))
     };
     Bounds {
         free: FreeTimes::pack(free, lanes),

@@ -40,9 +40,10 @@ impl CloserLook {
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        match self.fine && siblings.parted() < AXIS_ROUNDS {
-            true => part_flat(problem, siblings, s),
-            false => None,
+        if self.fine && siblings.parted() < AXIS_ROUNDS {
+            part_flat(problem, siblings, s)
+        } else {
+            None
         }
     }
 

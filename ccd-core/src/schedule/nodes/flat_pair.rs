@@ -97,9 +97,10 @@ fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f6
     let free = approach.free_time(gap);
     // What the turning of the nodes uses up shrinks as they are split. Written so that NaN gives no
     // time.
-    match free >= 1.0 - s || approach.straight * free >= (1.0 - TURNED_SHARE) * gap {
-        true => free,
-        false => 0.0,
+    if free >= 1.0 - s || approach.straight * free >= (1.0 - TURNED_SHARE) * gap {
+        free
+    } else {
+        0.0
     }
 }
 

@@ -68,9 +68,10 @@ impl Outline {
 
     /// Returns the interval of `n.x r + n.y ζ`.
     pub(super) fn interval(&self, n: DVec2) -> [f64; 2] {
-        let (least, most) = match n.x < 0.0 {
-            true => (&self.outer, &self.inner),
-            false => (&self.inner, &self.outer),
+        let (least, most) = if n.x < 0.0 {
+            (&self.outer, &self.inner)
+        } else {
+            (&self.inner, &self.outer)
         };
         let slack =
             n.y.abs() * self.twist + profile_rounding(n.abs().to_array(), self.scale, self.tilt);

@@ -225,9 +225,10 @@ pub(super) struct Way {
 /// them in a single interval of shifts, so that the number of turns does not count, only whether a whole one is
 /// in there. Without a pitch all turns are alike.
 pub(super) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, way: &Way) -> bool {
-    let near = match still.close > turning.close {
-        true => still,
-        false => turning,
+    let near = if still.close > turning.close {
+        still
+    } else {
+        turning
     };
     // Written so that NaN proves nothing.
     if !(near.close > way.needed) {

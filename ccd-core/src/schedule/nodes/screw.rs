@@ -59,9 +59,10 @@ impl Screw {
         let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
         let size = lesser(a, b);
         // A tiny advance would make a tiny pitch.
-        let along = match along.abs() > LEAST_ADVANCE * size {
-            true => along,
-            false => 0.0,
+        let along = if along.abs() > LEAST_ADVANCE * size {
+            along
+        } else {
+            0.0
         };
         // The advance is off by a few units in the last place, which counts as drift too.
         let drift = length(velocity - along * unit) + ADVANCE_F64 * length(velocity);

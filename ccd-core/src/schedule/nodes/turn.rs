@@ -29,18 +29,20 @@ impl Turn {
     #[inline(always)]
     pub(super) fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
         let level = x.level();
-        match self.turns {
-            true => Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre)),
-            false => Vec3x8::splat(level, Vec3::ZERO),
+        if self.turns {
+            Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre))
+        } else {
+            Vec3x8::splat(level, Vec3::ZERO)
         }
     }
 
     /// Returns `n × ω`.
     #[inline(always)]
     pub(super) fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
-        match self.turns {
-            true => n.cross(Vec3x8::splat(n.level(), self.spin)),
-            false => Vec3x8::splat(n.level(), Vec3::ZERO),
+        if self.turns {
+            n.cross(Vec3x8::splat(n.level(), self.spin))
+        } else {
+            Vec3x8::splat(n.level(), Vec3::ZERO)
         }
     }
 
@@ -53,9 +55,10 @@ impl Turn {
     /// Returns the distance of a point from the rotation's centre, if there is one.
     #[inline(always)]
     pub(super) fn arm(&self, x: Vec3) -> f32 {
-        match self.turns {
-            true => (x - self.centre).length(),
-            false => 0.0,
+        if self.turns {
+            (x - self.centre).length()
+        } else {
+            0.0
         }
     }
 }

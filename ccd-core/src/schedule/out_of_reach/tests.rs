@@ -42,9 +42,12 @@ fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
             passage.motion()
         });
         let [a, b] = [(&bodies[0], motions[0]), (&bodies[1], motions[1])];
-        let pulls = [0, 1].map(|_| match rng.random_bool(0.5) {
-            true => within(&mut rng, 20.0),
-            false => DVec3::ZERO,
+        let pulls = [0, 1].map(|_| {
+            if rng.random_bool(0.5) {
+                within(&mut rng, 20.0)
+            } else {
+                DVec3::ZERO
+            }
         });
         let bodies = [a.into(), b.into()];
         let problem = Problem::accelerated(bodies, pulls, 1.0, &Config::default()).unwrap();

@@ -136,9 +136,10 @@ impl<'a> Heights<'a> {
     }
 
     pub(super) fn angle(&self, tau: f64) -> Angle {
-        match tau > 0.0 && !self.straight() {
-            true => Angle::new(self.omega * tau),
-            false => Angle::ZERO,
+        if tau > 0.0 && !self.straight() {
+            Angle::new(self.omega * tau)
+        } else {
+            Angle::ZERO
         }
     }
 

@@ -73,9 +73,10 @@ impl Snapshot<'_> {
         };
         let slack = self.gap_across(normal, from) - level.floor;
         // Written so that NaN is nothing left.
-        match slack > RESTED * self.problem.rounding {
-            true => self.free_beside(&Plane { normal, slack }),
-            false => Some(0.0),
+        if slack > RESTED * self.problem.rounding {
+            self.free_beside(&Plane { normal, slack })
+        } else {
+            Some(0.0)
         }
     }
 

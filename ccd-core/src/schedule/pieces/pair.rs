@@ -79,15 +79,13 @@ impl<C: Default + Clone> Pair<C> {
     ) -> Step {
         let snapshot = Snapshot::new(problem, self.a, self.b, s);
         let known = std::mem::replace(&mut self.known, true);
-        self.advance_by(
-            &snapshot,
-            oracle,
-            meter,
-            |snapshot, checked, kept| match known {
-                true => snapshot.free_time(checked, kept),
-                false => snapshot.first_free_time(checked, kept),
-            },
-        )
+        self.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+            if known {
+                snapshot.free_time(checked, kept)
+            } else {
+                snapshot.first_free_time(checked, kept)
+            }
+        })
     }
 
     /// Like [`Pair::advance`] in a snapshot of the pair, with another rule for the time for which
@@ -142,18 +140,21 @@ impl<C: Default + Clone> Pair<C> {
         };
         // The axis may lose all of the gap that is left to advance by. Written so that NaN counts
         // as that.
-        let checked = match is_resting || !(checked.lower > kept + problem.rounding) {
-            true => sharpened(&snapshot.pieces, &checked, problem.rounding),
-            false => checked,
+        let checked = if is_resting || !(checked.lower > kept + problem.rounding) {
+            sharpened(&snapshot.pieces, &checked, problem.rounding)
+        } else {
+            checked
         };
-        let free = match is_resting {
-            true => snapshot.resting_time(&checked, kept, ids),
-            false => free_time(snapshot, &checked, kept),
+        let free = if is_resting {
+            snapshot.resting_time(&checked, kept, ids)
+        } else {
+            free_time(snapshot, &checked, kept)
         };
         let step = after(s, free).or_else(|| {
-            let began = match is_resting {
-                true => &Snapshot::new(problem, self.a, self.b, 0.0),
-                false => snapshot,
+            let began = if is_resting {
+                &Snapshot::new(problem, self.a, self.b, 0.0)
+            } else {
+                snapshot
             };
             let level = began.level(ids, checked.witness_a)?;
             self.goal = Goal::Level(level);

@@ -198,9 +198,12 @@ impl<'p> Snapshot<'p> {
         let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
         // Written so that NaN counts as nothing left.
         let is_left = |slack: f64| slack > RESTED * rounding;
-        let anyhow = || match is_left(checked.lower - kept) {
-            true => self.free_time(checked, kept),
-            false => Some(0.0),
+        let anyhow = || {
+            if is_left(checked.lower - kept) {
+                self.free_time(checked, kept)
+            } else {
+                Some(0.0)
+            }
         };
         // This includes pieces that have just passed the plane by the rounding of resting.
         let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
@@ -324,9 +327,10 @@ impl<'p> Snapshot<'p> {
         let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
         let rounding = RATE_F64 * (a.speed() + b.speed());
         let pull = a.least_pull() + b.least_pull();
-        let rounds = match a.straight() && b.straight() {
-            true => 1,
-            false => AXIS_ROUNDS,
+        let rounds = if a.straight() && b.straight() {
+            1
+        } else {
+            AXIS_ROUNDS
         };
         // The offset of heights makes the nearest two points `slack` apart.
         let free = |above: &Point, below: &Point| {
@@ -353,9 +357,10 @@ impl<'p> Snapshot<'p> {
                 least_free_of_many(&b, &a, tau, free)
             }),
         }?;
-        match self.turn_past(&a, &b, slack) {
-            true => None,
-            false => Some(crossing),
+        if self.turn_past(&a, &b, slack) {
+            None
+        } else {
+            Some(crossing)
         }
     }
 
@@ -386,9 +391,10 @@ pub(super) struct Plane {
 fn least_drift(rate: f64, pull: f64, horizon: f64) -> f64 {
     let nearest = -rate / pull;
     // Written so that NaN is none.
-    match pull > 0.0 && nearest > 0.0 && nearest < horizon {
-        true => 0.5 * rate * nearest,
-        false => lesser(0.0, (rate + 0.5 * pull * horizon) * horizon),
+    if pull > 0.0 && nearest > 0.0 && nearest < horizon {
+        0.5 * rate * nearest
+    } else {
+        lesser(0.0, (rate + 0.5 * pull * horizon) * horizon)
     }
 }
 

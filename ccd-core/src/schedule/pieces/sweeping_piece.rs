@@ -31,9 +31,10 @@ pub(super) struct Member<'p> {
 
 impl<'p> Member<'p> {
     pub(super) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
-        let swing = match side.path.turns() {
-            true => side.path.rate * piece.farthest_from(piece.points[0]),
-            false => 0.0,
+        let swing = if side.path.turns() {
+            side.path.rate * piece.farthest_from(piece.points[0])
+        } else {
+            0.0
         };
         Member {
             side,
@@ -101,9 +102,10 @@ impl<'p> SweepingPiece<'p> {
     ) -> Self {
         let (path, own) = (&holder.side.path, &other.side.path);
         // All points of a body that does not turn move straight: one of the piece's own is nearest.
-        let reference = match own.turns() {
-            true => own.centre,
-            false => other.piece.points[0],
+        let reference = if own.turns() {
+            own.centre
+        } else {
+            other.piece.points[0]
         };
         let way = other.frame.point(reference) - holder.frame.point(path.centre);
         let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);

@@ -59,12 +59,11 @@ pub(crate) fn at_start(
             inner,
             reach,
         };
-        match outer.body.may_be_hollow() {
-            true => {
-                let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
-                search.answer(pairs, pieces)
-            }
-            false => Found::Nothing,
+        if outer.body.may_be_hollow() {
+            let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
+            search.answer(pairs, pieces)
+        } else {
+            Found::Nothing
         }
     };
     let found = [look(&b, &a, 0), look(&a, &b, 1)];

@@ -67,9 +67,10 @@ fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
     let size = scene.bodies.each_ref().map(|body| body.tree().radius());
     let size = f64::from(size[0]) + f64::from(size[1]);
     let gap = distance(&scene.problem(), 0.0);
-    scene.config.margin = match rng.random_bool(0.5) {
-        true => gap * rng.random_range(1.0..1.5),
-        false => lesser(size * magnitude(rng, -3.0, 2.0), 1e11),
+    scene.config.margin = if rng.random_bool(0.5) {
+        gap * rng.random_range(1.0..1.5)
+    } else {
+        lesser(size * magnitude(rng, -3.0, 2.0), 1e11)
     };
     scene
 }

@@ -51,9 +51,10 @@ impl<'a> LocalPoints<'a> {
     pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
         let height = plane.normal.dot(self.relative[v as usize]) - plane.height;
         // Written so that NaN is decided exactly.
-        match height.abs() > plane.rounding {
-            true => height > 0.0,
-            false => side_of(self.points, corners, v) == Ordering::Greater,
+        if height.abs() > plane.rounding {
+            height > 0.0
+        } else {
+            side_of(self.points, corners, v) == Ordering::Greater
         }
     }
 }

@@ -35,9 +35,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
         let unread = reader.get_ref().1.len();
         statements.fault(error, statements.text.len() - unread)
     })?;
-    let groups = match statements.objects.is_used() {
-        true => statements.objects.groups(),
-        false => statements.groups.groups(),
+    let groups = if statements.objects.is_used() {
+        statements.objects.groups()
+    } else {
+        statements.groups.groups()
     };
     let mut polygons = Polygons {
         vertices: mesh

@@ -80,9 +80,10 @@ fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
         ([b'p', b'l', b'y', b'\r', next, ..], Some(end)) if *next != b'\n' => {
             let mut header = text::lines(bytes[..end].into()).into_owned();
             let is_text = header.windows(12).any(|window| window == b"format ascii");
-            match is_text {
-                true => header.extend_from_slice(&text::lines(bytes[end..].into())),
-                false => header.extend_from_slice(&bytes[end..]),
+            if is_text {
+                header.extend_from_slice(&text::lines(bytes[end..].into()));
+            } else {
+                header.extend_from_slice(&bytes[end..]);
             }
             header.into()
         }
@@ -121,13 +122,12 @@ fn check_names(bytes: &[u8]) -> Result<(), MeshFault> {
 
 /// Checks that nothing follows the elements.
 fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
-    match rest.trim_ascii().is_empty() {
-        true => Ok(()),
-        false => {
-            let more = rest.len();
-            let problem = format!("has {more} bytes more than its header announces");
-            Err(MeshFault::syntax(None, problem))
-        }
+    if rest.trim_ascii().is_empty() {
+        Ok(())
+    } else {
+        let more = rest.len();
+        let problem = format!("has {more} bytes more than its header announces");
+        Err(MeshFault::syntax(None, problem))
     }
 }
 

@@ -23,9 +23,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         return parse_binary(bytes);
     }
     let plain = text::plain(bytes);
-    match is_text(&plain) {
-        true => parse_text(&String::from_utf8_lossy(&plain)),
-        false => parse_binary(bytes),
+    if is_text(&plain) {
+        parse_text(&String::from_utf8_lossy(&plain))
+    } else {
+        parse_binary(bytes)
     }
 }
 
@@ -81,9 +82,10 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     one_solid.push_str("solid all\n");
     let (mut facet_lines, mut last) = (Vec::new(), "");
     for (number, line) in (1..).zip(text.lines()) {
-        let lower: Cow<'_, str> = match line.bytes().any(|b| b.is_ascii_uppercase()) {
-            true => line.to_ascii_lowercase().into(),
-            false => line.into(),
+        let lower: Cow<'_, str> = if line.bytes().any(|b| b.is_ascii_uppercase()) {
+            line.to_ascii_lowercase().into()
+        } else {
+            line.into()
         };
         let mut words = lower.split_whitespace();
         let Some(first) = words.next() else { continue };

@@ -39,9 +39,10 @@ fn exact(x: f64, from: Unit, to: Unit) -> RBig {
 fn error(x: f64, from: Unit, to: Unit) -> RBig {
     let converted = Conversion::new(from, to).apply(DVec3::splat(x)).y;
     let difference = RBig::try_from(converted).unwrap() - exact(x, from, to);
-    match difference < RBig::ZERO {
-        true => -difference,
-        false => difference,
+    if difference < RBig::ZERO {
+        -difference
+    } else {
+        difference
     }
 }
 

@@ -133,9 +133,10 @@ impl GrowingPatch {
     }
 
     fn is_corner(&self, vertex: u32) -> bool {
-        match self.has_volume {
-            true => self.hull.corners().binary_search(&vertex).is_ok(),
-            false => self.hull.corners().contains(&vertex),
+        if self.has_volume {
+            self.hull.corners().binary_search(&vertex).is_ok()
+        } else {
+            self.hull.corners().contains(&vertex)
         }
     }
 

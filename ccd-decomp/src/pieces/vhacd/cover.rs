@@ -136,10 +136,10 @@ fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
         if contents[seed] != Content::Unknown {
             continue;
         }
-        let content = match target.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded())
-        {
-            true => Content::Full,
-            false => Content::Nothing,
+        let content = if target.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded()) {
+            Content::Full
+        } else {
+            Content::Nothing
         };
         contents[seed] = content;
         stack.push(seed);

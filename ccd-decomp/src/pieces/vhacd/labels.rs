@@ -45,11 +45,12 @@ pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option
 /// Assigns cubes to parts through the library. There are more parts than hulls were asked for; the library makes
 /// up to twice its parameter.
 fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usize; 3], u32)>> {
-    let fill_mode = match target.is_closed() {
-        true => FillMode::FloodFill {
+    let fill_mode = if target.is_closed() {
+        FillMode::FloodFill {
             detect_cavities: true,
-        },
-        false => FillMode::SurfaceOnly,
+        }
+    } else {
+        FillMode::SurfaceOnly
     };
     let parts = hulls.saturating_mul(PARTS_PER_HULL).min(MOST_PARTS);
     let parameters = VHACDParameters {

@@ -107,13 +107,14 @@ impl<'a> Target<'a> {
     /// Locates a point.
     pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
         let (found, reached) = self.nearest(point, work);
-        match self.winds_about(point, work) {
-            true => Location::Inside {
+        if self.winds_about(point, work) {
+            Location::Inside {
                 depth: greater(0.0, lesser(found, reached) - self.slack()),
-            },
-            false => Location::Outside {
+            }
+        } else {
+            Location::Outside {
                 distance: reached + self.slack(),
-            },
+            }
         }
     }
 

@@ -131,9 +131,10 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
     let to_triangle = |[a, b, c]: [DVec3; 3]| {
         let normal = (b - a).cross(c - a).normalize();
         let within = |a: DVec3, b: DVec3| (b - a).cross(point - a).dot(normal) >= 0.0;
-        match within(a, b) && within(b, c) && within(c, a) {
-            true => normal.dot(point - a).abs(),
-            false => lesser(lesser(to_segment(a, b), to_segment(b, c)), to_segment(c, a)),
+        if within(a, b) && within(b, c) && within(c, a) {
+            normal.dot(point - a).abs()
+        } else {
+            lesser(lesser(to_segment(a, b), to_segment(b, c)), to_segment(c, a))
         }
     };
     triangles

@@ -133,9 +133,10 @@ fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     let corner = |(k, &(step, radius)): (usize, &(i32, f64))| {
         let angle = std::f64::consts::TAU * k as f64 / radii.len() as f64;
         let p = dvec3(angle.cos(), angle.sin(), 0.0);
-        match on_grid {
-            true => (p * 4.0 * f64::from(step)).round(),
-            false => p * radius,
+        if on_grid {
+            (p * 4.0 * f64::from(step)).round()
+        } else {
+            p * radius
         }
     };
     let flat = prism(&radii.iter().enumerate().map(corner).collect::<Vec<_>>());
@@ -169,9 +170,10 @@ fn crossings_are_those_of_all_pairs() {
             .filter(|&(f, g)| f < g && super::cross(&manifold, f, g))
             .collect();
         let found = super::crossings(&manifold, &Work::unbounded()).unwrap();
-        match all.len() < CROSSINGS {
-            true => assert_eq!(found, all),
-            false => assert_eq!(found.len(), CROSSINGS),
+        if all.len() < CROSSINGS {
+            assert_eq!(found, all);
+        } else {
+            assert_eq!(found.len(), CROSSINGS);
         }
         whole += u32::from(all.is_empty());
         crossed += u32::from(!all.is_empty());

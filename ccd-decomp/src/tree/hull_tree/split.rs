@@ -36,9 +36,10 @@ impl Splitter {
         let middle = 0.5 * (heights[0].0 + heights[heights.len() - 1].0);
         let below = heights.partition_point(|&(height, _)| height < middle);
         let least = greater(1.0, LEAST_SHARE * pieces.len() as f64);
-        match (below.min(pieces.len() - below) as f64) < least {
-            true => pieces.len() / 2,
-            false => below,
+        if (below.min(pieces.len() - below) as f64) < least {
+            pieces.len() / 2
+        } else {
+            below
         }
     }
 

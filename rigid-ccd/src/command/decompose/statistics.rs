@@ -93,10 +93,10 @@ impl fmt::Display for Statistics {
 impl Statistics {
     fn pieces_text(&self) -> String {
         let pieces = format!("{} {}", count(self.pieces), self.pieces_kind);
-        match self.exact {
-            true => format!("{pieces}, {}", self.volume),
-            // Approximate pieces are all solid.
-            false => pieces,
+        if self.exact {
+            format!("{pieces}, {}", self.volume)
+        } else {
+            pieces
         }
     }
 
@@ -109,9 +109,10 @@ impl Statistics {
     }
 
     fn error_text(&self) -> String {
-        match self.exact {
-            true => "none: the pieces are exact".to_owned(),
-            false => format!("the pieces stick out by at most {:.3e}", self.sticks_out),
+        if self.exact {
+            "none: the pieces are exact".to_owned()
+        } else {
+            format!("the pieces stick out by at most {:.3e}", self.sticks_out)
         }
     }
 }

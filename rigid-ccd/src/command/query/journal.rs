@@ -191,9 +191,10 @@ impl Earlier {
 /// Reads a checkpoint that [ends](ended) with its checksum.
 fn checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, Lost> {
     let (checkpoint, _) = line.rsplit_once(' ').ok_or(Lost)?;
-    match ended(checkpoint.to_owned(), sum) == line {
-        true => serde_json::from_str(checkpoint).map_err(|_| Lost),
-        false => Err(Lost),
+    if ended(checkpoint.to_owned(), sum) == line {
+        serde_json::from_str(checkpoint).map_err(|_| Lost)
+    } else {
+        Err(Lost)
     }
 }
 

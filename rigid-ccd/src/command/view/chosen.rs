@@ -32,9 +32,10 @@ impl Chosen {
 
     /// Returns whether an id is one of those named; none where none are.
     pub(super) fn is_named(&self, id: &str) -> Option<bool> {
-        match self.ids.is_empty() {
-            true => None,
-            false => Some(self.ids.iter().any(|named| named == id)),
+        if self.ids.is_empty() {
+            None
+        } else {
+            Some(self.ids.iter().any(|named| named == id))
         }
     }
 

@@ -114,9 +114,10 @@ fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
     let Impact { bodies, hit } = stop.contact.expect("no limit was reached");
     assert_eq!(bodies, super::super::pairs::ordered(index, by));
     assert!(hit.time >= stop.time && hit.time <= 1.0, "{hit:?} {stop:?}");
-    let way = match bodies[0] == index {
-        true => hit.witness_b - hit.witness_a,
-        false => hit.witness_a - hit.witness_b,
+    let way = if bodies[0] == index {
+        hit.witness_b - hit.witness_a
+    } else {
+        hit.witness_a - hit.witness_b
     };
     assert!(way.length() <= reach, "{way}");
     let normal = stop.normal().expect("nothing overlaps");
@@ -126,9 +127,10 @@ fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
         "{normal} {way}"
     );
     let span = scene.members[index].body.span();
-    let mine = match bodies[0] == index {
-        true => hit.witness_a,
-        false => hit.witness_b,
+    let mine = if bodies[0] == index {
+        hit.witness_a
+    } else {
+        hit.witness_b
     };
     let centre = scene.members[index].motion.pose(hit.time).translation();
     assert!(mine.distance(centre) <= span * (1.0 + 1e-12) + rounding);

@@ -46,17 +46,16 @@ impl Leg {
             return Ok(*motion);
         }
         let (near, centre) = (motion.pose(time), motion.centre());
-        let (pose, spin) = match *leftover == DVec3::ZERO {
-            true => (near, motion.spin()),
-            false => {
-                let turn = DQuat::from_scaled_axis(*leftover * time);
-                let rotation = turn * near.rotation();
-                let place = near.transform_point(centre) - rotation * centre;
-                (
-                    Pose::new(place, rotation)?,
-                    *leftover + turn * motion.spin(),
-                )
-            }
+        let (pose, spin) = if *leftover == DVec3::ZERO {
+            (near, motion.spin())
+        } else {
+            let turn = DQuat::from_scaled_axis(*leftover * time);
+            let rotation = turn * near.rotation();
+            let place = near.transform_point(centre) - rotation * centre;
+            (
+                Pose::new(place, rotation)?,
+                *leftover + turn * motion.spin(),
+            )
         };
         Motion::about(pose, motion.velocity(), spin, centre)
     }
@@ -73,8 +72,9 @@ pub(crate) fn left_over([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> D
     let way = to.rotation() * led.conjugate();
     let way = if way.w < 0.0 { -way } else { way };
     let sine = length(way.xyz());
-    match sine > 0.0 {
-        true => way.xyz() * (2.0 * sine.atan2(way.w) / sine),
-        false => DVec3::ZERO,
+    if sine > 0.0 {
+        way.xyz() * (2.0 * sine.atan2(way.w) / sine)
+    } else {
+        DVec3::ZERO
     }
 }

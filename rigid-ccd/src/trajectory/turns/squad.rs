@@ -197,9 +197,10 @@ impl Function {
 pub(super) fn logarithm(q: DQuat) -> DVec3 {
     let q = if q.w < 0.0 { -q } else { q };
     let sine = q.xyz().length();
-    match sine > 0.0 {
-        true => q.xyz() * (2.0 * sine.atan2(q.w) / sine),
-        false => DVec3::ZERO,
+    if sine > 0.0 {
+        q.xyz() * (2.0 * sine.atan2(q.w) / sine)
+    } else {
+        DVec3::ZERO
     }
 }
 
@@ -211,16 +212,15 @@ fn exponential(turn: DVec3) -> DQuat {
 fn jacobian(turn: DVec3, change: DVec3) -> DVec3 {
     let angle = turn.length();
     // The first terms of both series; the next ones are below rounding.
-    let [first, second] = match angle < 1e-4 {
-        true => [0.5, 1.0 / 6.0],
-        false => {
-            let square = angle * angle;
-            let half = (0.5 * angle).sin();
-            [
-                2.0 * half * half / square,
-                (angle - angle.sin()) / (square * angle),
-            ]
-        }
+    let [first, second] = if angle < 1e-4 {
+        [0.5, 1.0 / 6.0]
+    } else {
+        let square = angle * angle;
+        let half = (0.5 * angle).sin();
+        [
+            2.0 * half * half / square,
+            (angle - angle.sin()) / (square * angle),
+        ]
     };
     change - first * turn.cross(change) + second * turn.cross(turn.cross(change))
 }
@@ -228,12 +228,11 @@ fn jacobian(turn: DVec3, change: DVec3) -> DVec3 {
 /// Undoes [`jacobian`].
 fn inverse_jacobian(turn: DVec3, spin: DVec3) -> DVec3 {
     let angle = turn.length();
-    let second = match angle < 1e-4 {
-        true => 1.0 / 12.0,
-        false => {
-            let square = angle * angle;
-            (1.0 - 0.5 * angle / (0.5 * angle).tan()) / square
-        }
+    let second = if angle < 1e-4 {
+        1.0 / 12.0
+    } else {
+        let square = angle * angle;
+        (1.0 - 0.5 * angle / (0.5 * angle).tan()) / square
     };
     spin + 0.5 * turn.cross(spin) + second * turn.cross(turn.cross(spin))
 }

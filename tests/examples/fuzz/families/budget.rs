@@ -20,9 +20,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
             course.start.position = times(course.start.position, near);
         }
     }
-    case.config.budget = match draw.chance(0.5) {
-        true => draw.count(0..100) as u64,
-        false => draw.count(0..2000) as u64,
+    case.config.budget = if draw.chance(0.5) {
+        draw.count(0..100) as u64
+    } else {
+        draw.count(0..2000) as u64
     };
     case
 }

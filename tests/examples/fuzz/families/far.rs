@@ -14,9 +14,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     };
     let bodies = [shapes::any(draw), shapes::any(draw)];
     let mut case = pass(draw, bodies, 0.0, config);
-    let far = match draw.chance(0.7) {
-        true => times(draw.direction(), draw.log(1.0..1e12)),
-        false => [0.0; 3],
+    let far = if draw.chance(0.7) {
+        times(draw.direction(), draw.log(1.0..1e12))
+    } else {
+        [0.0; 3]
     };
     let whole = draw.chance(0.5);
     case.duration = if draw.chance(0.5) {

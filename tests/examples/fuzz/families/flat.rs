@@ -24,13 +24,13 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         draw.pick(&[0.0, 0.0, 1.0]),
         down,
     ];
-    let spin = match draw.chance(0.7) {
-        true => [0.0; 3],
-        // Tips over, or turns in the plane.
-        false => times(
+    let spin = if draw.chance(0.7) {
+        [0.0; 3]
+    } else {
+        times(
             draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
             draw.within(-2.0..2.0),
-        ),
+        )
     };
     let mut courses = [still(), Course::velocities(RawPose::at(start), along, spin)];
     if draw.chance(0.3) {
@@ -57,8 +57,9 @@ fn level(draw: &mut Draw) -> Shape {
     }
     let count = draw.count(1..5);
     let flat = shapes::soup(draw, count).map(|[x, y, _]| [x, y, 0.0]);
-    match draw.chance(0.5) {
-        true => flat.map(|v| v.map(|x| (4.0 * x).round() / 4.0)),
-        false => flat,
+    if draw.chance(0.5) {
+        flat.map(|v| v.map(|x| (4.0 * x).round() / 4.0))
+    } else {
+        flat
     }
 }

@@ -6,17 +6,17 @@ use crate::draw::Draw;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let many = match draw.chance(0.05) {
-        true => draw.log(4.0..2000.0) as usize,
-        false => draw.log(4.0..60.0) as usize,
+    let many = if draw.chance(0.05) {
+        draw.log(4.0..2000.0) as usize
+    } else {
+        draw.log(4.0..60.0) as usize
     };
     let few = (2000 / many).clamp(4, 30) as f64;
-    let other = match draw.chance(0.5) {
-        true => shapes::any(draw),
-        false => {
-            let few = draw.log(4.0..few + 1.0) as usize;
-            shapes::hull(draw, few)
-        }
+    let other = if draw.chance(0.5) {
+        shapes::any(draw)
+    } else {
+        let few = draw.log(4.0..few + 1.0) as usize;
+        shapes::hull(draw, few)
     };
     let mut config = tolerance(draw);
     if draw.chance(0.4) {

@@ -8,9 +8,10 @@ use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
     let thin = thin(draw);
-    let other = match draw.chance(0.5) {
-        true => self::thin(draw),
-        false => shapes::any(draw),
+    let other = if draw.chance(0.5) {
+        self::thin(draw)
+    } else {
+        shapes::any(draw)
     };
     let mut config = tolerance(draw);
     if draw.chance(0.4) {

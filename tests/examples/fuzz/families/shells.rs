@@ -8,9 +8,10 @@ use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
     let several = several(draw);
-    let other = match draw.chance(0.3) {
-        true => self::several(draw),
-        false => shapes::any(draw),
+    let other = if draw.chance(0.3) {
+        self::several(draw)
+    } else {
+        shapes::any(draw)
     };
     let size = draw.pick(&[0.1, 0.3, 1.0]);
     let other = other.map(|v| times(v, size));
@@ -24,9 +25,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         return pass(draw, [several, other], turn, config);
     }
     // The position is somewhere within, or on, the parts.
-    let at = match draw.chance(0.3) {
-        true => draw.pick(&several.vertices),
-        false => times(draw.point(), several.radius()),
+    let at = if draw.chance(0.3) {
+        draw.pick(&several.vertices)
+    } else {
+        times(draw.point(), several.radius())
     };
     let start = draw.pose(at);
     let velocity = times(draw.direction(), draw.within(0.0..4.0));
@@ -47,9 +49,10 @@ fn several(draw: &mut Draw) -> Shape {
     let mut all = Shape::default();
     let (mut at, mut size) = ([0.0; 3], 1.0);
     for _ in 0..count {
-        let part = match draw.chance(0.6) {
-            true => shapes::cuboid([0.5; 3]),
-            false => shapes::solid(draw),
+        let part = if draw.chance(0.6) {
+            shapes::cuboid([0.5; 3])
+        } else {
+            shapes::solid(draw)
         };
         let (here, scale) = (at, size);
         let part = part.map(|v| plus(times(v, scale), here));

@@ -26,9 +26,10 @@ impl Start {
         // At a smaller distance, inside and outside depend on rounding.
         let touching = distance <= rounding;
         let deep = touching && scene.depth(0.0) > rounding;
-        let inside = match touching {
-            true => shared_inside(placed, volumes, rounding),
-            false => contained(placed, volumes),
+        let inside = if touching {
+            shared_inside(placed, volumes, rounding)
+        } else {
+            contained(placed, volumes)
         };
         Start {
             distance,

@@ -205,9 +205,10 @@ impl<'a> Search<'a> {
     fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
-        let depth = match distance > error {
-            true => 0.0,
-            false => depth(&s, &o).rounded(),
+        let depth = if distance > error {
+            0.0
+        } else {
+            depth(&s, &o).rounded()
         };
         let below = distance < self.threshold - error || depth > larger(self.limit.depth, error);
         if below {

@@ -95,12 +95,13 @@ fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> R
         end: found.end + slack,
     };
     let only = Open::ALL.keep(|other| other == test);
-    match triangles
+    if triangles
         .open(only, &clock.relative().over(around))
         .is_empty()
     {
-        true => Root::None,
-        false => Root::At(found.start),
+        Root::None
+    } else {
+        Root::At(found.start)
     }
 }
 
@@ -126,9 +127,10 @@ fn bracket(triangles: &Triangles, test: Test, span: Span, clock: &Clock) -> Opti
             break;
         }
         let guess = span.start + width * (ends[0] / (ends[0] - ends[1]));
-        let guess = match guess < span.middle() {
-            true => guess + beyond,
-            false => guess - beyond,
+        let guess = if guess < span.middle() {
+            guess + beyond
+        } else {
+            guess - beyond
         };
         let inside = !halve && guess > span.start && guess < span.end;
         let time = if inside { guess } else { span.middle() };

@@ -128,9 +128,12 @@ impl BodyMotion {
         let orientation = axes * course.orientation;
         let still = course.rate == 0.0;
         // The part along the axis is fixed; the rest rotates.
-        let along = |column: DVec3| match still {
-            true => column,
-            false => axis * axis.dot(column),
+        let along = |column: DVec3| {
+            if still {
+                column
+            } else {
+                axis * axis.dot(column)
+            }
         };
         let fixed = columns(orientation, along);
         let cos = orientation - fixed;

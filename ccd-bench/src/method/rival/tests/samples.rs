@@ -92,9 +92,10 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
 fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;
-    match (0..3).all(inside) {
-        true => (p - t[0]).dot(normal).abs(),
-        false => f64::INFINITY,
+    if (0..3).all(inside) {
+        (p - t[0]).dot(normal).abs()
+    } else {
+        f64::INFINITY
     }
 }
 
@@ -114,9 +115,10 @@ fn edge_distance([p, p2]: [DVec3; 2], [q, q2]: [DVec3; 2]) -> f64 {
     let (e, g, w) = (p2 - p, q2 - q, q - p);
     let c = e.cross(g);
     let [s, u] = [w.cross(g), w.cross(e)].map(|x| x.dot(c) / c.length_squared());
-    let lines = match (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&u) {
-        true => w.dot(c).abs() / c.length(),
-        false => f64::INFINITY,
+    let lines = if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&u) {
+        w.dot(c).abs() / c.length()
+    } else {
+        f64::INFINITY
     };
     ends.into_iter().fold(lines, lesser)
 }

@@ -42,9 +42,10 @@ fn chains_take_no_more_stack_than_other_trees() {
         let mut nodes = Vec::new();
         for k in 0..PIECES - 1 {
             let (leaf, rest) = (2 * k + 1, 2 * k + 2);
-            nodes.push(match leaf_first {
-                true => HierarchyNode::Inner(leaf, rest),
-                false => HierarchyNode::Inner(rest, leaf),
+            nodes.push(if leaf_first {
+                HierarchyNode::Inner(leaf, rest)
+            } else {
+                HierarchyNode::Inner(rest, leaf)
             });
             nodes.push(HierarchyNode::Leaf(k));
         }

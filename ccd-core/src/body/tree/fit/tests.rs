@@ -69,9 +69,10 @@ fn rectangle(rng: &mut Pcg64, count: usize, [long, cluster]: [f64; 2]) -> Vec<DV
                 rng.random_range(-1.0..1.0),
                 0.0,
             );
-            let (at, edge) = match (k as f64) < cluster * count as f64 {
-                true => (corner + 0.01 * at, 1e-3),
-                false => (at, 0.05),
+            let (at, edge) = if (k as f64) < cluster * count as f64 {
+                (corner + 0.01 * at, 1e-3)
+            } else {
+                (at, 0.05)
             };
             [DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| turn * (at + edge * corner))
         })

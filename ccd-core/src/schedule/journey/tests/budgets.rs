@@ -52,9 +52,10 @@ impl Shuttle {
 impl Trajectory for Shuttle {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [start, end] = [from, to].map(|time| self.at(time));
-        let velocity = match to > from {
-            true => (end - start) / (to - from),
-            false => DVec3::ZERO,
+        let velocity = if to > from {
+            (end - start) / (to - from)
+        } else {
+            DVec3::ZERO
         };
         let shift = if self.corner(from, to).is_some() {
             2.0

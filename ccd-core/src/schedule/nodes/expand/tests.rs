@@ -152,9 +152,10 @@ impl Audit<'_> {
     fn next(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
         let free = |k: &u32| expansion.bounds.free.of(*k as usize);
         let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
-        match rng.random_bool(0.8) {
-            true => least.unwrap_or(0),
-            false => rng.random_range(0..count),
+        if rng.random_bool(0.8) {
+            least.unwrap_or(0)
+        } else {
+            rng.random_range(0..count)
         }
     }
 
@@ -199,9 +200,10 @@ impl Audit<'_> {
                 tally.attached += usize::from(free > 1.5 * still.free.of(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
                 tally.against_triangle += usize::from(other_tree.piece(other).is_some());
-                match triangles {
-                    true => tally.triangles += 1,
-                    false => tally.boxes += 1,
+                if triangles {
+                    tally.triangles += 1;
+                } else {
+                    tally.boxes += 1;
                 }
             } else {
                 tally.none += 1;

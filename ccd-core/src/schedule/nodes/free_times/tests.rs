@@ -29,9 +29,12 @@ fn times_come_out_in_order_each_lane_once() {
         let used = rng.random();
         let level = Instructions::Best.level();
         let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
-        let rounded = |lane: usize| match free[lane] > 0.0 {
-            false => 0.0,
-            true => f32::from_bits(free[lane].to_bits() & !LANE_BITS),
+        let rounded = |lane: usize| {
+            if free[lane] <= 0.0 {
+                0.0
+            } else {
+                f32::from_bits(free[lane].to_bits() & !LANE_BITS)
+            }
         };
         let waits = |lane: &usize| used >> lane & 1 == 1 && rounded(*lane) < f32::INFINITY;
         let mut expected: Vec<usize> = (0..LANES).filter(waits).collect();

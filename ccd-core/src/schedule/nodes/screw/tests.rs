@@ -32,9 +32,10 @@ fn passage(rng: &mut Pcg64) -> Passage {
     let (size, distance) = (magnitude(rng, -2.0, -0.5), rng.random_range(0.8..1.5));
     let axis = direction(rng);
     let out = axis.any_orthonormal_vector();
-    let turn = match rng.random_bool(0.75) {
-        true => rng.random_range(0.1..20.0),
-        false => magnitude(rng, 1.0, 5.0),
+    let turn = if rng.random_bool(0.75) {
+        rng.random_range(0.1..20.0)
+    } else {
+        magnitude(rng, 1.0, 5.0)
     };
     let advance = [0.0, rng.random_range(-0.3..0.3)][rng.random_range(0..2)];
     let near = rng.random_range(0.0..1.0);

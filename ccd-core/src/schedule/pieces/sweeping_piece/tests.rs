@@ -89,10 +89,11 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
         return;
     }
     // The axis is constant in its body's frame.
-    let towards = match rng.random_bool(0.5) {
-        true => direction(rng),
-        false => (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
-            .normalize(),
+    let towards = if rng.random_bool(0.5) {
+        direction(rng)
+    } else {
+        (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
+            .normalize()
     };
     let local = own.frame.inverse_vector(towards);
     let gap_at = |s: f64| {

@@ -129,9 +129,10 @@ fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
         (0..corners.len()).map(ends)
     };
     // Without facets, its points are in their order.
-    let points = match piece.facets.is_empty() {
-        true => piece.points.len() as u32,
-        false => 0,
+    let points = if piece.facets.is_empty() {
+        piece.points.len() as u32
+    } else {
+        0
     };
     let outline = (0..points).map(move |k| [k, (k + 1) % points]);
     let shared = piece.facets.iter().flat_map(around);

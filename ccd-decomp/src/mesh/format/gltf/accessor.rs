@@ -186,12 +186,11 @@ impl<'a> Accessors<'a> {
 }
 
 fn check_kind(about: &schema::Accessor, kind: &str) -> Result<(), MeshFault> {
-    match about.kind == kind {
-        true => Ok(()),
-        false => {
-            let problem = format!("is of type {:?} instead of {kind}", about.kind);
-            Err(MeshFault::syntax(None, problem))
-        }
+    if about.kind == kind {
+        Ok(())
+    } else {
+        let problem = format!("is of type {:?} instead of {kind}", about.kind);
+        Err(MeshFault::syntax(None, problem))
     }
 }
 

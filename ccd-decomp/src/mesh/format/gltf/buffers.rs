@@ -89,11 +89,12 @@ fn content<'a>(
             }
         },
     };
-    match (bytes.len() as u64) < buffer.byte_length {
-        true => Err(MeshFault::Truncated {
+    if (bytes.len() as u64) < buffer.byte_length {
+        Err(MeshFault::Truncated {
             missing: format!("byte {} of {}", bytes.len(), buffer.byte_length),
-        }),
-        false => Ok(Some(bytes)),
+        })
+    } else {
+        Ok(Some(bytes))
     }
 }
 

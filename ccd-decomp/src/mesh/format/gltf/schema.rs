@@ -203,11 +203,13 @@ impl BufferList {
 }
 
 fn read<'a, T: Deserialize<'a>>(json: &'a [u8]) -> Result<T, MeshFault> {
-    serde_json::from_slice(json).map_err(|error| match error.is_eof() {
-        true => MeshFault::Truncated {
-            missing: "its JSON".into(),
-        },
-        // The message has line and column.
-        false => MeshFault::syntax(None, format!("its JSON is not that of a glTF: {error}")),
+    serde_json::from_slice(json).map_err(|error| {
+        if error.is_eof() {
+            MeshFault::Truncated {
+                missing: "its JSON".into(),
+            }
+        } else {
+            MeshFault::syntax(None, format!("its JSON is not that of a glTF: {error}"))
+        }
     })
 }

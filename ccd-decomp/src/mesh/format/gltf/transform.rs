@@ -12,12 +12,11 @@ pub(super) fn of_node(node: &Node) -> Result<AffineMap, MeshFault> {
         return of_parts(node);
     };
     let matrix = DMat4::from_cols_array(&matrix);
-    match matrix.row(3) == DVec4::W && matrix.is_finite() {
-        true => Ok(DAffine3::from_mat4(matrix).into()),
-        false => {
-            let problem = "has a matrix that is not affine: its last row is not 0 0 0 1";
-            Err(MeshFault::syntax(None, problem.into()))
-        }
+    if matrix.row(3) == DVec4::W && matrix.is_finite() {
+        Ok(DAffine3::from_mat4(matrix).into())
+    } else {
+        let problem = "has a matrix that is not affine: its last row is not 0 0 0 1";
+        Err(MeshFault::syntax(None, problem.into()))
     }
 }
 

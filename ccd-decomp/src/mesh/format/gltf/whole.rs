@@ -55,9 +55,10 @@ impl<T: TryFrom<u64>> Visitor<'_> for Number<T> {
     }
 
     fn visit_f64<E: Error>(self, number: f64) -> Result<Self::Value, E> {
-        match number.fract() == 0.0 && (0.0..FIRST_INEXACT).contains(&number) {
-            true => self.visit_u64(number as u64),
-            false => Err(E::invalid_value(Unexpected::Float(number), &self)),
+        if number.fract() == 0.0 && (0.0..FIRST_INEXACT).contains(&number) {
+            self.visit_u64(number as u64)
+        } else {
+            Err(E::invalid_value(Unexpected::Float(number), &self))
         }
     }
 }

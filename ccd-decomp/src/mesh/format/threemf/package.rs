@@ -64,13 +64,11 @@ impl<'a> Package<'a> {
     /// The path of the first model.
     pub(super) fn first_model(&mut self) -> Result<String, MeshFault> {
         if !self.entries.contains_key(RELATIONSHIPS) {
-            return match self.entries.contains_key(&normalized(USUAL_MODEL)) {
-                true => Ok(USUAL_MODEL.into()),
-                false => {
-                    let problem =
-                        format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
-                    Err(MeshFault::syntax(None, problem))
-                }
+            return if self.entries.contains_key(&normalized(USUAL_MODEL)) {
+                Ok(USUAL_MODEL.into())
+            } else {
+                let problem = format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
+                Err(MeshFault::syntax(None, problem))
             };
         }
         let found = self.read(RELATIONSHIPS, |xml| {
@@ -121,9 +119,10 @@ impl<'a> Package<'a> {
         let unpacking = Unpacking::new(archive, entry, left)?;
         let mut xml = Xml::new(BufReader::with_capacity(BUFFER, unpacking));
         let parsed = parse(&mut xml);
-        match xml.into_inner().get_ref().is_exceeded {
-            true => Err(MeshFault::Unpacks { limit }),
-            false => parsed,
+        if xml.into_inner().get_ref().is_exceeded {
+            Err(MeshFault::Unpacks { limit })
+        } else {
+            parsed
         }
     }
 }

@@ -75,9 +75,10 @@ impl<R: BufRead> Xml<R> {
                 let (found, _) = self.reader.resolver().resolve_element(start.name());
                 let found = namespace(&found);
                 let own = self.own.get_or_insert_with(|| found.map(str::to_owned));
-                let origin = match own.as_deref() == found {
-                    true => Origin::Own,
-                    false => Origin::Extension,
+                let origin = if own.as_deref() == found {
+                    Origin::Own
+                } else {
+                    Origin::Extension
                 };
                 Ok(Step::Start(Element { start, origin }))
             }

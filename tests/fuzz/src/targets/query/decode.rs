@@ -63,22 +63,25 @@ pub(super) fn question(bytes: &[u8]) -> Question {
 }
 
 fn config(source: &mut Source<'_>, flags: u8) -> Config {
-    let tolerance = match flags & TOLERANCE > 0 {
-        true => source.number().abs(),
-        false => 1e-3,
+    let tolerance = if flags & TOLERANCE > 0 {
+        source.number().abs()
+    } else {
+        1e-3
     };
     let [margin] = source.numbers_if(flags & MARGIN > 0, [0.0]);
-    let budget = match flags & BUDGETED > 0 {
-        true => u64::from(source.byte()),
-        false => BUDGET,
+    let budget = if flags & BUDGETED > 0 {
+        u64::from(source.byte())
+    } else {
+        BUDGET
     };
     Config {
         tolerance,
         margin: margin.abs(),
         budget,
-        start: match flags & LEAVE > 0 {
-            true => StartPolicy::Leave,
-            false => StartPolicy::Report,
+        start: if flags & LEAVE > 0 {
+            StartPolicy::Leave
+        } else {
+            StartPolicy::Report
         },
         ..Config::default()
     }
@@ -216,15 +219,16 @@ fn course(source: &mut Source<'_>) -> Course {
         quaternion: source.numbers_if(has(TURNED), RawPose::at(none).quaternion),
     };
     let centre = source.numbers_if(has(CENTRED), none);
-    let goal = match has(ENDS) {
-        true => Goal::End(RawPose {
+    let goal = if has(ENDS) {
+        Goal::End(RawPose {
             position: source.numbers(),
             quaternion: source.numbers_if(has(SPINS), start.quaternion),
-        }),
-        false => Goal::Velocities {
+        })
+    } else {
+        Goal::Velocities {
             linear: source.numbers_if(has(MOVES), none),
             spin: source.numbers_if(has(SPINS), none),
-        },
+        }
     };
     Course {
         start,

@@ -13,18 +13,20 @@ use crate::tolerance::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use glam::{DMat3, DVec3, Vec3};
 
 fn spin(rng: &mut impl RngExt) -> DVec3 {
-    match rng.random_bool(0.7) {
-        true => direction(rng) * magnitude(rng, -3.0, 1.6),
-        false => DVec3::ZERO,
+    if rng.random_bool(0.7) {
+        direction(rng) * magnitude(rng, -3.0, 1.6)
+    } else {
+        DVec3::ZERO
     }
 }
 
 /// The centre of rotation of a body with nodes of this size at a place.
 fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
     let reach = size * magnitude(rng, -1.0, 4.0);
-    match rng.random_bool(0.3) {
-        true => at,
-        false => at + within(rng, reach),
+    if rng.random_bool(0.3) {
+        at
+    } else {
+        at + within(rng, reach)
     }
 }
 
@@ -115,9 +117,10 @@ impl Setting {
             place,
             size,
             origin: within(rng, offset),
-            velocity: match rng.random_bool(0.8) {
-                true => direction(rng) * fast,
-                false => DVec3::ZERO,
+            velocity: if rng.random_bool(0.8) {
+                direction(rng) * fast
+            } else {
+                DVec3::ZERO
             },
             acceleration: rng
                 .random_bool(0.4)

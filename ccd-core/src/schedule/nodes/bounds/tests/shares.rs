@@ -28,9 +28,10 @@ pub(super) struct Shares {
 pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
     let [free, apart, rate, bend] = numbers.map(f64::from);
     let root = (rate * rate + 2.0 * bend * apart).sqrt();
-    let exact = match rate > 0.0 {
-        true => 2.0 * apart / (rate + root),
-        false => (root - rate) / bend,
+    let exact = if rate > 0.0 {
+        2.0 * apart / (rate + root)
+    } else {
+        (root - rate) / bend
     };
     let factor = f64::from(CLOCK_F32);
     share(free / factor / exact - 1.0, 1.0 - factor)

@@ -139,9 +139,10 @@ impl Rows {
             }
         };
         let all = [far, swept, past];
-        match all.contains(&Some(true)) {
-            true => Some(true),
-            false => all.iter().all(Option::is_some).then_some(false),
+        if all.contains(&Some(true)) {
+            Some(true)
+        } else {
+            all.iter().all(Option::is_some).then_some(false)
         }
     }
 

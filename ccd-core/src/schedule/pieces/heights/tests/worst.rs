@@ -114,9 +114,10 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let fixed = tape.pick(4);
     let points = (0..COUNT).map(|k| {
         // A few points are drawn, the others are between them.
-        let [x, y] = match k < 4 {
-            true => [tape.any(-3..=0), tape.any(-3..=0)],
-            false => [0.5 * ((k * fixed) as f64 / 64.0).sin(), 0.25],
+        let [x, y] = if k < 4 {
+            [tape.any(-3..=0), tape.any(-3..=0)]
+        } else {
+            [0.5 * ((k * fixed) as f64 / 64.0).sin(), 0.25]
         };
         let up = if k < 4 {
             tape.any(-56..=-48).abs()

@@ -213,9 +213,10 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
         assert!(!passes(low) && passes(high));
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
-            match passes(middle) {
-                true => high = middle,
-                false => low = middle,
+            if passes(middle) {
+                high = middle;
+            } else {
+                low = middle;
             }
         }
         let allowed = (high - needed) / allowance;
@@ -260,9 +261,10 @@ fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: O
     let (mut low, mut high) = (0.0, 1.0 - snapshot.clock);
     for _ in 0..200 {
         let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
-        match way(one).length() < way(other).length() {
-            true => high = other,
-            false => low = one,
+        if way(one).length() < way(other).length() {
+            high = other;
+        } else {
+            low = one;
         }
     }
     let nearest = way(0.5 * (low + high));

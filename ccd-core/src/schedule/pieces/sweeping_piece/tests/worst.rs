@@ -47,9 +47,12 @@ impl Setting<'_> {
     fn exact(&self, tau: f64) -> [Double; 2] {
         let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
         let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
-        let turned = |v: Double3, spin: Double3| match spin.length().get() > 0.0 {
-            true => v.turned(spin.unit(), spin.length() * Double::from(tau)),
-            false => v,
+        let turned = |v: Double3, spin: Double3| {
+            if spin.length().get() > 0.0 {
+                v.turned(spin.unit(), spin.length() * Double::from(tau))
+            } else {
+                v
+            }
         };
         let normal = turned(Double3::from(self.normal), spin);
         let local = Double3::from(self.point) - Double3::from(self.sweep.reference);

@@ -113,13 +113,14 @@ fn polytope(points: Vec<DVec3>, facets: &[&[u32]]) -> Body {
 /// A triangle or a tetrahedron with one edge; its other corners are not in the plane of the edge.
 fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> Body {
     let mut apex = |height: f64| in_plane(rng).extend(from.z + height);
-    let (mut points, facets): (Vec<DVec3>, &[&[u32]]) = match apex(0.0).x > 0.0 {
-        true => (vec![from, to, apex(3.0)], &[]),
-        false => (
+    let (mut points, facets): (Vec<DVec3>, &[&[u32]]) = if apex(0.0).x > 0.0 {
+        (vec![from, to, apex(3.0)], &[])
+    } else {
+        (
             vec![from, to, apex(2.0), apex(-1.0)],
             // The edge is the last one of its facets.
             &[&[1, 2, 0], &[0, 3, 1], &[2, 1, 3], &[0, 2, 3]],
-        ),
+        )
     };
     if facets.is_empty() {
         points.rotate_left(rng.random_range(0..3));
@@ -190,9 +191,10 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
         let back = placement.shift - elsewhere.shift;
         let (a, b) = (plate.pieces().get(0), other.pieces().get(0));
         let found: Vec<DVec3> = beside_edges(&a, &b, |p| p + back, REACH).collect();
-        let expected = match height > 0.0 {
-            true => Some(Vec::new()),
-            false => sampled(&outline, ends),
+        let expected = if height > 0.0 {
+            Some(Vec::new())
+        } else {
+            sampled(&outline, ends)
         };
         let Some(expected) = expected else { continue };
         assert_eq!(found.len(), expected.len(), "{outline:?} {ends:?}");
