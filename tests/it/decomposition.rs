@@ -42,12 +42,16 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
     Ok(points)
 }
 
-/// Checks a model without faults, in every order.
+/// Checks a model without faults, in every order: with the given effort in the default order, quickly in the others.
 fn check_model(model: &Model, effort: Effort) {
     for order in ORDERS {
         let (name, mesh) = (&model.name, &model.shape.mesh);
         let decomposition = decomposed(&model.shape, order)
             .unwrap_or_else(|error| panic!("{name}, {order:?}: {error}"));
+        let effort = match order {
+            Order::Cresting => effort,
+            Order::BreadthFirst | Order::DepthFirst => Effort::QUICK,
+        };
         check(mesh, &decomposition, effort)
             .unwrap_or_else(|why| panic!("{name}, {order:?}: {why}"));
     }
@@ -69,9 +73,9 @@ fn patches_of_solids_in_general_position() {
 
 #[test]
 fn patches_of_thousands_of_faces() {
-    let mut knots = vec![(120, 12), (240, 24)];
+    let mut knots = vec![(120, 12)];
     if std::env::var_os("CCD_TEST_SLOW").is_some() {
-        knots.push((480, 36));
+        knots.extend([(240, 24), (480, 36)]);
     }
     for (rings, sides) in knots {
         let name = format!("knot of {rings} rings");
@@ -125,11 +129,11 @@ fn patches_of_random_solids() {
             }
         }
     };
-    runner(300)
+    runner(120)
         .run(&(shapes, turn, grid, order), law)
         .unwrap_or_else(|error| panic!("{error}"));
     assert!(
-        whole.get() > 200 && faulty.get() >= 5,
+        whole.get() > 80 && faulty.get() >= 2,
         "{whole:?} {faulty:?}"
     );
 }

@@ -28,7 +28,7 @@ fn lies_about_overlapping_bodies_never_set_them_free() {
 /// Some queries are answered in spite of the lies, others are not.
 fn every_lie_keeps_the_law(cases: impl Strategy<Value = Case>) {
     let (answered, unresolved) = (Cell::new(0), Cell::new(0));
-    check_cases(250, cases, |case| {
+    check_cases(100, cases, |case| {
         every_lie(case, |answer| {
             let count = match answer.outcome {
                 Outcome::Unresolved { .. } => &unresolved,
@@ -38,7 +38,7 @@ fn every_lie_keeps_the_law(cases: impl Strategy<Value = Case>) {
         })
     });
     assert!(
-        answered.get() > 300 && unresolved.get() > 1_000,
+        answered.get() > 120 && unresolved.get() > 400,
         "{answered:?} {unresolved:?}"
     );
 }

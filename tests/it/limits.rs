@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[test]
 fn a_small_budget_ends_in_a_certified_time() {
     let unresolved = Cell::new(0);
-    check_cases(250, cases(), |case| {
+    check_cases(100, cases(), |case| {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
         let mut law = Ok(());
@@ -41,7 +41,7 @@ fn a_small_budget_ends_in_a_certified_time() {
         law
     });
     assert!(
-        unresolved.get() > 100,
+        unresolved.get() > 40,
         "only {} runs ran out of budget",
         unresolved.get()
     );
@@ -50,7 +50,7 @@ fn a_small_budget_ends_in_a_certified_time() {
 #[test]
 fn the_certified_time_grows_with_the_budget() {
     let grown = Cell::new(0);
-    check_cases(250, cases(), |case| {
+    check_cases(100, cases(), |case| {
         let query = case.query();
         let bodies = query.triangles();
         let mut last = 0.0;
@@ -72,7 +72,7 @@ fn the_certified_time_grows_with_the_budget() {
         }
         Ok(())
     });
-    assert!(grown.get() > 100, "grew {} times", grown.get());
+    assert!(grown.get() > 40, "grew {} times", grown.get());
 }
 
 /// Answers a number of calls, then asks for the end of the query, and answers on.
@@ -100,7 +100,7 @@ impl DistanceOracle for Stopping {
 #[test]
 fn a_stopped_query_keeps_what_it_has_proven() {
     let (stopped, advanced) = (Cell::new(0), Cell::new(0));
-    check_cases(250, cases(), |case| {
+    check_cases(100, cases(), |case| {
         let query = case.query();
         let bodies = query.triangles();
         let judge = Judge::new(&query, &case.config());
@@ -121,5 +121,5 @@ fn a_stopped_query_keeps_what_it_has_proven() {
         Ok(())
     });
     let (stopped, advanced) = (stopped.get(), advanced.get());
-    assert!(stopped >= 20 && advanced >= 5, "{stopped} {advanced}");
+    assert!(stopped >= 8 && advanced >= 2, "{stopped} {advanced}");
 }

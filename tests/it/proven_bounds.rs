@@ -351,7 +351,7 @@ impl<'s> Case<'s> {
 #[test]
 fn no_bound_is_above_a_sampled_distance() {
     let (mut solver, mut tally) = (Solver::new(), Tally::default());
-    let draws = seeds(1_000);
+    let draws = seeds(500);
     let (mut wrong, count) = (Vec::new(), draws.end - draws.start);
     for seed in draws {
         let mut rng = Pcg64::seed_from_u64(seed);

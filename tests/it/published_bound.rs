@@ -86,7 +86,7 @@ fn rods(rng: &mut Pcg64) -> Query {
 fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one() {
     let mut rng = Pcg64::new(9, 0);
     let (mut hits, mut late) = (0, [0; 2]);
-    for _ in 0..600 {
+    for _ in 0..300 {
         let query = rods(&mut rng);
         let Finding::Hit { hi, .. } = Referee::new(&query).finding() else {
             continue;
@@ -102,7 +102,7 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
         }
     }
     assert!(
-        hits > 150 && late.iter().all(|&late| late > 0),
+        hits > 75 && late.iter().all(|&late| late > 0),
         "{late:?} of {hits}"
     );
 }

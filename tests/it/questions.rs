@@ -10,22 +10,22 @@ use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, rem
 
 #[test]
 fn every_question_of_any_shape() {
-    check_cases(200, cases(), every_question);
+    check_cases(80, cases(), every_question);
 }
 
 #[test]
 fn every_question_of_convex_shapes() {
-    check_cases(200, convex_cases(), every_question);
+    check_cases(80, convex_cases(), every_question);
 }
 
 #[test]
 fn every_question_near_and_overlapping() {
-    check_cases(200, crowded_cases(), every_question);
+    check_cases(80, crowded_cases(), every_question);
 }
 
 #[test]
 fn every_question_far_away_tiny_and_huge() {
-    check_cases(200, remote_cases(), every_question);
+    check_cases(80, remote_cases(), every_question);
 }
 
 fn every_question(case: &Case) -> Law {

@@ -1,12 +1,12 @@
-//! What all pages share: the template and the style.
+//! What a page is made of: the template and the style.
 
 use super::chart::ChartError;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub(super) use ccd_view::{escape, filled, json};
+pub(super) use ccd_view::{escape, filled};
 
-/// The style of all pages.
+/// The style of a page.
 pub(super) const STYLE: &str = include_str!("page/style.css");
 
 /// A page cannot be made.

@@ -6,8 +6,18 @@ use std::process::Command;
 
 /// Folder, method, tolerance, and the verdict that is recorded in `failures/README.md`.
 const FAILURES: [(&str, &str, &str, &str); 11] = [
-    ("fast-vmarch-published-late", "fast vmarch published", "1e-6", "late"),
-    ("discrete-stepping-late", "discrete stepping", "1e-2", "late"),
+    (
+        "fast-vmarch-published-late",
+        "fast vmarch published",
+        "1e-6",
+        "late",
+    ),
+    (
+        "discrete-stepping-late",
+        "discrete stepping",
+        "1e-2",
+        "late",
+    ),
     ("parry-f64-late", "parry-f64", "1e-3", "missed"),
     ("parry-f64-early", "parry-f64", "1e-6", "false"),
     ("parry-f32-late", "parry-f32", "1e-3", "missed"),
@@ -59,7 +69,11 @@ fn verdict(folder: &str, method: &str, tolerance: &str) -> String {
 fn kept_failures_are_still_failures_and_the_default_is_right() {
     let of_rust = FAILURES.map(|(folder, _, tolerance, _)| (folder, tolerance));
     for (folder, tolerance) in of_rust.into_iter().chain(OF_PYTHON) {
-        assert_eq!(verdict(folder, "best-first direct", tolerance), "right", "{folder}");
+        assert_eq!(
+            verdict(folder, "best-first direct", tolerance),
+            "right",
+            "{folder}"
+        );
     }
     for (folder, method, tolerance, recorded) in FAILURES {
         assert_eq!(verdict(folder, method, tolerance), recorded, "{folder}");

@@ -227,7 +227,7 @@ fn a_margin_is_reached_across() {
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
     let mut found = [0; 3];
-    for round in 0..600 {
+    for round in 0..240 {
         let size = magnitude(rng, -3.0, 3.0);
         let [look_a, look_b] = [0; 2].map(|_| Look::ALL[rng.random_range(0..5)]);
         let tame = |look| {
@@ -246,7 +246,7 @@ fn no_pair_of_random_soups_is_missed() {
         let tolerance = size * magnitude(rng, -2.5, -0.5);
         compare(&a, &b, pose, tolerance, &mut found, round);
     }
-    assert!(found.iter().all(|&count| count > 300), "{found:?}");
+    assert!(found.iter().all(|&count| count > 120), "{found:?}");
 }
 
 /// Closed meshes that share vertices: faces on faces, edges on faces, edges across, corners on corners.
@@ -254,7 +254,7 @@ fn no_pair_of_random_soups_is_missed() {
 fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     let rng = &mut rng(72);
     let mut found = [0; 3];
-    for round in 0..400 {
+    for round in 0..160 {
         let half = DVec3::from_array(std::array::from_fn(|_| rng.random_range(0.2..1.5)));
         let rough = [0.0, 1e-3, 0.3][round % 3];
         let (a, b) = (Mesh::cuboid(half), Mesh::terrain(rng, 8, 3.0, rough));
@@ -281,7 +281,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
             round,
         );
     }
-    assert!(found[0] > 1000 && found[1] > 1000, "{found:?}");
+    assert!(found[0] > 400 && found[1] > 400, "{found:?}");
 }
 
 /// Compares the pairs with the twin's, names and distances, in both orders.

@@ -65,7 +65,7 @@ impl Scene {
 fn answers_hold_for_the_motion_between_the_poses_as_given() {
     let mut rng = rng(41);
     let (mut hits, mut misses) = (0, 0);
-    for number in 0..2_000 {
+    for number in 0..800 {
         let scene = Scene::new(&mut rng);
         let bodies = scene.centres.map(|centre| {
             let ball = crate::body::polytope::Polytope {
@@ -121,5 +121,5 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
             }
         }
     }
-    assert!(hits > 500 && misses > 500, "{hits} {misses}");
+    assert!(hits > 200 && misses > 200, "{hits} {misses}");
 }

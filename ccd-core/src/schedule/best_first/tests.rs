@@ -40,7 +40,7 @@ fn apart(rng: &mut Pcg64) -> Scene {
 fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut grazes) = (0, 0, 0);
-    for number in 0..4_000 {
+    for number in 0..1_600 {
         let scene = apart(&mut rng);
         let problem = scene.problem();
         let (margin, tolerance) = (problem.margin, problem.tolerance());
@@ -84,15 +84,15 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
             );
         }
     }
-    assert!(hits > 200 && misses > 200, "{hits} {misses}");
-    assert!(grazes < 10, "{grazes}");
+    assert!(hits > 80 && misses > 80, "{hits} {misses}");
+    assert!(grazes < 4, "{grazes}");
 }
 
 #[test]
 fn answers_hold_at_sampled_times_where_bodies_accelerate() {
     let mut rng = rng(11);
     let (mut hits, mut misses, mut later) = (0, 0, 0);
-    for number in 0..2_000 {
+    for number in 0..800 {
         let scene = apart(&mut rng).accelerating(&mut rng);
         let problem = scene.problem();
         if distance(&problem, 0.0) <= 2.0 * problem.tolerance() {
@@ -130,8 +130,8 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
         };
         later += usize::from((until - other).abs() > 0.1);
     }
-    assert!(hits > 100 && misses > 300, "{hits} {misses}");
-    assert!(later > 30, "{later}");
+    assert!(hits > 40 && misses > 120, "{hits} {misses}");
+    assert!(later > 12, "{later}");
 }
 
 /// Checks that the named pieces are as far apart as claimed.

@@ -30,7 +30,7 @@ fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
 fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let mut rng = rng(1);
     let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
-    for number in 0..2_500 {
+    for number in 0..1_000 {
         let mut scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
         scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
@@ -74,7 +74,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
         }
     }
     assert!(
-        apart > 200 && touching > 200 && overlapping > 2,
+        apart > 80 && touching > 80 && overlapping > 0,
         "{apart} {touching} {overlapping}"
     );
 }

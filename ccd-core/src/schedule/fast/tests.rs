@@ -171,7 +171,7 @@ fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
 fn answers_are_right_and_those_of_the_other_schedules() {
     let mut rng = rng(21);
     let (mut hits, mut misses, mut starts) = (0, 0, 0);
-    for number in 0..2_000 {
+    for number in 0..800 {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
         let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
@@ -197,7 +197,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
         }
     }
     assert!(
-        hits > 300 && misses > 300 && starts > 50,
+        hits > 120 && misses > 120 && starts > 20,
         "{hits} {misses} {starts}"
     );
 }

@@ -108,7 +108,7 @@ fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64)
 fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
     let mut rng = rng(1);
     let (mut proven, mut missed) = (0, 0);
-    for number in 0..1_500 {
+    for number in 0..600 {
         let passage = passage(&mut rng);
         let [a, b] = &passage.bodies;
         let config = Config {
@@ -142,7 +142,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         }
     }
     assert!(
-        proven > 10_000 && missed > 1_000,
+        proven > 4_000 && missed > 400,
         "{proven} of them proven, {missed} not"
     );
 }

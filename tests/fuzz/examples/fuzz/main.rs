@@ -2,12 +2,10 @@
 //! methods, and judges the answers by a referee in double-double numbers.
 //!
 //! ```sh
-//! cargo run --release -p ccd-tests --example fuzz -- --family needles --queries 100000 --seed 1
+//! cargo run --release -p ccd-fuzz --example fuzz -- --family needles --queries 100000 --seed 1
 //! ```
-//! The program shares nothing with the engine, its property suite or its other referees, except the
-//! public interface under test: it has its own generators, arithmetic and verdicts. Failures are
-//! printed with their files and command line; `--only N` runs one query again. The exit code is 1
-//! if anything failed.
+//! Failures are printed with their files and command line; `--only N` runs one query again. The exit code
+//! is 1 if anything failed.
 #![allow(
     missing_docs,
     unreachable_pub,
@@ -26,7 +24,6 @@ use ccd_fuzz::targets::encode;
 use ccd_fuzz::{case, course, engine, judge, vector};
 use clap::{Parser, ValueEnum};
 use families::Family;
-use indicatif::{ProgressBar, ProgressStyle};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::fs;
 use std::io;
@@ -97,9 +94,6 @@ fn run(family: Family, args: &Args) -> bool {
         None => 0..args.queries,
     };
     let asked = numbers.end - numbers.start;
-    let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} {eta}");
-    let bar = ProgressBar::new(asked).with_message(format!("{family:?}"));
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let tally = Mutex::new(Tally::default());
     let watch = Watch::start(family, args.seed);
     numbers.into_par_iter().for_each(|number| {
@@ -107,10 +101,10 @@ fn run(family: Family, args: &Args) -> bool {
         if let Some(folder) = &args.seeds
             && let Err(error) = write_seed(folder, family, number, &trial)
         {
-            bar.suspend(|| eprintln!("{}: {error}", folder.display()));
+            eprintln!("{}: {error}", folder.display());
         }
         if args.only.is_some() {
-            bar.suspend(|| println!("{trial}"));
+            println!("{trial}");
         }
         if let Ok(mut tally) = tally.lock() {
             for failure in tally.add(number, &trial, args.print) {
@@ -119,13 +113,13 @@ fn run(family: Family, args: &Args) -> bool {
                 } else {
                     trial.case.clone()
                 };
-                let report = trial::report(failure, family, args.seed, number, &case);
-                bar.suspend(|| println!("{report}"));
+                println!(
+                    "{}",
+                    trial::report(failure, family, args.seed, number, &case)
+                );
             }
         }
-        bar.inc(1);
     });
-    bar.finish_and_clear();
     let tally = tally.into_inner().unwrap_or_default();
     println!("{family:?}, seed {}: {tally}", args.seed);
     if asked >= 1000 {
