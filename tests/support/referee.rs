@@ -2,6 +2,7 @@
 //!
 //! It shares no code with the engine. Poses come from the formula of the motion, distances from all
 //! pairs of vertices, edges and faces, times from undirected conservative advancement.
+//! The judge of `ccd-fuzz` takes each distance in double-double, which is too slow for a million answers.
 
 mod placement;
 mod triangles;

@@ -1,5 +1,6 @@
 //! Small solids whose distances are a few lines of arithmetic, which nothing else uses.
 
+use crate::models::{Mesh, cuboid};
 use crate::referee::{edge_edge_squared, pierces, point_segment, point_triangle};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -23,24 +24,7 @@ pub enum Solid {
 }
 
 /// The corners of the faces of a tetrahedron, from outside counterclockwise if its determinant is positive.
-const SIDES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-
-/// The corners of the faces of a cuboid; corner `k` is on the positive side of x, y and z where bit 0, 1 and 2 of
-/// `k` are set.
-const CRATE: [[usize; 3]; 12] = [
-    [0, 2, 3],
-    [0, 3, 1],
-    [4, 5, 7],
-    [4, 7, 6],
-    [0, 1, 5],
-    [0, 5, 4],
-    [2, 6, 7],
-    [2, 7, 3],
-    [0, 4, 6],
-    [0, 6, 2],
-    [1, 3, 7],
-    [1, 7, 5],
-];
+const SIDES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
 impl Solid {
     /// Draws a solid about as large as `size`.
@@ -64,10 +48,9 @@ impl Solid {
     /// # Panics
     /// If the engine refuses it.
     pub fn body(&self) -> Body {
-        let mesh = |corners: &[DVec3], faces: &[[usize; 3]]| {
-            let faces: Vec<_> = faces.iter().map(|face| face.map(|k| k as u32)).collect();
+        let mesh = |corners: &[DVec3], faces: &[[u32; 3]]| {
             let names: Vec<_> = (0..faces.len() as u32).collect();
-            let pieces = Pieces::triangles(corners, &faces, &names).expect("a few triangles");
+            let pieces = Pieces::triangles(corners, faces, &names).expect("a few triangles");
             Body::new(&pieces, Volume::Solid).expect("a solid")
         };
         match *self {
@@ -75,7 +58,10 @@ impl Solid {
             Solid::Capsule(radius, half) => Body::capsule(radius, half).expect("a capsule"),
             Solid::Cuboid(half) => Body::cuboid(half).expect("a cuboid"),
             Solid::Tetrahedron(corners) => mesh(&corners, &SIDES),
-            Solid::Crate(half) => mesh(&corners_of(half), &CRATE),
+            Solid::Crate(half) => {
+                let Mesh { vertices, faces } = cuboid(half).mesh;
+                mesh(&vertices, &faces)
+            }
         }
     }
 
@@ -88,18 +74,13 @@ impl Solid {
                 Placed::Rod([-half, half].map(|z| at(z * DVec3::Z)), radius)
             }
             Solid::Cuboid(half) | Solid::Crate(half) => {
-                Placed::Hull(Hull::new(&corners_of(half).map(at), &CRATE))
+                let Mesh { vertices, faces } = cuboid(half).mesh;
+                let corners: Vec<DVec3> = vertices.into_iter().map(at).collect();
+                Placed::Hull(Hull::new(&corners, &faces))
             }
             Solid::Tetrahedron(corners) => Placed::Hull(Hull::new(&corners.map(at), &SIDES)),
         }
     }
-}
-
-fn corners_of(half: DVec3) -> [DVec3; 8] {
-    std::array::from_fn(|k| {
-        let sign = |axis: usize| if k >> axis & 1 == 1 { 1.0 } else { -1.0 };
-        half * DVec3::new(sign(0), sign(1), sign(2))
-    })
 }
 
 /// A solid in its place.
@@ -120,13 +101,18 @@ pub struct Hull {
 }
 
 impl Hull {
-    fn new(corners: &[DVec3], faces: &[[usize; 3]]) -> Self {
+    fn new(corners: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         // Each edge is a side of two faces, once each way.
         let edges = sides.filter(|[a, b]| a < b);
         Hull {
-            edges: edges.map(|edge| edge.map(|k| corners[k])).collect(),
-            faces: faces.iter().map(|face| face.map(|k| corners[k])).collect(),
+            edges: edges
+                .map(|edge| edge.map(|k| corners[k as usize]))
+                .collect(),
+            faces: faces
+                .iter()
+                .map(|face| face.map(|k| corners[k as usize]))
+                .collect(),
             corners: corners.to_vec(),
         }
     }
