@@ -8,6 +8,7 @@ use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{Judge, Law, check_contact};
 use ccd_tests::query::Bodies;
 use ccd_tests::questions::{AnswersAlong, for_each_answers_along};
+use ccd_tests::referee::Finding;
 use ccd_tests::tolerance::CLOSED_FORM;
 use std::fmt::Debug;
 
@@ -68,10 +69,51 @@ fn check_group(prefix: &str) {
     }
 }
 
+/// Checks the referee, which judges everything else, against the closed form.
+fn check_finding(
+    Scene {
+        name,
+        query,
+        expect,
+    }: &Scene,
+    judge: &Judge<'_>,
+) {
+    match (expect, judge.finding()) {
+        (Expect::Hit { earliest, latest }, Finding::Hit { lo, hi }) => {
+            assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
+            let earliest = earliest(0.0);
+            assert!(hi >= earliest - 1e-12, "{name}: {hi} < {earliest}");
+            assert!(hi - lo <= 1e-4, "{name}: {lo} to {hi}");
+        }
+        (Expect::Free { gap }, Finding::Free { gap: seen }) => {
+            assert!(seen >= gap - query.rounding(), "{name}: {seen} < {gap}");
+        }
+        // Within the distance at which the referee cannot exclude touching.
+        (Expect::Free { gap }, Finding::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
+        // Sliding at a small distance takes the referee more steps than its limit.
+        (Expect::Free { gap }, Finding::Undecided { .. }) => assert!(*gap < 2e-6, "{name}"),
+        // The contact grazes so briefly that intersection is not seen.
+        (Expect::Hit { latest, .. }, Finding::Near { lo }) => {
+            assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
+        }
+        // A screw turns freely in its nut by its own pitch only.
+        (Expect::Unknown, finding) if name.starts_with("T18") => {
+            let free = matches!(finding, Finding::Free { .. });
+            assert_eq!(free, name.contains("right"), "{name}: {finding:?}");
+        }
+        (Expect::Overlap, Finding::Start) | (Expect::Unknown, _) => {}
+        (Expect::Overlap, finding) => assert!(judge.nested(), "{name}: {finding:?}"),
+        (_, finding) => panic!("{name}: {finding:?}"),
+    }
+}
+
 fn check_scene(scene: &Scene, expect: &Expect, tolerances: &[f64]) {
     // A scene smaller than a unit gets a tolerance in proportion.
     let size = lesser(1.0, scene.query.a.reach(0.0));
     let mut judge = Judge::new(&scene.query, &Config::default());
+    if !scene.query.a.shape.mesh.faces.is_empty() {
+        check_finding(scene, &judge);
+    }
     for tolerance in tolerances.iter().map(|tolerance| tolerance * size) {
         judge = judge.with_tolerance(tolerance);
         let config = Config {
