@@ -30,10 +30,11 @@ fn times_come_out_in_order_each_lane_once() {
         let level = Instructions::Best.level();
         let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
         let rounded = |lane: usize| {
-            if free[lane] <= 0.0 {
-                0.0
-            } else {
+            // NaN counts as zero.
+            if free[lane] > 0.0 {
                 f32::from_bits(free[lane].to_bits() & !LANE_BITS)
+            } else {
+                0.0
             }
         };
         let waits = |lane: &usize| used >> lane & 1 == 1 && rounded(*lane) < f32::INFINITY;
