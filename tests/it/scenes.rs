@@ -58,7 +58,7 @@ fn check_group(prefix: &str) {
     let scenes = scenes_named(prefix);
     assert!(!scenes.is_empty(), "no scene is called {prefix}");
     for scene in &scenes {
-        check_scene(scene, &scene.expect, &[1e-3, 1e-6, 1e-9]);
+        check_scene(scene, &scene.expect, &[1e-3, 1e-9]);
         let swapped = Scene {
             name: format!("{}, swapped", scene.name),
             query: scene.query.swapped(),
