@@ -2,17 +2,15 @@
 //! number alone.
 
 use crate::models::{
-    Kind, Shape, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
+    Kind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
 };
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Config, Motion, Moving, Pose, StartPolicy};
-use ccd_decomp::TriangleMesh;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// The bodies.
 pub struct Mixed {
-    shapes: Vec<Shape>,
     bodies: Vec<Body>,
 }
 
@@ -48,7 +46,6 @@ impl Mixed {
         let bodies = shapes.iter().map(|(shape, kind)| shape.body(*kind));
         Mixed {
             bodies: bodies.collect(),
-            shapes: shapes.into_iter().map(|(shape, _)| shape).collect(),
         }
     }
 
@@ -81,12 +78,6 @@ impl Mixed {
             body: &self.bodies[posed.bodies[which]],
             motion: posed.motions[which],
         }
-    }
-
-    /// Returns the bodies' meshes.
-    pub fn meshes(&self) -> Vec<TriangleMesh> {
-        let mesh = |shape: &Shape| shape.mesh.for_decomposition();
-        self.shapes.iter().map(mesh).collect()
     }
 }
 

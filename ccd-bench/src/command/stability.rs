@@ -60,7 +60,7 @@ Examples:
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
 /// Returns all methods, without those of a script if there is none.
-pub(super) fn all_methods(script: Option<&Path>) -> Vec<Method> {
+fn all_methods(script: Option<&Path>) -> Vec<Method> {
     let mut methods = known_methods();
     methods.retain(|method| script.is_some() || !matches!(method, Method::Script(_)));
     methods

@@ -24,7 +24,7 @@ fn first(problem: &Problem<'_>) -> Outcome {
 fn there_is_any_contact_where_there_is_a_first_one() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
-    for number in 0..4_000 {
+    for number in 0..2_000 {
         let scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
         let problem = scene.problem();
         let within = problem.contact_distance();
@@ -68,9 +68,9 @@ fn there_is_any_contact_where_there_is_a_first_one() {
             (any, first) => panic!("{number}: {any:?}, {first:?}"),
         }
     }
-    assert!(hits > 200 && misses > 200, "{hits} {misses}");
-    assert!(starts > 10 && later > 50, "{starts} {later}");
-    assert!(grazes < 10, "{grazes}");
+    assert!(hits > 100 && misses > 100, "{hits} {misses}");
+    assert!(starts > 5 && later > 25, "{starts} {later}");
+    assert!(grazes < 5, "{grazes}");
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn bodies_told_apart_by_boxes_keep_their_gap_at_all_sampled_times() {
 fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
     let mut rng = rng(1);
     let (mut told, mut near) = (0, 0);
-    for _ in 0..4_000 {
+    for _ in 0..2_000 {
         let (count, size) = (rng.random_range(1..6), magnitude(&mut rng, -2.0, 1.0));
         let bodies = [0, 1].map(|_| body(&soup(&mut rng, Look::Plump, count, size)));
         let turn = magnitude(&mut rng, -3.0, 1.5);
@@ -60,7 +60,7 @@ fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
             assert!(distance(&problem, s) > problem.contact_distance());
         }
     }
-    assert!(told > 400 && near > 400, "{told} {near}");
+    assert!(told > 200 && near > 200, "{told} {near}");
 }
 
 #[test]
