@@ -9,8 +9,8 @@ mod triangles;
 
 use ccd_core::order::{greater, lesser};
 pub use placement::Placement;
+pub(crate) use triangles::{Face, distance_squared};
 pub use triangles::{contains, point_segment, point_triangle};
-pub(crate) use triangles::{edge_edge_squared, pierces};
 
 use crate::query::Query;
 use crate::tolerance::{CLOSE, KEPT};

@@ -85,7 +85,7 @@ fn members(group: usize, count: usize) -> std::ops::Range<usize> {
 
 /// Returns the squared distance of two triangles: all vertices against the other's face and its edges, all edges
 /// against the other's edges; 0 if an edge pierces a face.
-fn distance_squared(a: &Face, b: &Face) -> f64 {
+pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
     let edges = |Face { corners: t, .. }: &Face| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let (edges_a, edges_b) = (edges(a), edges(b));
     if edges_a.iter().any(|&e| pierces(e, b.corners))
@@ -108,22 +108,12 @@ fn distance_squared(a: &Face, b: &Face) -> f64 {
 }
 
 /// Returns true if an edge passes through the interior of a triangle.
-pub(crate) fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let volume = |u: DVec3, v: DVec3, w: DVec3| (u - p).dot((v - p).cross(w - p));
     let normal = (b - a).cross(c - a);
     let (s, t) = (normal.dot(p - a), normal.dot(q - a));
     let sides = [volume(q, a, b), volume(q, b, c), volume(q, c, a)];
     s * t < 0.0 && (sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0))
-}
-
-/// Returns the squared distance of two edges: their inner feet if both have one, else end points.
-pub(crate) fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
-    let mut best = feet_squared(e, f);
-    for k in 0..2 {
-        best = lesser(best, point_segment(e[k], f).distance_squared(e[k]));
-        best = lesser(best, point_segment(f[k], e).distance_squared(f[k]));
-    }
-    best
 }
 
 /// Returns the squared distance of the nearest points of two edges' lines, infinite unless both are within their
@@ -160,9 +150,9 @@ pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
 }
 
 /// A triangle, with what its nearest points need.
-struct Face {
+pub(crate) struct Face {
     /// The longest edge is between the first two.
-    corners: [DVec3; 3],
+    pub(crate) corners: [DVec3; 3],
     /// Unit vectors along the longest edge and across it. For a needle, whose normal is mostly rounding, these
     /// two are accurate to the last relevant digits.
     along: DVec3,
@@ -174,7 +164,7 @@ struct Face {
 }
 
 impl Face {
-    fn new(corners: [DVec3; 3]) -> Self {
+    pub(crate) fn new(corners: [DVec3; 3]) -> Self {
         let corners = longest_edge_first(corners);
         let [a, b, c] = corners;
         let length = b.distance(a);
@@ -271,7 +261,7 @@ impl Bounds {
         self.with(other.lo).with(other.hi)
     }
 
-    fn distance_squared(&self, other: &Bounds) -> f64 {
+    pub(crate) fn distance_squared(&self, other: &Bounds) -> f64 {
         let gap = (self.lo - other.hi)
             .max(other.lo - self.hi)
             .max(DVec3::ZERO);
