@@ -58,15 +58,30 @@ fn check_group(prefix: &str) {
     let scenes = scenes_named(prefix);
     assert!(!scenes.is_empty(), "no scene is called {prefix}");
     for scene in &scenes {
-        check_scene(scene, &scene.expect, &[1e-3, 1e-9]);
+        let mut judge = Judge::new(&scene.query, &Config::default());
+        if !scene.query.a.shape.mesh.faces.is_empty() {
+            check_finding(scene, &judge);
+        }
+        for tolerance in [1e-3, 1e-9] {
+            judge = judge.with_tolerance(tolerance * size(scene));
+            check_setups(&judge, scene, &scene.expect);
+            check_all_along(&judge, scene, &scene.expect);
+        }
         let swapped = Scene {
             name: format!("{}, swapped", scene.name),
             query: scene.query.swapped(),
             expect: Expect::Unknown,
         };
-        // What the order changes does not depend on the tolerance.
-        check_scene(&swapped, &scene.expect, &[1e-3]);
+        // What the order changes depends neither on the tolerance nor on how motions are given.
+        let judge = Judge::new(&swapped.query, &Config::default());
+        let judge = judge.with_tolerance(1e-3 * size(scene));
+        check_setups(&judge, &swapped, &scene.expect);
     }
+}
+
+/// Returns the size that tolerances are in proportion to: a scene smaller than a unit gets less.
+fn size(scene: &Scene) -> f64 {
+    lesser(1.0, scene.query.a.reach(0.0))
 }
 
 /// Checks the referee, which judges everything else, against the closed form.
@@ -107,30 +122,20 @@ fn check_finding(
     }
 }
 
-fn check_scene(scene: &Scene, expect: &Expect, tolerances: &[f64]) {
-    // A scene smaller than a unit gets a tolerance in proportion.
-    let size = lesser(1.0, scene.query.a.reach(0.0));
-    let mut judge = Judge::new(&scene.query, &Config::default());
-    if !scene.query.a.shape.mesh.faces.is_empty() {
-        check_finding(scene, &judge);
-    }
-    for tolerance in tolerances.iter().map(|tolerance| tolerance * size) {
-        judge = judge.with_tolerance(tolerance);
-        let config = Config {
-            tolerance,
-            ..Config::default()
-        };
-        for_each_setup(&scene.query, &config, |bodies, setup, answer| {
-            if let Err(why) = check_answer(&judge, scene, expect, (bodies, &answer)) {
-                fail(scene, &setup, &answer, &why);
-            }
-        });
-        for_each_answers_along(&scene.query, &config, |bodies, asked, answers| {
-            if let Err(why) = check_along(&judge, scene, expect, (bodies, &answers)) {
-                fail(scene, &asked, &answers, &why);
-            }
-        });
-    }
+fn check_setups(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
+    for_each_setup(&scene.query, &judge.config(), |bodies, setup, answer| {
+        if let Err(why) = check_answer(judge, scene, expect, (bodies, &answer)) {
+            fail(scene, &setup, &answer, &why);
+        }
+    });
+}
+
+fn check_all_along(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
+    for_each_answers_along(&scene.query, &judge.config(), |bodies, asked, answers| {
+        if let Err(why) = check_along(judge, scene, expect, (bodies, &answers)) {
+            fail(scene, &asked, &answers, &why);
+        }
+    });
 }
 
 fn fail(scene: &Scene, setup: &dyn Debug, answer: &dyn Debug, why: &str) -> ! {

@@ -62,6 +62,11 @@ impl<'a> Judge<'a> {
         Judge { config, ..self }
     }
 
+    /// Returns the settings of the answers that it judges.
+    pub fn config(&self) -> Config {
+        self.config
+    }
+
     /// Returns the referee's finding.
     pub fn finding(&self) -> Finding {
         self.finding
