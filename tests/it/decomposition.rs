@@ -193,6 +193,9 @@ fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
                 decomposed(&flipped, order).expect(&model.name),
             );
             assert_eq!(sorted(&here), sorted(&there), "{}, {order:?}", model.name);
+            if order != Order::Cresting {
+                continue;
+            }
             check(&flipped.mesh, &there, Effort::QUICK)
                 .unwrap_or_else(|why| panic!("{}, {order:?}: {why}", model.name));
         }
