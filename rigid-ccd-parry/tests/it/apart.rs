@@ -199,7 +199,7 @@ fn cases(count: u64) -> u64 {
 
 #[test]
 fn nothing_touches_before_a_hit() {
-    let (mut count, all) = (Count::default(), cases(800));
+    let (mut count, all) = (Count::default(), cases(400));
     for seed in 0..all {
         let scene = Scene::new(seed);
         let start = [0.0, 0.0, -0.25, 0.125f32][seed as usize % 4];
