@@ -88,13 +88,13 @@ pub struct QueryError {
 /// ```
 pub struct ParallelSolver<S = Solver> {
     /// Not empty.
-    solvers: Vec<Own<S>>,
+    solvers: Vec<CachePadded<S>>,
 }
 
-/// A value on cache lines of its own: a thread that writes to a line slows down all others that use it.
-/// Processors fetch lines of 64 bytes in pairs.
+/// A value on cache lines of its own: threads that write to one line slow each other down. Processors fetch lines of
+/// 64 bytes in pairs. Two lines, where the one of `crossbeam-utils` is a dependency.
 #[repr(align(128))]
-struct Own<S>(S);
+pub(crate) struct CachePadded<S>(pub(crate) S);
 
 impl<S> ParallelSolver<S> {
     /// Creates a solver for each core, such as `ParallelSolver::new(Solver::new)`.
@@ -105,7 +105,7 @@ impl<S> ParallelSolver<S> {
 
     /// Creates a solver for each of that many threads.
     pub fn with_threads(threads: NonZeroUsize, mut solver: impl FnMut() -> S) -> Self {
-        let solvers = (0..threads.get()).map(|_| Own(solver())).collect();
+        let solvers = (0..threads.get()).map(|_| CachePadded(solver())).collect();
         ParallelSolver { solvers }
     }
 
@@ -174,7 +174,7 @@ impl<S: Send> ParallelSolver<S> {
     ) -> Vec<R> {
         let results: Vec<OnceLock<R>> = queries.iter().map(|_| OnceLock::new()).collect();
         // The counter only shares out the queries: the end of a thread makes its results visible.
-        let counter = Own(AtomicUsize::new(0));
+        let counter = CachePadded(AtomicUsize::new(0));
         let next = || {
             let index = counter.0.fetch_add(1, Ordering::Relaxed);
             Some((queries.get(index)?, results.get(index)?))
@@ -237,8 +237,8 @@ impl<S: Send> ParallelSolver<S> {
         next: impl Fn() -> Option<Q> + Sync,
         work: impl Fn(&mut S, Q) + Sync,
     ) {
-        let panicked = Own(AtomicBool::new(false));
-        let work = |own: &mut Own<S>| {
+        let panicked = CachePadded(AtomicBool::new(false));
+        let work = |own: &mut CachePadded<S>| {
             let _tells = TellsOfPanic(&panicked.0);
             while !panicked.0.load(Ordering::Relaxed)
                 && let Some(query) = next()

@@ -1,4 +1,4 @@
-//! File formats: bytes to content, without access to files.
+//! File formats: readers of bytes, without access to files.
 
 #[cfg(feature = "gltf")]
 mod gltf;
@@ -16,8 +16,8 @@ use crate::messages::is_lfs_pointer;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// A format that a mesh can be read from. Texts are in UTF-8, or in UTF-16 with a byte order mark; their lines may end as
-/// those of any system. [`Remarks`](crate::Remarks) say what of a file was passed over that is no mere decoration.
+/// A mesh file format. Texts are in UTF-8, or in UTF-16 with a byte order mark; any line ending is accepted.
+/// [`Remarks`](crate::Remarks) list skipped content that may matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
@@ -27,8 +27,8 @@ pub enum Format {
     ///
     /// Its parts are its objects (`o`) or, in a file without any, its groups (`g`).
     Obj,
-    /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in
-    /// the order they appear; the normals are passed over.
+    /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in order of
+    /// appearance; normals are passed over.
     Stl,
     /// PLY, binary or text: elements `vertex`, `face` and `tristrips`, strips of triangles, which −1 separates; others
     /// are passed over with a remark.
@@ -57,20 +57,20 @@ pub enum Format {
     ThreeMf,
 }
 
-/// The files beside a mesh, by the names that it has for them.
+/// The content of the files that a mesh refers to, by name.
 pub(crate) type Beside = BTreeMap<String, Vec<u8>>;
 
 /// A file that a mesh refers to.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Reference {
-    /// Its path, relative to the mesh, as the mesh writes it.
+    /// The path, relative to the mesh, as written in the mesh.
     pub(crate) name: String,
-    /// The number of bytes of it that are needed.
+    /// The number of bytes that the mesh needs.
     pub(crate) bytes: u64,
 }
 
 impl Format {
-    /// Finds the format of a file by its extension, in capitals or not.
+    /// Returns the format of a file by its extension, case-insensitively.
     ///
     /// # Errors
     /// [`MeshFault::UnknownExtension`] for any other extension.
@@ -93,7 +93,7 @@ impl Format {
         self == Format::Gltf
     }
 
-    /// Finds the files that a file's content refers to, which [`Format::parse`] needs.
+    /// Returns the files that the content refers to, which [`Format::parse`] needs.
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
@@ -104,7 +104,7 @@ impl Format {
         }
     }
 
-    /// Reads a file's content. All that it refers to is in `beside`.
+    /// Parses a file's content. `beside` holds the files that it refers to.
     pub(crate) fn parse(self, bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
         let unmarked = text::decoded(bytes);
         if is_lfs_pointer(&unmarked) {
@@ -130,7 +130,7 @@ impl Format {
     }
 }
 
-/// Returns whether a file is of a CAD system, which no program takes for a mesh.
+/// Returns whether the bytes are a STEP file.
 fn is_step(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
 }

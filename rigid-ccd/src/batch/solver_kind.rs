@@ -2,6 +2,7 @@
 
 use super::Questions;
 use crate::Solver;
+use crate::parallel::CachePadded;
 use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{Answer, Body, Bound, DistanceOracle, Instructions, OrElse, Problem, Schedule};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
@@ -130,12 +131,12 @@ impl SolverKind {
         O::Cache: Send,
     {
         match self.schedule {
-            ScheduleKind::BestFirst => Box::new(OnLines(Solver::with_oracle(oracle))),
-            ScheduleKind::Fast => Box::new(OnLines(Pairing {
+            ScheduleKind::BestFirst => Box::new(CachePadded(Solver::with_oracle(oracle))),
+            ScheduleKind::Fast => Box::new(CachePadded(Pairing {
                 schedule: Fast::<O>::new(self.bound.into()),
                 oracle,
             })),
-            ScheduleKind::Naive => Box::new(OnLines(Pairing {
+            ScheduleKind::Naive => Box::new(CachePadded(Pairing {
                 schedule: Naive::<O>::new(self.bound.into()),
                 oracle,
             })),
@@ -143,11 +144,7 @@ impl SolverKind {
     }
 }
 
-/// Solvers of several threads are on cache lines of their own, as a [`crate::ParallelSolver`] has them.
-#[repr(align(128))]
-struct OnLines<S>(S);
-
-impl<O> Solve for OnLines<Solver<O>>
+impl<O> Solve for CachePadded<Solver<O>>
 where
     O: DistanceOracle + Send,
     O::Cache: Send,
@@ -166,7 +163,7 @@ struct Pairing<S, O> {
     oracle: O,
 }
 
-impl<O, S> Solve for OnLines<Pairing<S, O>>
+impl<O, S> Solve for CachePadded<Pairing<S, O>>
 where
     O: DistanceOracle + Send,
     S: Schedule<O> + Send,

@@ -1,7 +1,7 @@
 //! glTF 2.0, text and binary.
 //!
-//! The crate `gltf` is not used: it rounds the transforms of nodes to f32, takes positions for floats where they are
-//! quantized integers, and overflows at lengths and counts that a hostile file states.
+//! The crate `gltf` is not used: it rounds node transforms to f32, reads quantized positions as floats, and overflows
+//! at the lengths and counts of hostile files.
 
 mod accessor;
 mod buffers;
@@ -54,7 +54,7 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault>
     })
 }
 
-/// Finds the buffers that are in files of their own.
+/// Returns the buffers that are separate files.
 pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     if bytes.is_empty() {
         return Ok(Vec::new());
@@ -77,7 +77,7 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         .collect())
 }
 
-/// The name of an element in messages.
+/// Returns the name of an element for messages.
 fn name(kind: &str, number: usize, name: Option<&str>) -> String {
     match name {
         Some(name) => format!("{kind} {number} {:?}", Quote(name)),
@@ -85,7 +85,7 @@ fn name(kind: &str, number: usize, name: Option<&str>) -> String {
     }
 }
 
-/// Finds an element by its number.
+/// Returns an element by its number.
 fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
     list.get(number).ok_or_else(|| {
         let count = list.len();

@@ -1,4 +1,4 @@
-//! Accessors: lists of numbers in buffers.
+//! Accessors: typed arrays in buffers.
 
 use super::buffers::Buffers;
 use super::schema::{self, Root, Sparse};
@@ -8,14 +8,14 @@ use crate::mesh::error::MeshFault;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Reads accessors, as many numbers as the file may ask for.
+/// A reader of accessors, within the file's allowance.
 pub(super) struct Accessors<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,
     allowance: Allowance,
 }
 
-/// The kinds of numbers in a buffer, by their numbers in a glTF.
+/// The component types of glTF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Component {
     I8,
@@ -26,7 +26,7 @@ enum Component {
     F32,
 }
 
-/// Elements at equal distances.
+/// Elements at a constant stride.
 struct Rows<'a> {
     bytes: &'a [u8],
     stride: usize,
@@ -43,18 +43,18 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Returns whether an accessor has bytes of its own.
+    /// Returns whether an accessor has data, not only a compression extension.
     pub(super) fn has_bytes(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);
         about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
     }
 
-    /// Takes the cost of so many corners off what the file may ask for.
+    /// Spends the cost of a number of corners.
     pub(super) fn take_corners(&mut self, count: usize) -> Result<(), MeshFault> {
         self.allowance.take(cost(0, count as u64))
     }
 
-    /// Reads the points of an accessor of vectors of three numbers.
+    /// Reads the points of a `VEC3` accessor.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
         let root = self.root;
         let about = element(&root.accessors, "accessor", accessor)?;
@@ -92,7 +92,7 @@ impl<'a> Accessors<'a> {
         Ok(points)
     }
 
-    /// Reads the numbers of an accessor of whole numbers.
+    /// Reads the indices of a `SCALAR` accessor.
     pub(super) fn numbers(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
         let root = self.root;
         let about = element(&root.accessors, "accessor", accessor)?;
@@ -120,7 +120,7 @@ impl<'a> Accessors<'a> {
         Ok(numbers)
     }
 
-    /// The elements of an accessor; none for one that is zero but for its sparse elements.
+    /// Returns the elements of an accessor; `None` if all except the sparse ones are zero.
     fn rows(&self, about: &schema::Accessor, size: usize) -> Result<Option<Rows<'a>>, MeshFault> {
         match (about.buffer_view, &about.sparse) {
             (Some(view), _) => {
@@ -152,7 +152,7 @@ impl<'a> Accessors<'a> {
             let missing = format!("all {count} elements of {size} bytes in buffer view {view}");
             return Err(MeshFault::Truncated { missing });
         }
-        // All are within the bytes, if there are any.
+        // All elements are within the bytes.
         Ok(Rows {
             bytes,
             stride: stride as usize,
@@ -161,7 +161,7 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// Reads which elements of a list of some length a sparse accessor replaces.
+    /// Reads the indices that a sparse accessor replaces in a list of a given length.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
         let component = Component::of_index(about.component_type)?;
@@ -222,7 +222,7 @@ impl Component {
         })
     }
 
-    /// The kind of a number of an element.
+    /// Returns the component type of an index.
     fn of_index(number: u32) -> Result<Self, MeshFault> {
         match Component::of(number)? {
             unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
@@ -241,7 +241,7 @@ impl Component {
         }
     }
 
-    /// A coordinate. A normalized integer stands for a fraction of its largest value.
+    /// Reads a coordinate. A normalized integer is a fraction of the largest value of its type.
     fn number(self, bytes: &[u8], normalized: bool) -> f64 {
         let number = self.exact(bytes);
         let largest: f64 = match self {
@@ -274,7 +274,7 @@ impl Component {
     }
 }
 
-/// The first bytes; those that are not there are zero.
+/// Returns the first bytes, or zeros if there are too few.
 fn array<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.first_chunk().copied().unwrap_or([0; N])
 }

@@ -10,7 +10,7 @@
 
 use crate::mesh::error::MeshFault;
 
-/// The JSON, and the bytes of the first buffer, if they are there.
+/// The JSON, and the binary chunk, if there is one.
 #[derive(Debug)]
 pub(super) struct Container<'a> {
     pub(super) json: &'a [u8],

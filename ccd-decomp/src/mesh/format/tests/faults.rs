@@ -51,10 +51,18 @@ use rstest::rstest;
 #[case::word(
     Format::Obj,
     "v 0 0 0\nv 0 zero 0\nf 1 1 1",
-    "line 2: position parse error"
+    "line 2: \"v 0 zero 0\" does not hold the three coordinates of a vertex"
 )]
-#[case::short_vertex(Format::Obj, "# one\nv 0 0\nf 1 1 1", "line 2: position parse error")]
-#[case::weightless(Format::Obj, "v 0 0 0 0\nf 1 1 1", "line 1: scaling (w) by zero")]
+#[case::short_vertex(
+    Format::Obj,
+    "# one\nv 0 0\nf 1 1 1",
+    "line 2: \"v 0 0\" does not hold the three coordinates of a vertex"
+)]
+#[case::weightless(
+    Format::Obj,
+    "v 0 0 0 0\nf 1 1 1",
+    "line 1: \"v 0 0 0 0\" divides a position by no number"
+)]
 #[case::bad_face(
     Format::Obj,
     "v 0 0 0\nf 1 1 1\nf 1 x 1",
