@@ -1,11 +1,11 @@
-//! Exact tests whether triangles and segments meet.
+//! Exact intersection tests of triangles and segments.
 
 use super::predicates::{Projection, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Returns whether two triangles with an area meet elsewhere than in the corners they share, by the numbers
-/// of their corners and by their points.
+/// Returns whether two non-degenerate triangles meet outside their shared corners. Corners are given by number and by
+/// point.
 pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
     let is_shared = |which: usize, k: usize| corners[1 - which].contains(&corners[which][k]);
     let shared = (0..3).filter(|&k| is_shared(0, k)).count();

@@ -9,15 +9,15 @@ use std::cmp::Ordering;
 /// A convex polygon that triangles of a convex surface fill.
 #[derive(Clone, Debug)]
 pub(crate) struct Polygon {
-    /// Its strict corners, counter-clockwise seen from outside.
+    /// The strict corners, counter-clockwise seen from outside.
     pub(crate) corners: Vec<u32>,
-    /// The triangles, as indices into those given, in ascending order.
+    /// The indices of the triangles, in ascending order.
     pub(crate) triangles: Vec<u32>,
 }
 
 /// Merges the triangles of a closed convex surface into convex polygons.
 ///
-/// Exact: the corners of a polygon are in one plane precisely. The two sides of a flat surface are two polygons.
+/// Exact: the corners of a polygon are exactly coplanar. A flat surface has two polygons, front and back.
 pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon> {
     let mut polygons = Vec::new();
     for_each_polygon(points, triangles, |corners, group| {
@@ -70,7 +70,7 @@ fn for_each_polygon(
     }
 }
 
-/// Drops the corners of a convex loop at which it goes straight on.
+/// Drops the corners of a convex loop at which it is straight.
 pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -> Vec<u32> {
     let at = |k: usize| points[rim[k % rim.len()] as usize];
     (0..rim.len())
@@ -88,7 +88,7 @@ fn starting_least([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// Chains the directed edges of one loop, and returns the loop of their first ends.
+/// Chains the directed edges of one loop to a list of vertices.
 fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     rim.sort_unstable();
     let Some(&(first, mut at)) = rim.first() else {
@@ -108,10 +108,9 @@ fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
 struct Surface<'a> {
     points: &'a [DVec3],
     triangles: &'a [[u32; 3]],
-    /// The opposite of the edge from corner `k` of triangle `t`, at `3 t + k`; empty where an edge does not have
-    /// exactly one opposite.
+    /// The twin of the edge from corner `k` of triangle `t`, at `3 t + k`; empty if any edge does not have exactly one.
     pairs: Vec<u32>,
-    /// The directed edges for that case, sorted, each with its triangle and the corner that it starts from.
+    /// The directed edges in that case, sorted, each with its triangle and start corner.
     edges: Vec<(u32, u32, u32, u8)>,
 }
 
@@ -144,7 +143,7 @@ impl<'a> Surface<'a> {
         self
     }
 
-    /// The corners of the polygon that a group of triangles in a plane forms.
+    /// Returns the corners of the polygon of a group of coplanar triangles.
     fn corners(&self, group: &[u32], group_of: &[u32], plane: Projection) -> Vec<u32> {
         let is_inner = |t: usize, k: usize| {
             let mut twins = self.twins(t, k);
@@ -163,8 +162,8 @@ impl<'a> Surface<'a> {
         (corners[k], corners[(k + 1) % 3])
     }
 
-    /// Iterates over the triangles beyond an edge, with the corner at which the edge starts. The two sides of a
-    /// flat surface may have edges in common, so that there may be two.
+    /// Iterates over the triangles beyond an edge, with their start corners. The two sides of a flat surface may share
+    /// edges, so that there may be two.
     fn twins(&self, triangle: usize, k: usize) -> impl Iterator<Item = (usize, usize)> {
         let (a, b) = self.edge(triangle, k);
         let first = self.edges.partition_point(|e| (e.0, e.1) < (b, a));
@@ -177,7 +176,7 @@ impl<'a> Surface<'a> {
             .chain(same.map(|e| (e.2 as usize, e.3 as usize)))
     }
 
-    /// Numbers the groups of triangles, connected in one plane with one normal: the number by triangle.
+    /// Returns the group of each triangle: connected coplanar triangles with one normal.
     fn groups(&self) -> Vec<u32> {
         const UNSEEN: u32 = u32::MAX;
         let mut group_of = vec![UNSEEN; self.triangles.len()];

@@ -1,15 +1,15 @@
-//! The dimension that points span: exact.
+//! The exact dimension of the span of points.
 
 use crate::exact::predicates::{is_degenerate, lexicographic, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// The span of points, with indices of points that span as much.
+/// The affine span of points, with indices of points that span it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Span {
     Nothing,
     Point(usize),
-    /// The two ends of the points on it.
+    /// The two extreme points.
     Line(usize, usize),
     Plane([usize; 3]),
     Volume,

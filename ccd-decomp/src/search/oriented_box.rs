@@ -1,4 +1,4 @@
-//! Oriented boxes, which have axes of their own.
+//! Oriented boxes.
 
 use super::element::Element;
 use crate::tolerance::box_rounding;
@@ -7,20 +7,19 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::tolerance::U64;
 use ccd_core::vector::unit;
 
-/// A box along axes of its own: a centre, half a length along each axis, and a slack along the coordinate axes.
-/// The slack covers all rounding, and axes that are not quite at right angles or of unit length.
+/// An oriented box: centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers
+/// rounding, and axes that are not exactly orthonormal.
 pub(super) struct OrientedBox {
     pub(super) centre: DVec3,
     pub(super) axes: [DVec3; 3],
     pub(super) halves: DVec3,
     pub(super) slack: f64,
-    /// The largest coordinate of any point of it.
+    /// The largest coordinate of any point of the box.
     pub(super) reach: f64,
 }
 
 impl OrientedBox {
-    /// Makes the box about some elements: along the longest side, and across to the corner that is farthest from
-    /// the middle.
+    /// Creates the box of some elements, aligned with the longest side and the corner farthest from it.
     pub(super) fn about(elements: &[Element]) -> Self {
         let corners = || elements.iter().flat_map(|element| element.corners);
         let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
@@ -56,8 +55,8 @@ impl OrientedBox {
         }
     }
 
-    /// The axis along which the middles of some elements are spread most: the teeth of a comb are spread
-    /// across their length.
+    /// Returns the axis along which the middles of some elements spread most. For the teeth of a comb this is not their
+    /// longest axis.
     pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
@@ -68,21 +67,21 @@ impl OrientedBox {
         self.axes[(hi - lo).max_position()]
     }
 
-    /// A bound on the dot product of a vector with the vector from the centre to any point of the box.
+    /// Returns an upper bound of the dot product of a vector with any vector from the centre to the box.
     #[inline]
     pub(super) fn depth(&self, vector: DVec3) -> f64 {
         let along = along_each(&self.axes, vector).abs();
         along.dot(self.halves) + vector.abs().element_sum() * self.slack
     }
 
-    /// A lower bound, up to rounding, on the distance of a point from the box; negative inside. Takes each axis
-    /// separately, because they need not be at right angles.
+    /// Returns a lower bound, up to rounding, of the distance of a point from the box; negative inside. Each axis is
+    /// tested separately, because they need not be orthogonal.
     pub(super) fn distance(&self, point: DVec3) -> f64 {
         let along = along_each(&self.axes, point - self.centre).abs();
         (along - self.halves).max_element() - 2.0 * self.slack
     }
 
-    /// Returns whether one of its axes certainly separates the box from all of some points.
+    /// Returns whether an axis of the box certainly separates it from all points.
     pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.reach, greater);
@@ -134,7 +133,7 @@ impl Extent {
         }
     }
 
-    /// Returns whether a box is certainly before the shape, or after it.
+    /// Returns whether a box is certainly outside the interval.
     pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
         let along = self.direction.dot(oriented.centre - self.base);
         let reach = greater(self.reach, oriented.reach);

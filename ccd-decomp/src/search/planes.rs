@@ -1,4 +1,4 @@
-//! Planes with a shape on one side, which prove that boxes are on the other.
+//! Planes that separate boxes from a shape.
 
 use super::oriented_box::{Extent, OrientedBox};
 use super::region::{Hull, Shape};
@@ -8,13 +8,13 @@ use ccd_core::tolerance::height_rounding;
 use ccd_core::vector::unit;
 use std::cmp::Ordering;
 
-/// A plane, by a point of it and two vectors that span it, so that `u × v` looks to its front.
+/// A plane with a normal of any length, towards its front.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     foot: DVec3,
     normal: DVec3,
     far: f64,
-    /// A bound on the rounding error of heights, for every unit of the reach.
+    /// A bound on the rounding error of heights, per unit of reach.
     rounding: f64,
 }
 
@@ -24,7 +24,7 @@ impl Plane {
             foot,
             normal: u.cross(v),
             far: foot.abs().max_element(),
-            // Twice, because there are three axes.
+            // Twice, to cover three axes.
             rounding: 2.0 * height_rounding([u, v], 1.0),
         }
     }
@@ -47,8 +47,8 @@ impl Plane {
 /// The number of facets of a hull that boxes are tested with.
 const PLANES: usize = 16;
 
-/// Finds planes that exactly have all of a shape behind or in them, and a hub in front or in them. A triangle of
-/// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
+/// Returns planes with the shape on or behind them and the hub on or in front of them, exactly. A triangle of the hub
+/// and an edge in front of such a plane shares no point with the shape, except the hub.
 pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         Shape::Segment([p, q]) => vec![Plane::of([hub, *p, *q]), Plane::of([hub, *q, *p])],
@@ -59,7 +59,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
-            // A hub within the triangle is a common point, for any planes.
+            // A hub inside the triangle is a common point.
             if !corners.contains(&hub) && holds(*corners, hub) {
                 return planes;
             }
@@ -82,7 +82,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     }
 }
 
-/// Tests that prove that a box is apart from a shape.
+/// Separation tests of boxes and a shape.
 pub(super) struct Apart<'a> {
     points: &'a [DVec3],
     extents: Vec<Extent>,
@@ -129,8 +129,8 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
         .collect()
 }
 
-/// Finds such planes for a triangle in one plane with the whole fan, where the planes of the hub and an edge prove
-/// nothing: planes upright on the coordinate planes, through the hub and a corner, and along the edges.
+/// Like [`planes_beside`], for a triangle coplanar with the fan: planes parallel to a coordinate axis, through the hub
+/// and a corner, and along the edges.
 pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     let mut planes = Vec::new();
     if holds(*corners, hub) {
@@ -144,8 +144,8 @@ pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     planes
 }
 
-/// Adds the upright planes along a line that have some points behind or in them, and the hub in front or in
-/// them.
+/// Adds the planes through a line, parallel to a coordinate axis, with some points on or behind them and the hub on or
+/// in front of them.
 fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
         let turn = |x: DVec3| turn_along(axis, [p, q], x);
@@ -159,7 +159,7 @@ fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: D
     }
 }
 
-/// Returns whether a triangle holds a point.
+/// Returns whether a triangle contains a point.
 fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
@@ -168,7 +168,7 @@ fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     side(triangle, point) == Ordering::Equal && Projection::of(triangle).is_none_or(within)
 }
 
-/// Adds the plane of the hub and an edge, if the rest of the triangle is behind that plane.
+/// Adds the plane through the hub and an edge, if the triangle's other corner is behind it.
 fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {

@@ -1,14 +1,13 @@
-//! The hull of many points, inserted in random order, with a conflict graph of who sees which facet `[CS89]`.
+//! Randomized incremental hulls of many points, with a conflict graph of points and visible facets `[CS89]`.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind its
-/// plane.
+/// Computes the facets of the hull of points that span a volume, from an initial tetrahedron.
 ///
-/// Points are inserted in rounds, each of about half of the remaining points, chosen independently of their
-/// places. The expected work is O(n log n) for any points, and the memory O(n). Within a round they keep the
-/// given order, in which neighbours likely follow each other `[ACR03]`.
+/// Points are inserted in rounds of about half of the remaining points, chosen pseudorandomly. The expected work is O(n
+/// log n) for any points, and the memory O(n). Within a round they keep the given order, in which neighbours likely
+/// follow each other `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = Growing::all(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_there);
@@ -23,10 +22,10 @@ fn scrambled(v: u32) -> u32 {
     h ^ h >> 16
 }
 
-/// The largest capacity of a list that is kept for another use.
+/// The largest capacity of a list that is reused.
 const SPARED: usize = 64;
 
-/// The number of no facet and no point.
+/// No facet or point.
 const NONE: u32 = u32::MAX;
 
 struct Facet {
@@ -34,23 +33,23 @@ struct Facet {
     plane: Plane,
     /// The facets beyond its edges; the first is from its first corner to its second.
     across: [u32; 3],
-    /// The points to be inserted that see it.
+    /// The points yet to be inserted that see the facet.
     seen_by: Vec<u32>,
     is_there: bool,
-    /// The last point that was tested for seeing it, and the answer.
+    /// The last point whose visibility was tested, and the result.
     asked: (u32, bool),
 }
 
 struct Growing<'a> {
     points: LocalPoints<'a>,
-    /// Empty lists for another use.
+    /// Empty lists for reuse.
     spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
-    /// A facet that a point sees, by point; one that is removed, or none, if the point is inside.
+    /// A facet that each point sees; a removed facet or [`NONE`] if the point is inside.
     sees: Vec<u32>,
     /// The last facet that a point was tested with, by point.
     held: Vec<u32>,
-    /// The new facet whose edge on the rim starts at a point, by point.
+    /// The new facet whose rim edge starts at a point, by point.
     starting: Vec<u32>,
 }
 
@@ -89,7 +88,7 @@ impl<'a> Growing<'a> {
         hull
     }
 
-    /// Adds a facet, and records which of some points see it.
+    /// Adds a facet, and records which candidates see it.
     fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
         let plane = self.points.plane(corners);
@@ -101,7 +100,7 @@ impl<'a> Growing<'a> {
                 seen_by.push(v);
             }
         }
-        // Most facets are seen by no point to come.
+        // Most facets are seen by no remaining point.
         if seen_by.is_empty() {
             self.spare.push(std::mem::take(&mut seen_by));
         }
@@ -133,7 +132,7 @@ impl<'a> Growing<'a> {
             for facet in [edge.seen, edge.beyond] {
                 candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
             }
-            // The facet before it is known once all are there.
+            // The previous facet is set once all are added.
             let across = [edge.beyond, self.starting[b as usize], NONE];
             self.push([a, b, v], across, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];

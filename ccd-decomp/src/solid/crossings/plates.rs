@@ -1,4 +1,4 @@
-//! Plates: convex polygons of many slivers, which are examined one by one only where something reaches in.
+//! Plates: convex polygons of many slivers, whose triangles are tested only if another face enters the polygon.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{Projection, side};
@@ -13,10 +13,9 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// The plates of a surface, which are its convex polygons with a large fan, and the remaining triangles.
+/// The plates of a surface (convex polygons with a large fan), and the remaining triangles.
 ///
-/// The triangles of a polygon are glued edge to edge, the two at an edge on either side of it, and cover it
-/// once: two of them meet only in corners and edges that both have.
+/// The triangles of a polygon cover it once: two of them meet only in shared corners and edges.
 pub(super) struct Plates<'a, 'm> {
     manifold: &'a Manifold<'m>,
     plates: Vec<Plate>,
@@ -24,13 +23,13 @@ pub(super) struct Plates<'a, 'm> {
     plate_of: Vec<u32>,
     /// The boxes of the plates.
     bvh: Bvh,
-    /// The faces of no plate.
+    /// The faces outside all plates.
     rest: Group,
 }
 
 const NONE: u32 = u32::MAX;
 
-/// A convex polygon: its triangles, its plane, and its rim by vertex.
+/// A convex polygon: triangles, plane, and rim.
 struct Plate {
     number: u32,
     faces: Vec<u32>,
@@ -39,7 +38,7 @@ struct Plate {
     /// The vertices of the rim with their neighbours on it, in ascending order.
     rim: Vec<Passage>,
     bounds: Bounds,
-    /// The boxes of the triangles, made when something reaches in.
+    /// The boxes of the triangles, created on demand.
     group: OnceCell<Group>,
 }
 
@@ -50,18 +49,18 @@ struct Passage {
     after: u32,
 }
 
-/// Some faces, with their boxes.
+/// Faces with their boxes.
 struct Group {
     faces: Vec<u32>,
     boxes: TriangleBoxes,
 }
 
-/// The approximate number of predicates that prove that a face is next to a polygon.
+/// The approximate number of predicates that separate a face from a polygon.
 const BESIDE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
-    /// Finds the plates; none where no polygon has a large fan, so that the boxes of all triangles suffice.
-    /// O(n log n), the time of [`Flats::new`].
+    /// Finds the plates; `None` if no polygon has a large fan, so that the boxes of all triangles suffice. O(n log n),
+    /// the time of [`Flats::new`].
     pub(super) fn of(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
@@ -100,9 +99,8 @@ impl<'a, 'm> Plates<'a, 'm> {
         })
     }
 
-    /// Calls back with the faces that may meet a face elsewhere than where they are glued, until the answer is no,
-    /// or the work is spent. Each such pair comes up for one of its two faces at least: faces of lower number
-    /// may be left out.
+    /// Calls `holds` for the faces that may intersect a face, until it returns false or the work is spent. Each pair is
+    /// reported for at least one of its faces: faces of lower number may be omitted.
     pub(super) fn all_meeting(
         &self,
         face: u32,
@@ -111,7 +109,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let own = self.plate_of[face as usize];
-        // Pairs with a face of a plate come up for the other face.
+        // Pairs with a face of a plate are reported for the other face.
         if own == NONE {
             let faces = &self.rest.faces;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
@@ -137,17 +135,16 @@ impl<'a, 'm> Plates<'a, 'm> {
                 .get_or_init(|| Group::of(self.manifold, plate.faces.clone()));
             group.boxes.all_meeting(region, work, |other| {
                 let other = group.faces[other as usize];
-                // Pairs of faces of two plates come up twice.
+                // Pairs of faces of two plates are found twice.
                 own != NONE && other < face || holds(other)
             })
         })
     }
 
-    /// Returns whether a face shares no more with a plate than a corner, or an edge, of the rim and of both.
+    /// Returns whether a face shares at most a common corner or edge of the rim with a plate.
     ///
-    /// The part of the face in the plate's plane is then out of the box about the plate; or it is on the other
-    /// side of a line along the rim, and has only a common corner on that line, or the edge at which they are
-    /// glued.
+    /// The part of the face in the plate's plane is then outside the plate's box, or beyond a line along the rim with
+    /// only a shared corner or edge on that line.
     fn is_beside(&self, face: u32, plate: &Plate) -> bool {
         let (corners, points) = (
             self.manifold.faces()[face as usize],
@@ -166,7 +163,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             }
             let mut on = level().filter(|&k| turn(k) == Ordering::Equal);
             match [on.next(), on.next(), on.next()] {
-                // The one is the corner of the rim that the line goes through.
+                // The one corner is the rim vertex on the line.
                 [Some(_), None, None] => true,
                 [Some(k), Some(l), None] => {
                     let start = if (k + 1) % 3 == l { k } else { l };
@@ -177,7 +174,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             }
         };
         let mut level_corners = level().map(|k| plate.passage(corners[k]));
-        // The bounds of no points meet none.
+        // The bounds of no points meet no bounds.
         !Bounds::of(level().map(|k| points[k])).meets(&plate.bounds)
             || level_corners.any(|passage| {
                 passage.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
@@ -185,7 +182,7 @@ impl<'a, 'm> Plates<'a, 'm> {
     }
 }
 
-/// Returns whether a vertex is a corner of many of these faces.
+/// Returns whether many of these faces share a vertex.
 fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
     if faces.len() < FAN_TRIANGLES as usize {
         return false;
@@ -219,7 +216,7 @@ impl Plate {
         })
     }
 
-    /// Finds a vertex on the rim, with its neighbours; none for a vertex that is not on it.
+    /// Returns a rim vertex with its neighbours; `None` if the vertex is not on the rim.
     fn passage(&self, vertex: u32) -> Option<Passage> {
         let found = self.rim.binary_search_by_key(&vertex, |passage| passage.at);
         found.ok().map(|k| self.rim[k])

@@ -7,10 +7,10 @@ use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Numbers the parts: the number by face.
+/// Returns the part of each face.
 ///
-/// Parts are connected over edges of two faces. At an edge of more faces, parts that would stay open are
-/// connected across the material that they bound, so that solids that share a face stay separate.
+/// Parts are connected over edges of two faces. At an edge of more faces, open parts are connected across the material
+/// between them, so that solids that share a face stay separate.
 pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     let mut parts = DisjointSets::new(mesh.faces().len());
     let mut is_manifold = true;
@@ -35,10 +35,10 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
 /// The use of an edge by a face.
 #[derive(Clone, Copy, Debug)]
 struct Use {
-    /// The ends by welded vertex, the smaller first.
+    /// The welded end vertices, the smaller first.
     ends: [u32; 2],
     face: u32,
-    /// 1 where the face runs from the first end to the second, else −1.
+    /// 1 if the face runs from the first end to the second, else −1.
     way: i32,
 }
 
@@ -52,7 +52,7 @@ impl Use {
     }
 }
 
-/// Finds the faces at an edge of those parts that run along it more often one way than the other.
+/// Returns the faces at an edge of parts that are open there: with more uses in one direction than in the other.
 fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
     let mut of_parts: Vec<(u32, Use)> = edge.iter().map(|&u| (parts.root(u.face), u)).collect();
     of_parts.sort_by_key(|of| of.0);
@@ -64,18 +64,17 @@ fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
         .collect()
 }
 
-/// Pairs the faces at one edge that have material between them: it is behind each of the two, and as few others
-/// as possible are between. All are paired where the faces cannot be ordered.
+/// Pairs the faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all are paired.
 fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
     let Some(around) = AngularOrder::of(mesh, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face, pair[1].face)).collect();
     };
     let mut order = edge.to_vec();
-    // Among faces in one direction, those that end a material come first.
+    // Among faces at one angle, those that end a wedge come first.
     order.sort_by(|one, other| around.order(one, other).then(other.way.cmp(&one.way)));
     let (mut begun, mut pairs) = (Vec::new(), Vec::new());
-    // A material that began before the first face ends in the second round; paired faces are removed.
+    // A wedge that begins before the first face ends in the second round; paired faces are removed.
     for _ in 0..2 {
         order.retain(|one| match one.way {
             1 => match begun.pop() {
@@ -94,7 +93,7 @@ fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
     pairs
 }
 
-/// The order of faces around an edge, from one of them on: counter-clockwise, with the edge pointing at the
+/// The angular order of faces around an edge, starting at one of them: counter-clockwise, with the edge pointing at the
 /// viewer.
 struct AngularOrder<'m> {
     mesh: &'m TriangleMesh,
@@ -105,7 +104,7 @@ struct AngularOrder<'m> {
 }
 
 impl<'m> AngularOrder<'m> {
-    /// Starts at the first face; none where a face has no area, or a coordinate is too near to 0 for exact
+    /// Starts at the first face. Returns `None` if a face is degenerate or a coordinate is too near to 0 for exact
     /// predicates.
     fn of(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
         let [v, w] = edge.first()?.ends.map(|v| mesh.vertices()[v as usize]);
@@ -132,7 +131,8 @@ impl<'m> AngularOrder<'m> {
             .then_with(by_turn)
     }
 
-    /// Computes the quarter of a point: in the first face's half plane, before the half turn, there, or beyond.
+    /// Returns the angular class of a point: at the first face (0), before half a turn (1), at half a turn (2), or
+    /// after (3).
     fn quarter(&self, point: DVec3) -> u32 {
         let [v, w] = self.ends;
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
@@ -145,7 +145,7 @@ impl<'m> AngularOrder<'m> {
     }
 }
 
-/// The corner of a face opposite to an edge.
+/// Returns the corner of a face opposite to an edge.
 fn apex(mesh: &TriangleMesh, of: &Use) -> DVec3 {
     let mut at = mesh
         .welded_face(of.face)
