@@ -13,7 +13,7 @@
 //! | build a hierarchy, or a tree of hulls, over pieces of any kind | [`build_hierarchy`], [`build_hull_tree`] |
 //!
 //! # Example
-//! A body inside this part goes unnoticed, because the part is not solid. The report names the edges of the hole.
+//! A body inside this part does not touch it, because the part is not solid. The report names the edges of the hole.
 //!
 //! ```
 //! use ccd_decomp::{Detail, Format, TriangleMesh, body_from_mesh};

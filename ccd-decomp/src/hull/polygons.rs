@@ -64,7 +64,7 @@ fn for_each_polygon(
             continue;
         };
         match group {
-            [_] => visit(&starting_least(first), group),
+            [_] => visit(&smallest_first(first), group),
             _ => visit(&surface.corners(group, &group_of, plane), group),
         }
     }
@@ -79,12 +79,14 @@ pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -
         .collect()
 }
 
-/// Rotates a loop so that its least corner comes first.
-fn starting_least([a, b, c]: [u32; 3]) -> [u32; 3] {
-    match (a < b && a < c, b < c) {
-        (true, _) => [a, b, c],
-        (false, true) => [b, c, a],
-        (false, false) => [c, a, b],
+/// Rotates a triangle so that its smallest corner comes first.
+pub(crate) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a <= b && a <= c {
+        [a, b, c]
+    } else if b <= c {
+        [b, c, a]
+    } else {
+        [c, a, b]
     }
 }
 

@@ -5,7 +5,7 @@ use rstest::rstest;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// The corners and planes by a test of all triples: a triple spans a facet when no point is in front.
+/// The corners and planes by testing all triples: a triple spans a facet if no point is in front.
 struct Twin {
     vertices: Vec<u32>,
     /// The points on each facet, corners or not.

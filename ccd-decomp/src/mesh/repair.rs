@@ -1,6 +1,7 @@
 //! Repairs of a mesh: the report, and the choice of dropped faces.
 
 use super::remark::Remarks;
+use crate::hull::polygons::smallest_first;
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -154,15 +155,4 @@ pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
         }
     }
     marked
-}
-
-/// Rotates a loop of corners so that the smallest comes first.
-fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
-    if a <= b && a <= c {
-        [a, b, c]
-    } else if b <= c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
 }

@@ -206,20 +206,11 @@ impl<'a, 'm> Merger<'a, 'm> {
 
     /// Returns the polygons.
     pub(crate) fn finish(mut self) -> Flats {
-        const UNSEEN: u32 = u32::MAX;
-        let faces = self.manifold.faces().len() as u32;
-        let mut number_of = vec![UNSEEN; faces as usize];
-        let mut flat_of = vec![0; faces as usize];
-        let mut flats: Vec<Flat> = Vec::new();
-        for face in 0..faces {
-            let root = self.regions.root(face);
-            let number = &mut number_of[root as usize];
-            if *number == UNSEEN {
-                *number = flats.len() as u32;
-                flats.push(Flat::default());
-            }
-            flat_of[face as usize] = *number;
-            flats[*number as usize].faces.push(face);
+        let flat_of = self.regions.numbers();
+        let count = flat_of.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut flats = vec![Flat::default(); count];
+        for (face, &number) in (0..).zip(&flat_of) {
+            flats[number as usize].faces.push(face);
         }
         for (number, flat) in flats.iter_mut().enumerate() {
             let outer =

@@ -2,6 +2,7 @@
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
+use crate::disjoint_sets::DisjointSets;
 use crate::exact::rays::{crossing, probe};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
@@ -54,28 +55,14 @@ pub(crate) fn check_orientation(
 
 /// Returns the shell of each face: shells are connected over edges.
 pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
-    const UNSEEN: u32 = u32::MAX;
-    let mut shell_of = vec![UNSEEN; manifold.faces().len()];
-    let mut count = 0;
-    let mut stack = Vec::new();
-    for seed in 0..shell_of.len() as u32 {
-        if shell_of[seed as usize] != UNSEEN {
-            continue;
+    let faces = manifold.faces().len();
+    let mut shells = DisjointSets::new(faces);
+    for face in 0..faces as u32 {
+        for next in manifold.neighbours(face) {
+            shells.join(face, next);
         }
-        shell_of[seed as usize] = count;
-        stack.push(seed);
-        // Each face is pushed once.
-        while let Some(face) = stack.pop() {
-            for next in manifold.neighbours(face) {
-                if shell_of[next as usize] == UNSEEN {
-                    shell_of[next as usize] = count;
-                    stack.push(next);
-                }
-            }
-        }
-        count += 1;
     }
-    shell_of
+    shells.numbers()
 }
 
 /// Returns the winding number of the other shells about one; `None` if every ray meets an edge or vertex.

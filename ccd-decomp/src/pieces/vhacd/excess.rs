@@ -1,4 +1,4 @@
-//! An upper bound on how far hulls stick out of a solid, by branch and bound.
+//! An upper bound on how far hulls extend beyond a solid, by branch and bound.
 
 mod part_planes;
 mod under;
@@ -14,12 +14,11 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Bounds the distance from the solid to any point of the parts.
+/// Returns an upper bound of the distance from the solid to any point of the parts.
 ///
-/// The distance to the solid changes by no more than a point moves, so that its value at the centre of a box
-/// bounds it in the box. Where the surface is nearly flat, [`under`] gives a better bound. Boxes about the parts are
-/// split, the one with the largest bound first, until that bound is hardly more than a distance that was found,
-/// the work is spent, or too many boxes wait.
+/// The distance is 1-Lipschitz, so that its value at the centre of a box bounds it in the box. For nearly flat surfaces
+/// [`under`] gives a better bound. Boxes around the parts are split, largest bound first, until that bound is near a
+/// distance that was found, the work is spent, or too many boxes wait.
 pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
     let floor = EXCESS_FLOOR * target.reach();
     let parts: Vec<PartPlanes<'_>> = parts
@@ -45,47 +44,47 @@ pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
     greater(greater(open, search.found), settled)
 }
 
-/// The number of corners of a part that are examined, about.
+/// The approximate number of corners of a part that are examined.
 const CORNERS: usize = 256;
 
-/// The number of boxes that are split at a time, on all cores.
+/// The number of boxes that are split in parallel.
 const BATCH: usize = 16;
 
-/// The number of planes that take as long as a triangle.
+/// The number of planes that cost as much as a triangle.
 const PLANES_A_STEP: usize = 16;
 
 struct Search<'a> {
     target: &'a Target<'a>,
     parts: &'a [PartPlanes<'a>],
-    /// The number of steps that were taken.
+    /// The number of steps taken.
     taken: u64,
-    /// The largest distance of a point of a part that was examined.
+    /// The largest distance found.
     found: f64,
     heap: BinaryHeap<Cell>,
 }
 
-/// A box, and a bound on the distance to the solid of any point of a part in it.
+/// A box, with a bound on the distance from the solid to the part within the box.
 #[derive(Clone, Debug)]
 struct Cell {
     bound: f64,
     part: usize,
     bounds: [DVec3; 2],
-    /// The planes of the part that the box is not all behind.
+    /// The planes of the part that the box is not entirely behind.
     planes: Vec<u32>,
 }
 
 /// The result of examining a box.
 #[derive(Default)]
 struct Look {
-    /// The distance of the box's centre, if that is in the part.
+    /// The distance of the centre, if that is in the part.
     distance: f64,
-    /// The box; none if it has no point of the part that is farther than the largest known distance.
+    /// The box; `None` if it cannot exceed the largest known distance.
     cell: Option<Cell>,
     taken: u64,
 }
 
 impl Search<'_> {
-    /// Examines some corners of a part, and its box.
+    /// Examines some corners of a part, and its bounding box.
     fn begin(&mut self, number: usize) {
         let PartPlanes {
             part,
@@ -109,8 +108,8 @@ impl Search<'_> {
         self.note(look);
     }
 
-    /// Splits some boxes in eight, those with the largest bounds. Returns false once these are hardly more than the
-    /// largest distance found, the work is spent, or too many wait.
+    /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
+    /// found, the work is spent, or too many boxes wait.
     fn split_worst(&mut self, floor: f64) -> bool {
         let target = greater(EXCESS_RATIO * self.found, self.found + floor);
         let worst: Vec<Cell> = (0..BATCH)
@@ -137,7 +136,7 @@ impl Search<'_> {
         self.heap.extend(look.cell);
     }
 
-    /// Examines a box within one that was examined.
+    /// Examines a box within an examined one.
     fn look(&self, within: &Cell, bounds: [DVec3; 2]) -> Look {
         let planes = &within.planes;
         let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());

@@ -42,7 +42,7 @@ fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
     assert_eq!(meet(offset), expected);
 }
 
-/// Two tetrahedra at one corner are one surface, pinched there: they share only the corner.
+/// Two tetrahedra that share only a corner do not intersect.
 #[test]
 fn a_shared_corner_is_no_intersection() {
     assert!(!meet(DVec3::X));
@@ -115,7 +115,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     work.taken() / mesh.faces().len() as u64
 }
 
-/// Slivers that are not all visible from one point, and walls along them: each is near a few others.
+/// A solid of slivers that is not star-shaped: each sliver is near a few others.
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {

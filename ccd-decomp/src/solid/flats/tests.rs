@@ -78,8 +78,7 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
     }
 }
 
-/// Nothing is merged over a fold of any mesh whose edges pair up: triangles back to back, or a flat
-/// tetrahedron, either next to a solid.
+/// Nothing is merged over a fold: triangles back to back, or a flat tetrahedron, each next to a solid.
 #[test]
 fn folds_are_no_polygons() {
     let back_to_back = mesh(

@@ -29,7 +29,7 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
             }
         }
     }
-    numbers(&mut parts, mesh.faces().len())
+    parts.numbers()
 }
 
 /// The use of an edge by a face.
@@ -154,20 +154,4 @@ fn apex(mesh: &TriangleMesh, of: &Use) -> DVec3 {
     let off = at.find(|(v, _)| !of.ends.contains(v));
     // A face with two corners at one point has no other corner.
     off.map_or(mesh.vertices()[of.ends[0] as usize], |(_, p)| p)
-}
-
-/// Numbers the parts in the order of their first faces: the number by face.
-fn numbers(parts: &mut DisjointSets, faces: usize) -> Vec<u32> {
-    let mut number = vec![u32::MAX; faces];
-    let mut count = 0;
-    (0..faces as u32)
-        .map(|face| {
-            let number = &mut number[parts.root(face) as usize];
-            if *number == u32::MAX {
-                *number = count;
-                count += 1;
-            }
-            *number
-        })
-        .collect()
 }

@@ -65,7 +65,7 @@ fn circles_are_found() {
         made.err().map(|circle| circle.object)
     };
     assert_eq!(circle(vec![of(vec![shifted(0, 1.0)])]), Some(0));
-    // The object at the start leads to the circle, but is not on it.
+    // The first object leads to the cycle, but is not on it.
     let lead = vec![
         of(vec![shifted(3, 0.0), shifted(1, 0.0)]),
         of(vec![shifted(2, 0.0)]),
@@ -96,7 +96,7 @@ fn parts_without_faces_are_left_out() {
     assert_eq!(kept, [2, 3]);
 }
 
-/// Each object is twice the one below it: a thousand times would be more than there is memory in the world.
+/// Each object is twice its member: a thousand levels would exceed any memory.
 #[test]
 fn doubling_is_refused_before_it_is_done() {
     for bottom in [leaf(), of(Vec::new())] {

@@ -56,68 +56,63 @@ impl<'a> Accessors<'a> {
 
     /// Reads the points of a `VEC3` accessor.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
-        let root = self.root;
-        let about = element(&root.accessors, "accessor", accessor)?;
-        self.points_of(about)
-            .map_err(|fault| fault.at(name("accessor", accessor, None)))
-    }
-
-    fn points_of(&mut self, about: &schema::Accessor) -> Result<Vec<DVec3>, MeshFault> {
-        check_kind(about, "VEC3")?;
-        let component = Component::of(about.component_type)?;
-        let size = 3 * component.size();
-        let point = |row: &[u8]| {
-            let mut numbers = row.chunks_exact(component.size());
-            let mut next = || {
-                numbers
-                    .next()
-                    .map_or(f64::NAN, |bytes| component.number(bytes, about.normalized))
+        self.at(accessor, |accessors, about| {
+            check_kind(about, "VEC3")?;
+            let component = Component::of(about.component_type)?;
+            let size = component.size();
+            let point = |row: &[u8]| {
+                let number = |k: usize| component.number(&row[k * size..], about.normalized);
+                DVec3::new(number(0), number(1), number(2))
             };
-            DVec3::new(next(), next(), next())
-        };
-        let rows = self.rows(about, size)?;
-        self.allowance.take(cost(about.count, 0))?;
-        let mut points: Vec<DVec3> = match rows {
-            Some(rows) => rows.iter().map(point).collect(),
-            // The allowance bounds the number.
-            None => vec![DVec3::ZERO; about.count as usize],
-        };
-        if let Some(sparse) = &about.sparse {
-            let numbers = self.sparse_indices(sparse, points.len())?;
-            let values = self.sparse_values(sparse, size)?;
-            for (number, row) in numbers.into_iter().zip(values.iter()) {
-                points[number] = point(row);
-            }
-        }
-        Ok(points)
+            let price = cost(about.count, 0);
+            accessors.elements(about, 3 * size, price, DVec3::ZERO, point)
+        })
     }
 
     /// Reads the indices of a `SCALAR` accessor.
     pub(super) fn numbers(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
-        let root = self.root;
-        let about = element(&root.accessors, "accessor", accessor)?;
-        self.numbers_of(about)
-            .map_err(|fault| fault.at(name("accessor", accessor, None)))
+        self.at(accessor, |accessors, about| {
+            check_kind(about, "SCALAR")?;
+            let component = Component::of_index(about.component_type)?;
+            let whole = |row: &[u8]| component.whole(row);
+            accessors.elements(about, component.size(), cost(0, about.count), 0, whole)
+        })
     }
 
-    fn numbers_of(&mut self, about: &schema::Accessor) -> Result<Vec<u32>, MeshFault> {
-        check_kind(about, "SCALAR")?;
-        let component = Component::of_index(about.component_type)?;
-        let size = component.size();
+    /// Reads an accessor, and names it in faults.
+    fn at<T>(
+        &mut self,
+        accessor: usize,
+        read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
+    ) -> Result<T, MeshFault> {
+        let about = element(&self.root.accessors, "accessor", accessor)?;
+        read(self, about).map_err(|fault| fault.at(name("accessor", accessor, None)))
+    }
+
+    /// Reads all elements of an accessor, sparse ones included.
+    fn elements<T: Clone>(
+        &mut self,
+        about: &schema::Accessor,
+        size: usize,
+        price: u64,
+        zero: T,
+        read: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<T>, MeshFault> {
         let rows = self.rows(about, size)?;
-        self.allowance.take(cost(0, about.count))?;
-        let mut numbers: Vec<u32> = match rows {
-            Some(rows) => rows.iter().map(|row| component.whole(row)).collect(),
-            None => vec![0; about.count as usize],
+        self.allowance.take(price)?;
+        let mut elements: Vec<T> = match rows {
+            Some(rows) => rows.iter().map(&read).collect(),
+            // The allowance bounds the number.
+            None => vec![zero; about.count as usize],
         };
         if let Some(sparse) = &about.sparse {
-            let places = self.sparse_indices(sparse, numbers.len())?;
+            let places = self.sparse_indices(sparse, elements.len())?;
             let values = self.sparse_values(sparse, size)?;
             for (place, row) in places.into_iter().zip(values.iter()) {
-                numbers[place] = component.whole(row);
+                elements[place] = read(row);
             }
         }
-        Ok(numbers)
+        Ok(elements)
     }
 
     /// Returns the elements of an accessor; `None` if all except the sparse ones are zero.

@@ -254,7 +254,7 @@ fn files_are_named() {
     }
 }
 
-/// Nobody exports a part for this project: what people have is named with the way to a mesh.
+/// Errors about common CAD and scene formats say how to convert them to a mesh.
 #[test]
 fn files_of_other_programs_are_told_how_to_convert() {
     for (name, way) in [
@@ -277,7 +277,7 @@ fn files_of_other_programs_are_told_how_to_convert() {
     }
 }
 
-/// A STEP file that was renamed is told as one, whatever it is called.
+/// A renamed STEP file is recognised under every extension.
 #[test]
 fn a_renamed_step_file_is_told_how_to_convert() {
     let step = "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";

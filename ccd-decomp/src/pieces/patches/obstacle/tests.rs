@@ -2,7 +2,7 @@ use super::*;
 use crate::exact::predicates::side;
 use proptest::prelude::*;
 
-/// The slow and obvious test: any plane through three of all the points.
+/// The brute-force test: all planes through three of the points.
 fn is_apart_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
     let obstacle = Obstacle::new(points, hull);
     let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();

@@ -1,4 +1,4 @@
-//! The planes of a part, which bound it in the search.
+//! The facet planes of a part.
 
 use super::super::part::Part;
 use super::super::target::Target;
@@ -28,11 +28,11 @@ pub(super) struct Plane {
     pub(super) height: f64,
 }
 
-/// The position of a box that may meet a part, relative to the part's planes.
+/// The position of a box relative to a part's planes.
 pub(super) struct Meeting {
-    /// True if the centre is in the part.
+    /// Whether the centre is in the part.
     pub(super) has_centre: bool,
-    /// The planes that the box is not all behind, by number.
+    /// The numbers of the planes that the box is not entirely behind.
     pub(super) planes: Vec<u32>,
 }
 
@@ -50,8 +50,7 @@ impl<'a> PartPlanes<'a> {
         }
     }
 
-    /// Tests a box with some planes: those that a larger box is not all behind. None if the box does not meet the
-    /// part.
+    /// Tests a box against the planes `among`. Returns `None` if the box does not meet the part.
     pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
         let mut meeting = Meeting {
             has_centre: !self.planes.is_empty(),
@@ -75,12 +74,10 @@ impl<'a> PartPlanes<'a> {
         Some(meeting)
     }
 
-    /// Bounds the excess of a part that hardly any of the surface reaches into; none if the bound would exceed
-    /// `most`.
+    /// Bounds the excess of a part that the surface hardly enters; `None` if the bound would exceed `most`.
     ///
-    /// Shrink the part towards a point of the solid until each triangle of the surface is in front of one of its
-    /// planes. The shrunk part contains no surface, so that all of it is in the solid. The part may stick out by
-    /// the amount of the shrinking.
+    /// The part is shrunk towards a point of the solid until each triangle of the surface is in front of one of its
+    /// planes. The shrunk part contains no surface, and is therefore in the solid. The shrinkage bounds the excess.
     ///
     /// # Complexity
     /// O(log f) for each triangle near the part, of f facets.
@@ -95,7 +92,7 @@ impl<'a> PartPlanes<'a> {
         }
         let far = self.part.corners.iter().map(|p| p.distance(centre));
         let reach = far.fold(0.0, greater) + self.slack;
-        // In units of the centre's depth, a point is farthest out of the plane whose dual is extremal towards it.
+        // Relative to the centre's depth, a point is farthest from the plane whose dual is extremal towards it.
         let duals = self.planes.iter().zip(&depths);
         let duals: Vec<DVec3> = duals.map(|(plane, depth)| plane.normal / *depth).collect();
         let farthest = SupportTree::new(&duals);
@@ -122,10 +119,10 @@ impl<'a> PartPlanes<'a> {
 }
 
 impl Plane {
-    /// Computes the plane of a facet; none if the facet is not well shaped.
+    /// Computes the plane of a facet; `None` if the facet is not well shaped.
     fn of(part: &Part, facet: &[u32]) -> Option<Self> {
         let at = |k: usize| part.corners[facet[k] as usize];
-        // The corner triangle of the largest area.
+        // The triangle of the fan with the largest area.
         let last = facet.len() - 1;
         let sides = (1..last).map(|k| (at(k) - at(0), at(k + 1) - at(0)));
         let area = |(u, v): &(DVec3, DVec3)| u.cross(*v).length_squared();
@@ -139,7 +136,7 @@ impl Plane {
         })
     }
 
-    /// The signed distance of a point in front of the plane.
+    /// Returns the signed distance of a point from the plane, positive in front.
     pub(super) fn above(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.height
     }
