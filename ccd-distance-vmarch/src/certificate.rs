@@ -1,4 +1,4 @@
-//! Axes that certify a stop at a tie: the support gap along them against the distance.
+//! Axes that certify a tied stop by their support gap.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
@@ -30,7 +30,7 @@ impl Axis {
         }
     }
 
-    /// Returns whether the distance is certified along it, up to rounding.
+    /// Returns whether the axis certifies the distance, up to rounding.
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
@@ -39,7 +39,7 @@ impl Axis {
     }
 }
 
-/// The support gap `min_B n·y − max_A n·x` along a unit vector.
+/// Returns the support gap `min_B n·y − max_A n·x` along a unit vector.
 pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
     let highest = placed.a.0.vertices.iter().map(|v| n.dot(v.point));
     let own = placed.b.own_vector(n);
@@ -48,8 +48,8 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// Bounds the gap along a direction of any length from above: by the gap between two corners, found
-/// by climbing if there are many.
+/// Returns an upper bound of the gap along a direction: the gap between two corners, found by hill climbing if there
+/// are many.
 fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
@@ -65,11 +65,11 @@ fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     }
 }
 
-/// Returns the best axis for nearest features whose difference is tied, or is rounding.
+/// Returns the best axis for nearest features with a tied or tiny difference.
 ///
-/// The directions along which features are extremal form a cone; a rounded vector may fall out of
-/// it. Its borders are tried too: the normals of the faces around, the cross products of edges, the
-/// vector across each edge; and for features in one plane or on one line, directions within.
+/// The directions along which features are extremal form a cone; a rounded vector may fall out of it. Its borders are
+/// also tried: the normals of adjacent faces, cross products of edges, the vector across each edge; and for coplanar or
+/// collinear features, directions within the plane or line.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
     let (distance, way) = (witness.distance(), witness.way());
     let mut best = Axis::along(placed, witness.axis);
@@ -106,7 +106,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
     best
 }
 
-/// The directions of the edges and faces that meet in a feature, in A's frame.
+/// The directions of the edges and faces at a feature, in A's frame.
 struct Around {
     edges: Vec<DVec3>,
     normals: Vec<DVec3>,

@@ -1,4 +1,4 @@
-//! Certifies the end of a march: ties, cycles, and marches restarted from elsewhere.
+//! Certifies the end of a march: ties, cycles, restarts.
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
@@ -22,11 +22,11 @@ pub(crate) struct Certified {
     pub(crate) claim: Claim,
 }
 
-/// Certifies, or proves, an answer from the end of a march that is not certain by itself.
+/// Certifies the result of a march that ended in a tie, a cycle or a common point.
 ///
 /// # Errors
-/// If no start succeeds: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] if a march ended so,
-/// [`GiveUp::Uncertified`] otherwise.
+/// If no restart succeeds: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] if the last march ended so, else
+/// [`GiveUp::Uncertified`].
 #[cold]
 #[inline(never)]
 pub(crate) fn certify(
@@ -61,9 +61,9 @@ pub(crate) fn certify(
 /// The assessment of an end.
 enum Finding {
     Certified(Certified),
-    /// A pair around it is nearer.
+    /// A neighbouring pair is nearer.
     Nearer(Pair),
-    /// It is not certified; with the best axis so far.
+    /// The end is not certified; with the best axis so far.
     Doubtful(DVec3),
 }
 
@@ -112,7 +112,7 @@ fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     certify_tie(placed, nearest)
 }
 
-/// Certifies a pair, or a nearer one around it: a march back from there might end at the same tie.
+/// Certifies a pair or a nearer neighbouring one, because a new march might end at the same tie.
 fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let mut pair = start;
     for _ in 0..ROUNDS {
@@ -124,7 +124,7 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
         }
         match neighbourhood::nearer(placed, pair, distance) {
             Some(nearer) => pair = nearer,
-            // The pair is as near as possible: the remaining doubt is about the axis.
+            // No pair is nearer: only the axis is uncertain.
             None if axis.gap >= 0.5 * distance => {
                 return certified(placed, pair, &witness, axis.direction);
             }
@@ -142,7 +142,7 @@ fn certified(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3
     Finding::Certified(Certified { pair, claim })
 }
 
-/// Searches for a common point among all edges and faces.
+/// Searches all edges and faces for a common point.
 fn search_common_point(
     placed: &PlacedPair<'_>,
     pair: Pair,

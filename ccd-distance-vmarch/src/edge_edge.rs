@@ -49,13 +49,28 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
 /// The nearest points of two segments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near {
-    /// Their parameters along either.
+    /// The parameters along both segments.
     pub(crate) parameters: [f64; 2],
     /// The cross product of the directions; its length is the sine of their angle.
     pub(crate) across: DVec3,
 }
 
-/// Returns the nearest points, with an end exactly where it is nearest.
+impl Near {
+    /// Returns the cross product, towards `way`, if rounding turns it less than `way`: by its own rounding over the
+    /// sine, against that of the positions over the distance.
+    #[inline(always)]
+    pub(crate) fn axis(&self, way: DVec3, scale: Scale) -> Option<DVec3> {
+        // Written so that NaN does not turn it.
+        let turned = if self.across.dot(way) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        (self.across.length() * scale.size > way.length()).then_some(self.across * turned)
+    }
+}
+
+/// Returns the nearest points of two segments. An end that is nearest is returned exactly.
 ///
 /// If the segments are nearly parallel, the first parameter is off by rounding over the sine. The
 /// second one is computed from it, so the distance of the points is off by rounding only.
@@ -71,7 +86,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     };
     let free = (one.at(s) - other.start).dot(other.along);
     let t = clamped(free, other.length);
-    // If the line's point is beyond the segment's end, that end's foot is nearest.
+    // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {
         s
     } else {
@@ -83,9 +98,9 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     }
 }
 
-/// Returns the end at a parameter.
+/// Returns the end of an edge at a parameter; `None` between the ends.
 #[inline(always)]
-fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
+pub(crate) fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
     if !(parameter > 0.0) {
         Some(edge.ends[0])
     } else if !(parameter < edge.length) {
@@ -99,7 +114,7 @@ fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
 #[derive(Clone, Copy)]
 struct Facing {
     way: DVec3,
-    /// That vector, or the direction across both edges: the one that rounding turns less.
+    /// That vector, or the direction across both edges: whichever rounding tilts less.
     axis: DVec3,
     /// The rounding of a product with the axis.
     slack: f64,
@@ -108,20 +123,11 @@ struct Facing {
 impl Facing {
     #[inline(always)]
     fn new(near: &Near, way: DVec3, scale: Scale) -> Self {
-        let across = near.across;
-        let turned = if across.dot(way) < 0.0 { -1.0 } else { 1.0 };
-        if across.length() * scale.size > way.length() {
-            Facing {
-                way,
-                axis: across * turned,
-                slack: LEVEL,
-            }
-        } else {
-            Facing {
-                way,
-                axis: way,
-                slack: scale.rounding(),
-            }
+        let across = near.axis(way, scale);
+        Facing {
+            way,
+            axis: across.unwrap_or(way),
+            slack: across.map_or(scale.rounding(), |_| LEVEL),
         }
     }
 
@@ -134,8 +140,8 @@ impl Facing {
         }
     }
 
-    /// Returns the face of an edge on the side of the other point; of two, the one with the larger
-    /// height of the point.
+    /// Returns the face of an edge on the side of the other point; of two, the face with the larger height of the
+    /// point.
     #[inline(always)]
     fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
         let one = |face| Some(Side::Before(face));
@@ -167,7 +173,7 @@ enum Side {
 }
 
 impl Side {
-    /// Returns X's face, and Y's feature with the point.
+    /// Returns the next pair: X's face, and Y's feature with the point.
     fn reached_by(&self, feature: Feature, point: DVec3) -> Next {
         match *self {
             Side::Before(face) => Next::To(Feature::Face(face), feature),

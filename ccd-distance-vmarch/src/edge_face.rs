@@ -24,8 +24,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let Some(side) = y.shape().sides_of(f).first() else {
         return to_nearest_side(e, &line, y, f);
     };
-    // The product by which `vertex_face` computes the fall of the corner's edges towards a face, to
-    // the bit.
+    // The same product, to the bit, as the slope of the corner's edges in `vertex_face`.
     let slope = line.along.dot(normal);
     let base = normal.dot(line.start - y.point(side.start));
     let rounding = scale.rounding();

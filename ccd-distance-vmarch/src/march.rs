@@ -10,8 +10,8 @@ use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
 /// Marches from a pair of features to the nearest one.
 ///
-/// In exact arithmetic every step leads to features that are nearer, or as near and of a lower
-/// dimension, so that no pair occurs twice. In floating point one may: [`Brent`] notices.
+/// In exact arithmetic every step leads to features that are nearer, or as near and of a lower dimension, so that no
+/// pair occurs twice. In floating point one may, which [`Brent`] detects.
 pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counters) -> End {
     let features = placed.a.shape().features() + placed.b.shape().features();
     let mut pair = start;
@@ -68,7 +68,7 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
     }
 }
 
-/// A feature of one polytope and one of the other, in the order A, B.
+/// Returns a pair of features in the order A, B.
 fn facing(whose: Whose, of_it: Feature, of_other: Feature) -> Pair {
     match whose {
         Whose::X => Pair {

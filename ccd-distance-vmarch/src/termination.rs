@@ -1,4 +1,4 @@
-//! The ends of a march, and the detection of cycles.
+//! Termination of a march, and cycle detection.
 
 use crate::feature::{Certainty, Crossing, Pair, Whose};
 
@@ -17,9 +17,8 @@ pub(crate) enum End {
     Cap(Pair),
 }
 
-/// Brent's detection of cycles.
-/// Each state is compared with a remembered one, which is replaced after 1, 2, 4, … steps. A cycle
-/// is noticed within three times the sum of its length and of the steps before it.
+/// Brent's detection of cycles. Each state is compared with a remembered one, which is replaced after 1, 2, 4, … steps.
+/// A cycle is detected within three times the sum of its length and of the steps before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Brent {
     left: Pair,

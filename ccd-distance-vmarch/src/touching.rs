@@ -1,4 +1,4 @@
-//! Axes for pieces with a common point that may only touch.
+//! Axes for pieces with a common point, which may only touch.
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, Whose};
@@ -7,10 +7,10 @@ use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
 use ccd_core::Claim;
 
-/// Makes the claim of a proven common point.
+/// Returns the claim of a proven common point.
 ///
-/// Its axis is the normal of the face that shows it. If the point is on the border of its feature,
-/// the axis is the one around that separates the pieces best: they may only touch.
+/// Its axis is the normal of the crossed face or, if the point is on the border of its features, the best separating
+/// axis nearby: the pieces may only touch.
 pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Claim {
     let claim = witness::common(placed, whose, crossing);
     let Some(pair) = border(placed, whose, crossing) else {
@@ -28,8 +28,8 @@ pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing)
     claim
 }
 
-/// Returns the features that contain a common point, unless the insides certainly meet: where an
-/// edge goes through the inside of a face, and where a point is inside a polytope.
+/// Returns the features that contain a common point; `None` if the interiors certainly meet: an edge passes through the
+/// interior of a face, or a point is inside a polytope.
 fn border(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match whose {
@@ -76,7 +76,7 @@ fn features<X: Placed, Y: Placed>(
     Some((of_x, of_y))
 }
 
-/// The edge between two corners.
+/// Returns the edge between two vertices.
 fn joining(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
     let mut spokes = shape.spokes_of(v).iter();
     let spoke = spokes.find(|spoke| spoke.to == w)?;

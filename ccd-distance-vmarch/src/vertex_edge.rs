@@ -44,8 +44,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     Next::Stop(if clear { Sure } else { Tied })
 }
 
-/// Returns the face of an edge on the side of a point, if any; of two, the one with the larger
-/// height of the point.
+/// Returns the face of an edge on the side of a point, if any; of two, the face with the larger height of the point.
 #[inline(always)]
 pub(crate) fn side_faced<Y: Placed>(
     y: &Y,
@@ -64,12 +63,12 @@ pub(crate) fn side_faced<Y: Placed>(
     }
 }
 
-/// The edge of a corner along which another edge's line comes nearer.
+/// The edge of a corner that leads nearest to another edge's line.
 struct Bent {
     edge: u32,
     /// The gain in distance, beyond rounding.
     by: f64,
-    /// True if the sign of some edge's bend towards the line is unclear.
+    /// Whether rounding hides the sign for some edge.
     tied: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Finds nearer witnesses than those of the search, in closed form.
+//! Refines the witnesses of the search in closed form.
 
 use super::minkowski::Difference;
 use super::search::Found;
@@ -36,7 +36,7 @@ struct Points {
 }
 
 impl Points {
-    /// Returns the distinct ones of the given points.
+    /// Creates the list of the first three distinct points.
     fn new(points: impl Iterator<Item = (u32, Option<DVec3>)>) -> Option<Self> {
         let mut out = Points {
             corners: [DVec3::ZERO; 3],
@@ -54,8 +54,7 @@ impl Points {
     }
 }
 
-/// Returns vertices of the difference, and weights. Their combination is that of the points on
-/// either side.
+/// Returns vertices of the difference and weights whose combination equals the points on both sides.
 fn coupled(
     difference: &Difference<'_>,
     p: &Points,

@@ -16,7 +16,7 @@ pub(crate) struct Found {
     pub(crate) square: f64,
     /// The axis with the largest support gap, of any length.
     pub(crate) axis: DVec3,
-    /// That gap, along the unit vector.
+    /// The gap along the unit vector.
     pub(crate) gap: f64,
 }
 

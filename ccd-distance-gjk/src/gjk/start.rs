@@ -1,4 +1,4 @@
-//! The first simplex: the end of the last call on the pair, or the vertex along an axis.
+//! The first simplex: that of the last call on the pair, or a support vertex.
 
 use super::minkowski::Difference;
 use super::search::Found;
@@ -6,7 +6,7 @@ use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// The end of a search, as a start for the next one on the same pair.
+/// The result of a search, as a warm start for the next one on the same pair.
 ///
 /// Its vertices are recomputed from the pieces' current positions. The end of another pair's
 /// search, or an index out of range, costs steps, not accuracy.

@@ -31,7 +31,7 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
         _ => [a, a, b, b],
     };
     if rng.random_bool(0.5) {
-        // A point inside, or as good as, becomes the origin.
+        // A point inside, up to rounding, becomes the origin.
         let inside = 0.3 * out[0] + 0.3 * out[1] + 0.2 * out[2] + 0.2 * out[3];
         let off = scene::magnitude(rng, -17.0, 0.0) * scene::vector(rng);
         out = out.map(|corner| corner - inside + off);

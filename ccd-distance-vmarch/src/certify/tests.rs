@@ -1,4 +1,4 @@
-//! Every recovery, entered on purpose.
+//! Tests of every recovery.
 
 use super::certify;
 use crate::counters::Counters;

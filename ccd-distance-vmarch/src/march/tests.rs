@@ -9,7 +9,7 @@ use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// Wherever it begins, it ends at the same distance.
+/// Every start ends at the same distance.
 #[test]
 fn every_start_leads_to_the_nearest_features() {
     let shapes = [

@@ -13,8 +13,8 @@ fn corners(tape: &mut Tape) -> [DVec3; 3] {
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// The difference of two placed corners against fractions. The rotation and the way between the origins are as
-/// they are: an error of theirs moves all corners alike.
+/// The difference of two placed vertices against exact fractions. Errors of the rotation and translation are excluded:
+/// they move all vertices alike.
 #[test]
 fn worst_placing() {
     let found = Worst::of("PLACING", 6_000).search(|tape| {
@@ -49,7 +49,7 @@ fn worst_placing() {
         });
         let off = [0, 1, 2].map(|k| (exact(way[k]) - &truth[k]).to_f64().value());
         let off = DVec3::from(off).length();
-        // Points that coincide up to rounding may be named one for the other.
+        // Points that coincide up to rounding may be swapped.
         let size = placed.scale.size;
         let apart = |p: [DVec3; 3]| [p[0] - p[1], p[1] - p[2], p[2] - p[0]].map(DVec3::length);
         let least = points.map(|p| {

@@ -199,7 +199,7 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
         0 => DMat3::IDENTITY,
         _ => quarter_turns(rng),
     };
-    // Turned so that a face of B is towards a face of A, then off that by next to nothing.
+    // Rotated so that a face of B is parallel to a face of A, up to a tiny tilt.
     if kind == Kind::NearParallel {
         if let (Some(n), Some(m)) = (normal(a, rng), normal(b, rng)) {
             let facing = DMat3::from_quat(DQuat::from_rotation_arc(m, -n));

@@ -34,7 +34,7 @@ fn stops_above(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) 
 
 #[rstest]
 #[case(DVec3::new(1.0 + f64::EPSILON, 0.0, 2.0), DVec3::new(1.0, 0.0, 1.0))]
-// Beyond two planes: on to the edge of the one violated most.
+// Beyond two planes: the march goes on to the edge of the most violated one.
 #[case(DVec3::new(3.0, 2.0, 2.0), DVec3::new(1.0, 0.0, 1.0))]
 #[case(DVec3::new(-2.0, -3.0, 2.0), DVec3::new(0.0, -1.0, 1.0))]
 #[case(DVec3::new(0.0, 5.0, -9.0), DVec3::new(0.0, 1.0, 1.0))]
