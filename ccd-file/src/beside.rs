@@ -1,11 +1,11 @@
-//! A file beside the one that it becomes.
+//! Temporary files beside their targets.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A file with a temporary name of its own; it is removed unless it is placed.
+/// A file with a unique temporary name, removed on drop unless it is placed.
 pub(crate) struct Beside {
     pub(crate) file: File,
     part: Option<PathBuf>,
@@ -13,14 +13,14 @@ pub(crate) struct Beside {
 }
 
 impl Beside {
-    /// Creates a file beside another, with a name that nothing has: threads and processes may write side by side.
+    /// Creates a file beside the target with an unused name: threads and processes may write at the same time.
     pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
             let count = COUNT.fetch_add(1, Ordering::Relaxed);
             let part = sibling(&target, &format!(".{}-{count}.part", std::process::id()));
             match File::create_new(&part) {
-                // Left behind by a process of the same number.
+                // Left behind by a process with the same id.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(naming(&part, &error)),
                 Ok(file) => {
@@ -31,7 +31,7 @@ impl Beside {
         }
     }
 
-    /// Puts the complete file in its place.
+    /// Renames the complete file to its target.
     pub(crate) fn place(mut self) -> io::Result<()> {
         if let Some(part) = &self.part {
             place(&self.file, part, &self.target)?;
@@ -44,7 +44,7 @@ impl Beside {
 impl Drop for Beside {
     fn drop(&mut self) {
         if let Some(part) = &self.part {
-            // What stays behind does no harm.
+            // A file that stays behind does no harm.
             let _ = fs::remove_file(part);
         }
     }
@@ -57,30 +57,30 @@ pub(crate) fn buffered(
 ) -> io::Result<()> {
     let mut buffer = BufWriter::new(to);
     let filled = fill(&mut buffer).and_then(|()| buffer.flush());
-    // What is left of a failed write is not written on.
+    // The rest of a failed write is dropped.
     drop(buffer.into_parts());
     filled
 }
 
-/// Gives a complete file its final name, once all of it is on the disk.
+/// Renames a complete file to its target, after it is synced to disk.
 pub(crate) fn place(file: &File, part: &Path, target: &Path) -> io::Result<()> {
     if let Ok(there) = fs::metadata(target) {
         // Some file systems have no permissions to set.
         let _ = file.set_permissions(there.permissions());
     }
-    // Some file systems find out only here that the disk is full.
+    // Some file systems report a full disk only here.
     file.sync_all()?;
     fs::rename(part, target)
 }
 
-/// Returns the path of a file in the same folder, whose name has one more ending.
+/// Returns the path with an ending appended to the file name.
 pub(crate) fn sibling(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(ending);
     path.with_file_name(name)
 }
 
-/// Names the file that an error is about, which is not the one that was asked for.
+/// Adds the path to an error about a file that the caller has not named.
 pub(crate) fn naming(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }

@@ -1,10 +1,10 @@
-//! How a body moves on a page.
+//! Motions of bodies on a page.
 
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::{Motion, Pose};
 use serde::Serialize;
 
-/// The motion of a body that is shown.
+/// The motion of a shown body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Course {
@@ -21,9 +21,9 @@ pub enum Course {
         /// The rotation at the start, by rows.
         rotation: [f64; 9],
     },
-    /// From pose to pose, in straight lines and by the keys' rotations.
+    /// From pose to pose, along straight lines, with the keys' rotations.
     Keys {
-        /// The point that moves straight, in the body's frame.
+        /// The point that moves along straight lines, in the body's frame.
         centre: [f64; 3],
         /// The poses, by increasing times.
         keys: Vec<Key>,
@@ -34,17 +34,16 @@ pub enum Course {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Key {
     time: f64,
-    /// Of the centre.
+    /// The position of the centre.
     place: [f64; 3],
-    /// By rows.
+    /// The rotation, by rows.
     rotation: [f64; 9],
-    /// The rotation vector that leads to the next key, in the world: at half a turn the poses do not tell which way.
+    /// The rotation vector to the next key, in the world frame, because the poses alone are ambiguous at half a turn.
     turn: [f64; 3],
 }
 
 impl Key {
-    /// Creates a key of a pose, with the place of the centre, from which the body turns by a rotation vector until the
-    /// next one.
+    /// Creates a key from a pose, the position of the centre, and the rotation vector to the next key.
     pub fn new(time: f64, pose: &Pose, place: DVec3, turn: DVec3) -> Self {
         Key {
             time,
@@ -69,7 +68,7 @@ impl From<&Motion> for Course {
 }
 
 impl Course {
-    /// Returns whether it goes anywhere.
+    /// Returns whether the body moves.
     pub(crate) fn moves(&self) -> bool {
         match self {
             Course::Steady { velocity, spin, .. } => velocity

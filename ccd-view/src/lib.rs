@@ -6,8 +6,8 @@
 //! | put the views on another page | [`HTML`], [`STYLE`], [`scripts`] and [`data`] |
 //! | say what is shown | [`Group`] of [`View`]s: [`ShownBody`], [`ShownContact`], [`Gap`] |
 //!
-//! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL. What
-//! it draws is in single precision, about the middle of each mesh. What it says is as it is given.
+//! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL.
+//! Meshes are drawn in single precision, relative to their centres. Texts and numbers are shown as given.
 //!
 //! # Example
 //! ```
