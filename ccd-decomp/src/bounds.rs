@@ -14,7 +14,7 @@ pub(crate) struct Bounds {
 
 impl Bounds {
     /// Returns the bounding box of some points.
-    pub(crate) fn of(points: impl IntoIterator<Item = DVec3>) -> Self {
+    pub(crate) fn enclosing(points: impl IntoIterator<Item = DVec3>) -> Self {
         let empty = Bounds {
             lo: DVec3::INFINITY,
             hi: DVec3::NEG_INFINITY,

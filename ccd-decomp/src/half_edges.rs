@@ -39,7 +39,7 @@ impl Use {
 impl Edges {
     /// Finds all edges, except from a vertex to itself. Linear in the number of triangles, if few edges meet at each
     /// vertex.
-    pub(crate) fn of(triangles: &[[u32; 3]]) -> Self {
+    pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
         let last = triangles.iter().flatten().max();
         let range = last.map_or(0, |&last| last as usize + 1);
         // A table of all vertices must not dwarf the triangles.
@@ -151,7 +151,7 @@ impl<'e> Iterator for EdgesIter<'e> {
 
 /// Returns the [twin](Edges::twins) of every half-edge.
 pub(crate) fn twins(triangles: &[[u32; 3]]) -> Option<Vec<HalfEdge>> {
-    Edges::of(triangles).twins(triangles.len())
+    Edges::new(triangles).twins(triangles.len())
 }
 
 #[cfg(test)]

@@ -122,9 +122,9 @@ fn hull_by(
     if let Some(point) = out_of_range.or_else(|| predicates::too_fine(points)) {
         return Err(HullError::OutOfRange(point as u32));
     }
-    let cloud = DistinctPoints::of(points);
+    let cloud = DistinctPoints::new(points);
     let name = |k: usize| cloud.ids[k];
-    let found = match Span::of(&cloud.points) {
+    let found = match Span::new(&cloud.points) {
         Span::Nothing => Err(HullError::Empty),
         Span::Point(a) => Err(HullError::Single(name(a))),
         Span::Line(a, b) => Err(HullError::Collinear(name(a), name(b))),
@@ -175,7 +175,7 @@ struct DistinctPoints {
 }
 
 impl DistinctPoints {
-    fn of(points: &[DVec3]) -> Self {
+    fn new(points: &[DVec3]) -> Self {
         let at = |k: u32| points[k as usize];
         let mut ids: Vec<u32> = (0..points.len() as u32).collect();
         ids.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));

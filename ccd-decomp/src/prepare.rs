@@ -95,7 +95,7 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
     // Both take equally long, and the hierarchy is nearly always needed.
     let (choice, triangles) = rayon::join(
-        || Choice::of(mesh, detail),
+        || Choice::new(mesh, detail),
         || {
             detail
                 .may_need_triangles()
@@ -116,8 +116,8 @@ impl Detail {
 }
 
 impl Choice {
-    fn of(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
-        let edges = Edges::of(&mesh.welded_faces());
+    fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
+        let edges = Edges::new(&mesh.welded_faces());
         let (topology, turned) = Topology::by_edges(mesh, &edges);
         // A mesh with reversed shells has other half-edges.
         let edges = turned.is_none().then_some(edges);

@@ -11,11 +11,11 @@ pub(crate) struct Work {
 impl Work {
     /// A budget without a limit.
     pub(crate) fn unbounded() -> Self {
-        Work::of(u64::MAX)
+        Work::with_steps(u64::MAX)
     }
 
     /// A budget of a number of steps.
-    pub(crate) fn of(steps: u64) -> Self {
+    pub(crate) fn with_steps(steps: u64) -> Self {
         Work {
             left: Cell::new(steps),
         }

@@ -71,7 +71,7 @@ fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
 /// also tried: the normals of adjacent faces, cross products of edges, the vector across each edge; and for coplanar or
 /// collinear features, directions within the plane or line.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
-    let (distance, way) = (witness.distance(), witness.way());
+    let (distance, offset) = (witness.distance(), witness.offset());
     let mut best = Axis::along(placed, witness.axis);
     if best.certifies(distance, placed) {
         return best;
@@ -88,13 +88,13 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
             }
         }
     };
-    let around_a = Around::new(&placed.a, pair.a, way);
-    let around_b = Around::new(&placed.b, pair.b, way);
+    let around_a = Around::new(&placed.a, pair.a, offset);
+    let around_b = Around::new(&placed.b, pair.b, offset);
     for around in [&around_a, &around_b] {
         around.normals.iter().copied().for_each(&mut offer);
         around.within.iter().copied().for_each(&mut offer);
         for &edge in &around.edges {
-            offer(across(way, edge));
+            offer(across(offset, edge));
             offer(edge);
         }
     }
@@ -115,14 +115,14 @@ struct Around {
 }
 
 impl Around {
-    fn new<P: Placed>(polytope: &P, feature: Feature, way: DVec3) -> Self {
+    fn new<P: Placed>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
         let shape: &Polytope = polytope.shape();
         let mut edges: Vec<u32> = match feature {
             Feature::Vertex(v) => shape.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
             Feature::Edge(e) => vec![e],
             Feature::Face(_) => Vec::new(),
         };
-        let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(way).abs();
+        let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(offset).abs();
         edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
         edges.truncate(AXIS_EDGES);
         let mut faces: Vec<u32> = match feature {

@@ -2,7 +2,7 @@
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
-use crate::feature::{Certainty, Next, Pair, Whose};
+use crate::feature::{Certainty, Next, Pair, Which};
 use crate::march::{march, step};
 use crate::neighbourhood;
 use crate::penetration;
@@ -70,9 +70,9 @@ enum Finding {
 fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Finding {
     match end {
         End::Nearest(pair, certainty) => examine_stop(placed, pair, certainty),
-        End::Common(pair, whose, crossing) => {
+        End::Common(pair, which, crossing) => {
             counters.penetrations += 1;
-            let claim = touching::common(placed, whose, &crossing);
+            let claim = touching::common(placed, which, &crossing);
             Finding::Certified(Certified { pair, claim })
         }
         End::Unclear(pair) => match search_common_point(placed, pair, counters) {
@@ -85,7 +85,7 @@ fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Findin
 
 /// Certifies a stop if necessary.
 fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
-    let witness = Witness::of(placed, pair);
+    let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
         return certified(placed, pair, &witness, witness.axis);
     }
@@ -95,13 +95,13 @@ fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Fi
 /// Certifies the best pair of a cycle.
 fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let (mut pair, mut nearest) = (start, start);
-    let mut least = Witness::of(placed, start).distance();
+    let mut least = Witness::new(placed, start).distance();
     for _ in 0..CYCLE_LOOK {
         match step(placed, pair) {
             Next::To(a, b) => pair = Pair { a, b },
             _ => break,
         }
-        let distance = Witness::of(placed, pair).distance();
+        let distance = Witness::new(placed, pair).distance();
         if distance < least {
             (nearest, least) = (pair, distance);
         }
@@ -116,7 +116,7 @@ fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
 fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let mut pair = start;
     for _ in 0..ROUNDS {
-        let witness = Witness::of(placed, pair);
+        let witness = Witness::new(placed, pair);
         let distance = witness.distance();
         let axis = best_axis(placed, pair, &witness);
         if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
@@ -149,12 +149,12 @@ fn search_common_point(
     counters: &mut Counters,
 ) -> Option<Certified> {
     let PlacedPair { a, b, scale } = placed;
-    let of = |whose| move |crossing| (whose, crossing);
-    let found = penetration::searched(a, b, *scale).map(of(Whose::X));
-    let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Whose::Y)));
-    let (whose, crossing) = found?;
+    let of = |which| move |crossing| (which, crossing);
+    let found = penetration::searched(a, b, *scale).map(of(Which::X));
+    let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Which::Y)));
+    let (which, crossing) = found?;
     counters.penetrations += 1;
-    let claim = touching::common(placed, whose, &crossing);
+    let claim = touching::common(placed, which, &crossing);
     Some(Certified { pair, claim })
 }
 

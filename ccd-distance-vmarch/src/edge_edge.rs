@@ -2,7 +2,7 @@
 
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Behind, Feature, Next, Whose};
+use crate::feature::{Behind, Feature, Next, Which};
 use crate::placed::{Line, Placed, Scale, clamped};
 use crate::polytope::Edge;
 use crate::tolerance::{LEVEL, PARALLEL};
@@ -28,11 +28,11 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
         [None, None] => {}
     }
     let points = [one.at(near.parameters[0]), other.at(near.parameters[1])];
-    let way = points[1] - points[0];
-    if way.length() <= scale.rounding() {
+    let offset = points[1] - points[0];
+    if offset.length() <= scale.rounding() {
         return Next::Stop(Tied);
     }
-    let facing = Facing::new(&near, way, scale);
+    let facing = Facing::new(&near, offset, scale);
     let slope_x = x.inward(edge_x, facing.axis);
     if let Some(side) = facing.side(x, edge_x, slope_x) {
         return side.reached_by(Feature::Edge(f), points[1]);
@@ -56,17 +56,17 @@ pub(crate) struct Near {
 }
 
 impl Near {
-    /// Returns the cross product, towards `way`, if rounding turns it less than `way`: by its own rounding over the
+    /// Returns the cross product, towards `offset`, if rounding turns it less than `offset`: by its own rounding over the
     /// sine, against that of the positions over the distance.
     #[inline(always)]
-    pub(crate) fn axis(&self, way: DVec3, scale: Scale) -> Option<DVec3> {
+    pub(crate) fn axis(&self, offset: DVec3, scale: Scale) -> Option<DVec3> {
         // Written so that NaN does not turn it.
-        let turned = if self.across.dot(way) < 0.0 {
+        let turned = if self.across.dot(offset) < 0.0 {
             -1.0
         } else {
             1.0
         };
-        (self.across.length() * scale.size > way.length()).then_some(self.across * turned)
+        (self.across.length() * scale.size > offset.length()).then_some(self.across * turned)
     }
 }
 
@@ -113,7 +113,7 @@ pub(crate) fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
 /// The vector from one edge's nearest point to the other's, and the axis between the edges.
 #[derive(Clone, Copy)]
 struct Facing {
-    way: DVec3,
+    offset: DVec3,
     /// That vector, or the direction across both edges: whichever rounding tilts less.
     axis: DVec3,
     /// The rounding of a product with the axis.
@@ -122,11 +122,11 @@ struct Facing {
 
 impl Facing {
     #[inline(always)]
-    fn new(near: &Near, way: DVec3, scale: Scale) -> Self {
-        let across = near.axis(way, scale);
+    fn new(near: &Near, offset: DVec3, scale: Scale) -> Self {
+        let across = near.axis(offset, scale);
         Facing {
-            way,
-            axis: across.unwrap_or(way),
+            offset,
+            axis: across.unwrap_or(offset),
             slack: across.map_or(scale.rounding(), |_| LEVEL),
         }
     }
@@ -134,7 +134,7 @@ impl Facing {
     #[inline(always)]
     fn reversed(self) -> Self {
         Facing {
-            way: -self.way,
+            offset: -self.offset,
             axis: -self.axis,
             ..self
         }
@@ -151,7 +151,7 @@ impl Facing {
             [false, true] => one(edge.faces[1]),
             [true, true] => {
                 let normal = |f| p.vector(p.shape().face(f).normal);
-                let height = edge.faces.map(|f| normal(f).dot(self.way));
+                let height = edge.faces.map(|f| normal(f).dot(self.offset));
                 let higher = usize::from(height[1] > height[0]);
                 let face = edge.faces[higher];
                 if height[higher] > 0.0 {
@@ -178,7 +178,7 @@ impl Side {
         match *self {
             Side::Before(face) => Next::To(Feature::Face(face), feature),
             Side::Behind(face) => Next::Behind(
-                Whose::Y,
+                Which::Y,
                 Behind {
                     feature,
                     point,

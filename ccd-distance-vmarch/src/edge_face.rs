@@ -2,7 +2,7 @@
 
 use crate::clip::{self, Clipped};
 use crate::edge_edge;
-use crate::feature::{Behind, Feature, Next, Whose};
+use crate::feature::{Behind, Feature, Next, Which};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
@@ -33,7 +33,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let height = |parameter: f64| base + slope * parameter;
     if height(high.parameter) < -rounding {
         return Next::Behind(
-            Whose::X,
+            Which::X,
             Behind {
                 feature: Feature::Edge(e),
                 point: line.at(high.parameter),
@@ -43,7 +43,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     }
     if height(low.parameter) < rounding {
         if let Some(crossing) = penetration::pierced(x, e, y, f) {
-            return Next::Pierced(Whose::X, crossing);
+            return Next::Pierced(Which::X, crossing);
         }
         if height(low.parameter) < -rounding {
             return to_nearest_side(e, &line, y, f);

@@ -26,14 +26,14 @@ pub(crate) enum Next {
     Stop(Certainty),
     /// A feature of one polytope is behind a face of the other: a local minimum, which needs an
     /// [escape](crate::escape) over all faces.
-    Behind(Whose, Behind),
+    Behind(Which, Behind),
     /// An edge of one polytope goes through a face of the other.
-    Pierced(Whose, Crossing),
+    Pierced(Which, Crossing),
 }
 
 /// One of the two polytopes X and Y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Whose {
+pub(crate) enum Which {
     X,
     Y,
 }
@@ -45,18 +45,18 @@ impl Next {
         match self {
             Next::To(x, y) => Next::To(y, x),
             Next::Stop(certainty) => Next::Stop(certainty),
-            Next::Behind(whose, behind) => Next::Behind(whose.other(), behind),
-            Next::Pierced(whose, crossing) => Next::Pierced(whose.other(), crossing),
+            Next::Behind(which, behind) => Next::Behind(which.other(), behind),
+            Next::Pierced(which, crossing) => Next::Pierced(which.other(), crossing),
         }
     }
 }
 
-impl Whose {
+impl Which {
     #[inline(always)]
-    fn other(self) -> Whose {
+    fn other(self) -> Which {
         match self {
-            Whose::X => Whose::Y,
-            Whose::Y => Whose::X,
+            Which::X => Which::Y,
+            Which::Y => Which::X,
         }
     }
 }

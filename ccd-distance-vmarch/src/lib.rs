@@ -99,7 +99,7 @@
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,
-    reason = "comparisons are written so that NaN takes the way out"
+    reason = "comparisons are written so that NaN takes the offset out"
 )]
 
 mod certificate;

@@ -78,7 +78,7 @@ impl DistanceOracle for Vmarch {
         let placed = PlacedPair::new(a, b, &pair.b_to_a);
         let end = march(&placed, cache.start(&placed), &mut self.counters);
         if let End::Nearest(nearest, Certainty::Sure) = end {
-            let claim = Witness::of(&placed, nearest).claim(&placed);
+            let claim = Witness::new(&placed, nearest).claim(&placed);
             cache.keep(&placed, nearest, claim.axis);
             return Ok(claim);
         }

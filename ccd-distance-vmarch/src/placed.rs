@@ -35,8 +35,8 @@ pub(crate) trait Placed {
 
     /// Returns the components of a vector into either of the faces that meet in an edge.
     #[inline(always)]
-    fn inward(&self, edge: &Edge, way: DVec3) -> [f64; 2] {
-        edge.inward.map(|inward| self.vector(inward).dot(way))
+    fn inward(&self, edge: &Edge, offset: DVec3) -> [f64; 2] {
+        edge.inward.map(|inward| self.vector(inward).dot(offset))
     }
 }
 

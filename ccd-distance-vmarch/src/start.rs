@@ -17,7 +17,7 @@ pub struct Cache(Option<Last>);
 struct Last {
     pair: Pair,
     /// Fingerprints of both polytopes.
-    names: [u64; 2],
+    fingerprints: [u64; 2],
     axis: DVec3,
 }
 
@@ -27,7 +27,7 @@ impl Cache {
     pub(crate) fn keep(&mut self, placed: &PlacedPair<'_>, pair: Pair, axis: DVec3) {
         self.0 = Some(Last {
             pair,
-            names: names(placed),
+            fingerprints: fingerprints(placed),
             axis,
         });
     }
@@ -39,26 +39,26 @@ impl Cache {
         let Some(last) = self.0 else {
             return extremal(placed, placed.b.origin());
         };
-        let names = names(placed);
-        if names == last.names && is_state(placed, last.pair) {
+        let fingerprints = fingerprints(placed);
+        if fingerprints == last.fingerprints && is_state(placed, last.pair) {
             return last.pair;
         }
         let corners = extremal(placed, last.axis);
         // The last feature of an unchanged polytope is nearer than an extremal vertex.
-        let kept = Pair {
-            a: if names[0] == last.names[0] {
+        let reused = Pair {
+            a: if fingerprints[0] == last.fingerprints[0] {
                 last.pair.a
             } else {
                 corners.a
             },
-            b: if names[1] == last.names[1] {
+            b: if fingerprints[1] == last.fingerprints[1] {
                 last.pair.b
             } else {
                 corners.b
             },
         };
-        if is_state(placed, kept) {
-            kept
+        if is_state(placed, reused) {
+            reused
         } else {
             corners
         }
@@ -67,15 +67,15 @@ impl Cache {
 
 /// Returns fingerprints of both polytopes.
 #[inline]
-fn names(placed: &PlacedPair<'_>) -> [u64; 2] {
-    let name = |polytope: &Polytope| {
+fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
+    let fingerprint = |polytope: &Polytope| {
         let DVec3 { x, y, z } = polytope.origin;
         let coordinates = [polytope.reach, x, y, z].map(f64::to_bits);
-        coordinates
-            .into_iter()
-            .fold(0, |name: u64, bits| name.rotate_left(16) ^ bits)
+        coordinates.into_iter().fold(0, |fingerprint: u64, bits| {
+            fingerprint.rotate_left(16) ^ bits
+        })
     };
-    [name(placed.a.shape()), name(placed.b.shape())]
+    [fingerprint(placed.a.shape()), fingerprint(placed.b.shape())]
 }
 
 /// Returns whether a march can begin at a pair: never at two faces.

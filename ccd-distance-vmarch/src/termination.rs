@@ -1,6 +1,6 @@
 //! Termination of a march, and cycle detection.
 
-use crate::feature::{Certainty, Crossing, Pair, Whose};
+use crate::feature::{Certainty, Crossing, Pair, Which};
 
 /// The end of a march.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +8,7 @@ pub(crate) enum End {
     /// Nearest features.
     Nearest(Pair, Certainty),
     /// A common point of A's and B's features, with the polytope of the edge.
-    Common(Pair, Whose, Crossing),
+    Common(Pair, Which, Crossing),
     /// A pair that occurred before.
     Cycle(Pair),
     /// A pair behind all faces, without a proven common point.

@@ -1,7 +1,7 @@
 //! The nearest points of a pair of features, clamped to the features, and the axis between them.
 
 use crate::edge_edge;
-use crate::feature::{Corners, Crossing, Feature, Pair, Whose};
+use crate::feature::{Corners, Crossing, Feature, Pair, Which};
 use crate::placed::{Line, Placed, PlacedPair, Scale, clamped};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
@@ -21,7 +21,7 @@ impl Witness {
     /// Computes the nearest points of a pair at which a march may stop. A march never stops at a face with an edge or a
     /// face; for these, two vertices are used.
     #[inline]
-    pub(crate) fn of(placed: &PlacedPair<'_>, pair: Pair) -> Self {
+    pub(crate) fn new(placed: &PlacedPair<'_>, pair: Pair) -> Self {
         let PlacedPair { a, b, scale } = placed;
         match (pair.a, pair.b) {
             (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex(a, v, b, w),
@@ -34,12 +34,12 @@ impl Witness {
         }
     }
 
-    pub(crate) fn way(&self) -> DVec3 {
+    pub(crate) fn offset(&self) -> DVec3 {
         self.points[1] - self.points[0]
     }
 
     pub(crate) fn distance(&self) -> f64 {
-        self.way().length()
+        self.offset().length()
     }
 
     #[inline]
@@ -63,17 +63,17 @@ impl Witness {
 }
 
 /// Returns the claim of a proven common point, along the normal of the crossed face.
-pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Claim {
+pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
     let on_edge = |shape| named(shape, &crossing.on_edge);
     let on_face = |shape| named(shape, &crossing.on_face);
-    match whose {
-        Whose::X => Claim {
+    match which {
+        Which::X => Claim {
             axis: -b.vector(b.shape().face(crossing.face).normal),
             a: on_edge(a.shape()),
             b: on_face(b.shape()),
         },
-        Whose::Y => Claim {
+        Which::Y => Claim {
             axis: a.shape().face(crossing.face).normal,
             a: on_face(a.shape()),
             b: on_edge(b.shape()),
@@ -96,11 +96,11 @@ fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
     let (point, line) = (x.vertex(v), y.line(e));
     let parameter = line.nearest(point);
     let foot = line.at(parameter);
-    let way = foot - point;
+    let offset = foot - point;
     Witness {
         points: [point, foot],
         spots: [corner(v), on_edge(y, e, parameter)],
-        axis: across(way, line.along),
+        axis: across(offset, line.along),
     }
 }
 
@@ -110,8 +110,8 @@ fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     let near = edge_edge::nearest(&one, &other);
     let [s, t] = near.parameters;
     let points = [one.at(s), other.at(t)];
-    let way = points[1] - points[0];
-    let axis = near.axis(way, scale).unwrap_or(way);
+    let offset = points[1] - points[0];
+    let axis = near.axis(offset, scale).unwrap_or(offset);
     // The part along the edges, which would cost their length, is removed.
     let axis = across(across(axis, one.along), other.along);
     Witness {
@@ -135,8 +135,8 @@ fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
 
 /// Returns the component of a vector perpendicular to a direction.
 #[inline]
-pub(crate) fn across(way: DVec3, along: DVec3) -> DVec3 {
-    way - along * way.dot(along)
+pub(crate) fn across(offset: DVec3, along: DVec3) -> DVec3 {
+    offset - along * offset.dot(along)
 }
 
 #[inline]

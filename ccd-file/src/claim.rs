@@ -1,6 +1,6 @@
 //! Files that only one process writes at a time.
 
-use crate::beside::{buffered, naming, place, sibling};
+use crate::temp_file::{buffered, naming, place, sibling};
 use same_file::Handle;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};

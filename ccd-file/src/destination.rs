@@ -21,7 +21,7 @@ impl Destination {
     ///
     /// # Errors
     /// The path is a folder, a read-only file, or in a folder that does not exist.
-    pub fn of(path: &Path) -> io::Result<Self> {
+    pub fn resolve(path: &Path) -> io::Result<Self> {
         match fs::metadata(path) {
             Ok(there) if there.is_dir() => {
                 let problem = "it is a folder; give a file name";

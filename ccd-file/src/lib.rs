@@ -11,16 +11,16 @@
 //! unchanged: an error, a full disk or a killed process loses nothing. A new file has the permissions of the file that
 //! it replaces. Links are followed: their targets are replaced.
 
-mod beside;
 mod claim;
 mod destination;
+mod temp_file;
 
 pub use claim::{Claim, PARTIAL};
 pub use destination::{Destination, check_folder, end_of_links};
 
-use beside::{Beside, buffered};
 use std::io::{self, Write};
 use std::path::Path;
+use temp_file::{TempFile, buffered};
 
 /// Writes a file atomically: to a temporary file, which is then renamed.
 ///
@@ -44,11 +44,11 @@ pub fn write(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let path = path.as_ref();
-    match Destination::of(path)? {
+    match Destination::resolve(path)? {
         Destination::File(target) => {
-            let mut beside = Beside::new(target)?;
-            buffered(&mut beside.file, fill)?;
-            beside.place()
+            let mut temporary = TempFile::new(target)?;
+            buffered(&mut temporary.file, fill)?;
+            temporary.place()
         }
         Destination::Stream => buffered(destination::open_stream(path)?, fill),
     }

@@ -66,7 +66,7 @@ fn a_write_that_fails_leaves_the_older_file() {
 fn a_claimed_file_is_given_to_one() {
     let folder = Folder::new("claimed");
     let target = folder.path("table");
-    let claim = |path: PathBuf| match Destination::of(&path)? {
+    let claim = |path: PathBuf| match Destination::resolve(&path)? {
         Destination::File(target) => Claim::new(target),
         Destination::Stream => panic!("it is a file"),
     };

@@ -21,19 +21,19 @@
 //! let slides = Motion::STILL;
 //! let view = View {
 //!     bodies: vec![ShownBody::new("A", triangle, "#3a9d6e", &slides)],
-//!     ..View::of("at rest", "Nothing moves.", 1.0)
+//!     ..View::new("at rest", "Nothing moves.", 1.0)
 //! };
 //! let page = Page { title: "A triangle", meshes, groups: vec![Group { name: String::new(), views: vec![view] }] };
 //! assert!(page.html()?.contains("Nothing moves."));
 //! # Ok::<(), ccd_view::PageError>(())
 //! ```
 
-mod course;
 mod mesh;
 mod page;
+mod shown_motion;
 mod view;
 
-pub use course::{Course, Key};
 pub use mesh::{DrawnMesh, Meshes};
 pub use page::{HTML, Page, PageError, STYLE, data, escape, filled, json, scripts, stage_scripts};
+pub use shown_motion::{Key, ShownMotion};
 pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};

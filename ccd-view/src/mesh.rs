@@ -32,7 +32,7 @@ struct Stored {
 impl Meshes {
     /// Adds a mesh, and returns its number.
     pub fn add(&mut self, mesh: &DrawnMesh) -> usize {
-        let stored = Stored::of(mesh);
+        let stored = Stored::new(mesh);
         let known = self.0.iter().position(|known| *known == stored);
         known.unwrap_or_else(|| {
             self.0.push(stored);
@@ -53,7 +53,7 @@ impl Meshes {
 }
 
 impl Stored {
-    fn of(mesh: &DrawnMesh) -> Self {
+    fn new(mesh: &DrawnMesh) -> Self {
         let mut vertices = mesh.vertices.iter();
         let first = vertices.next().copied().unwrap_or(DVec3::ZERO);
         let (low, high) =

@@ -1,6 +1,6 @@
 //! The content of a page.
 
-use crate::Course;
+use crate::ShownMotion;
 use ccd_core::glam::DVec3;
 use serde::Serialize;
 
@@ -48,7 +48,7 @@ pub struct ShownBody {
     /// The colour, in CSS.
     pub color: String,
     /// The motion.
-    pub motion: Course,
+    pub motion: ShownMotion,
     moves: bool,
 }
 
@@ -91,7 +91,7 @@ pub struct ShownContact {
 
 impl View {
     /// Creates a view without bodies.
-    pub fn of(name: &str, verdict: &str, duration: f64) -> Self {
+    pub fn new(name: &str, verdict: &str, duration: f64) -> Self {
         View {
             name: name.to_owned(),
             verdict: verdict.to_owned(),
@@ -109,7 +109,7 @@ impl View {
 
 impl ShownBody {
     /// Creates a body.
-    pub fn new(name: &str, mesh: usize, color: &str, motion: impl Into<Course>) -> Self {
+    pub fn new(name: &str, mesh: usize, color: &str, motion: impl Into<ShownMotion>) -> Self {
         let motion = motion.into();
         ShownBody {
             name: name.to_owned(),

@@ -1,7 +1,7 @@
 //! The interface that the page calls.
 #![allow(unreachable_pub, reason = "JavaScript reaches it")]
 
-use crate::{Found, Part, Throw};
+use crate::{Outcome, Part, Throw};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// A part.
@@ -10,9 +10,9 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 pub struct BrowserPart(Part);
 
 /// The certified result of a throw.
-#[wasm_bindgen(js_name = Found)]
+#[wasm_bindgen(js_name = Outcome)]
 #[derive(Debug)]
-pub struct BrowserFound(Found);
+pub struct BrowserOutcome(Outcome);
 
 #[wasm_bindgen(js_class = Part)]
 impl BrowserPart {
@@ -42,8 +42,8 @@ impl BrowserPart {
     }
 }
 
-#[wasm_bindgen(js_class = Found)]
-impl BrowserFound {
+#[wasm_bindgen(js_class = Outcome)]
+impl BrowserOutcome {
     /// Returns the verdict's name.
     #[wasm_bindgen(getter)]
     pub fn verdict(&self) -> String {
@@ -79,8 +79,8 @@ pub fn first_contact(
     part: &BrowserPart,
     target: &BrowserPart,
     throw: &[f64],
-) -> Result<BrowserFound, JsError> {
-    Ok(BrowserFound(
+) -> Result<BrowserOutcome, JsError> {
+    Ok(BrowserOutcome(
         thrown(throw)?.first_contact(&part.0, &target.0)?,
     ))
 }

@@ -28,4 +28,4 @@ mod shapes;
 mod throw;
 
 pub use part::{Part, WebError};
-pub use throw::{Found, Throw, Verdict};
+pub use throw::{Outcome, Throw, Verdict};

@@ -17,7 +17,7 @@ pub struct Throw {
 
 /// The certified result of a throw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct Outcome {
     /// The verdict.
     pub verdict: Verdict,
     /// The time before which nothing touches.
@@ -54,7 +54,7 @@ impl Throw {
     ///
     /// # Errors
     /// [`WebError`] for numbers out of range.
-    pub fn first_contact(&self, part: &Part, target: &Part) -> Result<Found, WebError> {
+    pub fn first_contact(&self, part: &Part, target: &Part) -> Result<Outcome, WebError> {
         ask(part, self.motion()?, target, Throw::DURATION)
     }
 
@@ -81,7 +81,7 @@ impl Throw {
     }
 }
 
-fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Found, WebError> {
+fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Outcome, WebError> {
     let mut solver = Solver::new().with_config(Config {
         tolerance: Throw::TOLERANCE,
         ..Config::default()
@@ -92,12 +92,12 @@ fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Foun
         duration,
     );
     Ok(match answer {
-        Ok(None) => Found {
+        Ok(None) => Outcome {
             verdict: Verdict::Free,
             time: duration,
             hit: None,
         },
-        Ok(Some(hit)) => Found {
+        Ok(Some(hit)) => Outcome {
             verdict: match hit.kind {
                 HitKind::Contact => Verdict::Contact,
                 HitKind::Touching => Verdict::Touching,
@@ -106,7 +106,7 @@ fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Foun
             time: hit.time,
             hit: Some(hit),
         },
-        Err(Error::Unresolved { safe_until, .. }) => Found {
+        Err(Error::Unresolved { safe_until, .. }) => Outcome {
             verdict: Verdict::Unresolved,
             time: safe_until,
             hit: None,

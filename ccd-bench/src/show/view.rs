@@ -111,7 +111,7 @@ fn shown(shot: &Shot, meshes: [usize; 2]) -> ccd_view::View {
         },
         gap: shot.gap.as_ref().map(|found| found.gap.clone()),
         contacts: contact.into_iter().collect(),
-        ..ccd_view::View::of(&shot.name, &shot.status, query.duration)
+        ..ccd_view::View::new(&shot.name, &shot.status, query.duration)
     }
 }
 

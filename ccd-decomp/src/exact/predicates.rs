@@ -28,7 +28,7 @@ pub(crate) struct Projection {
 
 impl Projection {
     /// Returns a projection; `None` if the triangle is degenerate.
-    pub(crate) fn of(triangle: [DVec3; 3]) -> Option<Self> {
+    pub(crate) fn new(triangle: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = triangle;
         (0..3).find_map(|axis| match turn_along(axis, [a, b], c) {
             Ordering::Equal => None,

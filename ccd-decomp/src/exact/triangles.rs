@@ -44,7 +44,7 @@ fn folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
     let (Some(k), Some(l)) = (far(0), far(1)) else {
         return true;
     };
-    let Some(projection) = Projection::of(one) else {
+    let Some(projection) = Projection::new(one) else {
         return true;
     };
     side(one, other[l]) == Ordering::Equal
@@ -67,7 +67,7 @@ fn meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
 
 /// Returns whether a segment in the triangle's plane meets the triangle; touching counts.
 fn meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
-    let Some(projection) = Projection::of(triangle) else {
+    let Some(projection) = Projection::new(triangle) else {
         return true;
     };
     let outside = |k: usize| {

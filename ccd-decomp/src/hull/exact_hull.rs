@@ -51,7 +51,7 @@ impl ExactHull {
     }
 
     /// Computes the hull of all points; `None` if they are coplanar. O(n log n).
-    pub(crate) fn of(points: &[DVec3]) -> Option<Self> {
+    pub(crate) fn new(points: &[DVec3]) -> Option<Self> {
         ExactHull::facets_of(points).map(ExactHull::with_facets)
     }
 
@@ -117,7 +117,7 @@ impl ExactHull {
         let removed = self.facets.iter().zip(&growth.seen);
         let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
         let corners = removed.chain(&growth.fan).flatten();
-        Bounds::of(corners.map(|&v| points[v as usize]))
+        Bounds::enclosing(corners.map(|&v| points[v as usize]))
     }
 
     /// Applies a change.

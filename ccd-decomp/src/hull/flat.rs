@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 /// chain).
 pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
     let at = |k: u32| points[k as usize];
-    let Some(projection) = Projection::of(triangle.map(|k| points[k])) else {
+    let Some(projection) = Projection::new(triangle.map(|k| points[k])) else {
         return Loops::default();
     };
     let mut order: Vec<u32> = (0..points.len() as u32).collect();

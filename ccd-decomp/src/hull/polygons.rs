@@ -60,7 +60,7 @@ fn for_each_polygon(
     for (&start, &end) in starts.zip(&ends) {
         let group = &members[start as usize..end as usize];
         let first = triangles[members[start as usize] as usize];
-        let Some(plane) = Projection::of(first.map(|v| points[v as usize])) else {
+        let Some(plane) = Projection::new(first.map(|v| points[v as usize])) else {
             continue;
         };
         match group {
@@ -217,7 +217,7 @@ impl<'a> Surface<'a> {
         let beyond = self.triangles[next].map(|v| self.points[v as usize]);
         let far = beyond[(l + 2) % 3];
         side(corners, far) == Ordering::Equal
-            && Projection::of(corners).is_some_and(|plane| {
+            && Projection::new(corners).is_some_and(|plane| {
                 plane.turn(beyond[l], beyond[(l + 1) % 3], far) == Ordering::Greater
             })
     }

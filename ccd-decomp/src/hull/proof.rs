@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Refutation {
     /// The polygon of this index is not flat and strictly convex.
-    Bent(usize),
+    NotConvex(usize),
     /// This edge does not have one polygon on each side, each behind the other's plane.
     Edge(u32, u32),
     /// These points are in front of a polygon, in ascending order.
@@ -50,7 +50,7 @@ pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutati
 /// [`prove`] would examine.
 pub(super) fn prove_convex(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
-        return Err(Refutation::Bent(bent));
+        return Err(Refutation::NotConvex(bent));
     }
     if let Some((v, w)) = unmatched_edge(points, &polygons) {
         return Err(Refutation::Edge(v, w));
@@ -66,7 +66,7 @@ fn is_convex(points: &[DVec3], corners: &[u32]) -> bool {
         return false;
     }
     let plane = plane(points, corners);
-    let Some(projection) = Projection::of(plane) else {
+    let Some(projection) = Projection::new(plane) else {
         return false;
     };
     if n == 3 {

@@ -17,7 +17,7 @@ pub(super) enum Span {
 
 impl Span {
     /// Computes the span of points at different places. O(n).
-    pub(super) fn of(points: &[DVec3]) -> Self {
+    pub(super) fn new(points: &[DVec3]) -> Self {
         let at = |k: usize| points[k];
         let by_order = |&v: &usize, &w: &usize| lexicographic(at(v), at(w));
         let first = (0..points.len()).min_by(by_order);

@@ -108,7 +108,7 @@ impl TriangleMesh {
     /// ```
     pub fn bounding_box(&self) -> [DVec3; 2] {
         let corners = self.faces.iter().flatten();
-        let Bounds { lo, hi } = Bounds::of(corners.map(|&v| self.vertices[v as usize]));
+        let Bounds { lo, hi } = Bounds::enclosing(corners.map(|&v| self.vertices[v as usize]));
         [lo, hi]
     }
 }

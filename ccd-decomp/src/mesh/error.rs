@@ -53,7 +53,7 @@ pub enum MeshFault {
     },
     /// A file that the mesh refers to cannot be read.
     #[error("refers to the file {name:?}, which cannot be read: {reason}")]
-    Beside {
+    LinkedFile {
         /// The file name in the mesh.
         name: String,
         /// The reason, and the remedy.

@@ -58,7 +58,7 @@ pub enum Format {
 }
 
 /// The content of the files that a mesh refers to, by name.
-pub(crate) type Beside = BTreeMap<String, Vec<u8>>;
+pub(crate) type LinkedFiles = BTreeMap<String, Vec<u8>>;
 
 /// A file that a mesh refers to.
 #[derive(Debug, PartialEq, Eq)]
@@ -104,8 +104,8 @@ impl Format {
         }
     }
 
-    /// Parses a file's content. `beside` holds the files that it refers to.
-    pub(crate) fn parse(self, bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
+    /// Parses a file's content. `linked` holds the files that it refers to.
+    pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
         let unmarked = text::decoded(bytes);
         if is_lfs_pointer(&unmarked) {
             return Err(MeshFault::LfsPointer);
@@ -119,7 +119,7 @@ impl Format {
             Format::Ply => ply::parse(&unmarked).map(Content::from),
             Format::Off => off::parse(&text::plain(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
-            Format::Gltf => gltf::parse(&unmarked, beside),
+            Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]
             Format::Gltf => Err(not_built(beside, "glTF", "gltf")),
             #[cfg(feature = "3mf")]
@@ -136,7 +136,7 @@ fn is_step(bytes: &[u8]) -> bool {
 }
 
 #[cfg(not(all(feature = "gltf", feature = "3mf")))]
-fn not_built(_: &Beside, format: &'static str, feature: &'static str) -> MeshFault {
+fn not_built(_: &LinkedFiles, format: &'static str, feature: &'static str) -> MeshFault {
     MeshFault::NotBuilt { format, feature }
 }
 

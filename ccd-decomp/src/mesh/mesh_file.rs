@@ -3,7 +3,7 @@
 use super::TriangleMesh;
 use super::content::Content;
 use super::error::{MeshError, MeshFault, Quote};
-use super::format::{Beside, Format, Reference};
+use super::format::{Format, LinkedFiles, Reference};
 use super::unit::{Conversion, Unit};
 use std::fs::{self, File};
 use std::io::Read;
@@ -53,13 +53,13 @@ impl MeshFile {
             let (format, bytes) = open(path)?;
             let references = format.references(&bytes)?.into_iter();
             let folder = path.parent().unwrap_or(Path::new(""));
-            let beside: Result<Beside, _> = references
+            let linked: Result<LinkedFiles, _> = references
                 .map(|reference| Ok((reference.name.clone(), neighbour(folder, &reference)?)))
                 .collect();
-            format.parse(&bytes, &beside?)
+            format.parse(&bytes, &linked?)
         };
         match read() {
-            Ok(content) => Ok(MeshFile::of(content, Some(path.into()))),
+            Ok(content) => Ok(MeshFile::new(content, Some(path.into()))),
             Err(fault) => Err(fault.in_file(path)),
         }
     }
@@ -73,10 +73,13 @@ impl MeshFile {
         reader
             .read_to_end(&mut bytes)
             .map_err(MeshFault::Unreadable)?;
-        Ok(MeshFile::of(format.parse(&bytes, &Beside::new())?, None))
+        Ok(MeshFile::new(
+            format.parse(&bytes, &LinkedFiles::new())?,
+            None,
+        ))
     }
 
-    fn of(content: Content, path: Option<PathBuf>) -> Self {
+    fn new(content: Content, path: Option<PathBuf>) -> Self {
         MeshFile {
             unit: content.unit,
             content,
@@ -270,7 +273,7 @@ fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault>
         File::open(&path)?.take(*bytes).read_to_end(&mut content)?;
         Ok(content)
     };
-    read().map_err(|error| MeshFault::Beside {
+    read().map_err(|error| MeshFault::LinkedFile {
         name: name.clone(),
         reason: format!("{error}; put it where the mesh is"),
     })
@@ -283,7 +286,7 @@ fn relative(name: &str) -> Result<PathBuf, MeshFault> {
     if path.components().all(stays) && path.file_name().is_some() {
         Ok(path)
     } else {
-        Err(MeshFault::Beside {
+        Err(MeshFault::LinkedFile {
             name: name.into(),
             reason: "it is not in the folder of the mesh; put it there".into(),
         })

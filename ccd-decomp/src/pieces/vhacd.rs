@@ -101,9 +101,9 @@ pub(crate) fn approximate(
             vertex: vertex as u32,
         });
     }
-    let target = Target::of(mesh, topology);
+    let target = Target::new(mesh, topology);
     let is_convex = is_convex(mesh, topology);
-    let voxels = Voxels::of(&target, hulls).filter(|_| hulls > 1 && !is_convex);
+    let voxels = Voxels::new(&target, hulls).filter(|_| hulls > 1 && !is_convex);
     let parts = match voxels {
         Some(voxels) => {
             let (contents, labels) = rayon::join(
@@ -118,7 +118,7 @@ pub(crate) fn approximate(
     let parts = parts.into_iter().filter(|points| !points.is_empty());
     let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
         .par_iter()
-        .map(|points| Part::of(points))
+        .map(|points| Part::hull_of(points))
         .collect::<Result<_, HullError>>()
         .map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(target.farthest_coordinate());

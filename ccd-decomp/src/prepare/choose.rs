@@ -25,7 +25,7 @@ pub(super) fn choose(
     topology: &Topology,
     edges: Option<Edges>,
 ) -> (Parts, Why) {
-    within(mesh, topology, edges, &Work::of(AUTO_WORK))
+    within(mesh, topology, edges, &Work::with_steps(AUTO_WORK))
 }
 
 fn within(

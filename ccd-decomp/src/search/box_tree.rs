@@ -151,7 +151,7 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
     let split = elements.len() / 2;
     let is_leaf = elements.len() <= LEAF;
     nodes.push(Node {
-        bounds: Bounds::of(elements.iter().flat_map(|element| element.corners)),
+        bounds: Bounds::enclosing(elements.iter().flat_map(|element| element.corners)),
         elements: if is_leaf {
             first as u32..(first + elements.len()) as u32
         } else {

@@ -96,7 +96,7 @@ impl Fan {
     }
 
     pub(super) fn bounds(&self) -> Bounds {
-        let hub = Bounds::of([self.hub]);
+        let hub = Bounds::enclosing([self.hub]);
         self.rim.bounds().map_or(hub, |rim| rim.union(hub))
     }
 

@@ -58,7 +58,7 @@ impl BoxTree {
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
         self.all_elements_but(is_far, work, |element| {
-            !Bounds::of(element.corners).meets(bounds) || holds(element.face)
+            !Bounds::enclosing(element.corners).meets(bounds) || holds(element.face)
         })
     }
 }

@@ -37,9 +37,9 @@ impl OrientedBox {
         let axes = [first, second, first.cross(second)];
         let (mut halves, mut slack, mut reach) = (DVec3::ZERO, 0.0, 0.0);
         for p in corners() {
-            let way = p - centre;
-            let along = along_each(&axes, way);
-            let rest = way - along.x * first - along.y * second - along.z * axes[2];
+            let offset = p - centre;
+            let along = along_each(&axes, offset);
+            let rest = offset - along.x * first - along.y * second - along.z * axes[2];
             halves = halves.max(along.abs());
             slack = greater(slack, rest.abs().max_element());
             reach = greater(reach, p.abs().max_element());
@@ -60,8 +60,8 @@ impl OrientedBox {
     pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
-            let way = element.middle() - self.centre;
-            let along = along_each(&self.axes, way);
+            let offset = element.middle() - self.centre;
+            let along = along_each(&self.axes, offset);
             (lo, hi) = (lo.min(along), hi.max(along));
         }
         self.axes[(hi - lo).max_position()]
@@ -97,8 +97,12 @@ impl OrientedBox {
 
 /// Computes the dot products of a vector with three axes.
 #[inline]
-fn along_each(axes: &[DVec3; 3], way: DVec3) -> DVec3 {
-    DVec3::new(axes[0].dot(way), axes[1].dot(way), axes[2].dot(way))
+fn along_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
+    DVec3::new(
+        axes[0].dot(offset),
+        axes[1].dot(offset),
+        axes[2].dot(offset),
+    )
 }
 
 /// The interval that a shape covers along a direction.
@@ -113,7 +117,7 @@ pub(super) struct Extent {
 
 impl Extent {
     /// Computes the interval of some points along a unit vector.
-    pub(super) fn of(points: &[DVec3], direction: DVec3) -> Self {
+    pub(super) fn along(points: &[DVec3], direction: DVec3) -> Self {
         let base = points[0];
         let none = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         let (lo, hi, reach) = points.iter().fold(none, |(lo, hi, reach), &p| {

@@ -29,16 +29,16 @@ impl Plane {
         }
     }
 
-    fn of([a, b, c]: [DVec3; 3]) -> Self {
+    fn through([a, b, c]: [DVec3; 3]) -> Self {
         Plane::new(a, [b - a, c - a])
     }
 
     /// Returns whether a box is certainly in front.
     #[inline]
     pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
-        let way = oriented.centre - self.foot;
+        let offset = oriented.centre - self.foot;
         let reach = oriented.reach + 2.0 * self.far;
-        let height = self.normal.dot(way) - oriented.depth(self.normal);
+        let height = self.normal.dot(offset) - oriented.depth(self.normal);
         // Written so that NaN is not in front.
         height > self.rounding * reach + f64::MIN_POSITIVE
     }
@@ -51,11 +51,13 @@ const PLANES: usize = 16;
 /// and an edge in front of such a plane shares no point with the shape, except the hub.
 pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
-        Shape::Segment([p, q]) => vec![Plane::of([hub, *p, *q]), Plane::of([hub, *q, *p])],
+        Shape::Segment([p, q]) => {
+            vec![Plane::through([hub, *p, *q]), Plane::through([hub, *q, *p])]
+        }
         Shape::Inside(Hull { facets, .. }) => {
             let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
-            facets.map(|&facet| Plane::of(facet)).collect()
+            facets.map(|&facet| Plane::through(facet)).collect()
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
@@ -74,7 +76,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
             let [p, q, r] = *corners;
             for facet in [[p, q, r], [q, p, r]] {
                 if side(facet, hub) != Ordering::Less {
-                    planes.push(Plane::of(facet));
+                    planes.push(Plane::through(facet));
                 }
             }
             planes
@@ -103,7 +105,7 @@ impl<'a> Apart<'a> {
                 planes: facets
                     .iter()
                     .take(PLANES)
-                    .map(|&facet| Plane::of(facet))
+                    .map(|&facet| Plane::through(facet))
                     .collect(),
                 ..apart(&[], Vec::new())
             },
@@ -125,7 +127,7 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
     let across = sides.map(|side| side.cross(normal));
     let directions = [normal].into_iter().chain(across).filter_map(unit);
     directions
-        .map(|direction| Extent::of(corners, direction))
+        .map(|direction| Extent::along(corners, direction))
         .collect()
 }
 
@@ -165,14 +167,14 @@ fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
         edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)
     };
-    side(triangle, point) == Ordering::Equal && Projection::of(triangle).is_none_or(within)
+    side(triangle, point) == Ordering::Equal && Projection::new(triangle).is_none_or(within)
 }
 
 /// Adds the plane through the hub and an edge, if the triangle's other corner is behind it.
 fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {
-            planes.push(Plane::of(plane));
+            planes.push(Plane::through(plane));
         }
     }
 }

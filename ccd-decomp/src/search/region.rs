@@ -31,14 +31,14 @@ pub(super) struct Hull {
 impl Region {
     pub(crate) fn segment(ends: [DVec3; 2]) -> Self {
         Region {
-            bounds: Bounds::of(ends),
+            bounds: Bounds::enclosing(ends),
             shape: Shape::Segment(ends),
         }
     }
 
     pub(crate) fn triangle(corners: [DVec3; 3]) -> Self {
         Region {
-            bounds: Bounds::of(corners),
+            bounds: Bounds::enclosing(corners),
             shape: Shape::Triangle(corners),
         }
     }

@@ -124,12 +124,12 @@ fn skipped_triangles_meet_nothing() {
             if is_degenerate([a, b, c]) {
                 continue;
             }
-            let facets = ExactHull::of(&probe);
+            let facets = ExactHull::new(&probe);
             let facets: Vec<[DVec3; 3]> = facets.map_or(Vec::new(), |hull| {
                 let facets = hull.facets().iter();
                 facets.map(|f| f.map(|v| probe[v as usize])).collect()
             });
-            let inside = Region::inside(probe.to_vec(), facets.clone(), Bounds::of(probe));
+            let inside = Region::inside(probe.to_vec(), facets.clone(), Bounds::enclosing(probe));
             let regions = [Region::triangle([a, b, c]), Region::segment([a, b]), inside];
             let found = regions.map(|region| found(&boxes, &region));
             asked += faces.len();
@@ -184,7 +184,7 @@ fn the_nearest_triangle_is_found() {
             let (face, found) = search.nearest(point, &Work::unbounded(), distance).unwrap();
             assert_eq!(distance(at(&faces[face as usize])), found);
             assert!(found <= least + 1e-12, "{found} {least}");
-            let bounds = Bounds::of([p, q]);
+            let bounds = Bounds::enclosing([p, q]);
             let mut within = Vec::new();
             let all = search.all_in(&bounds, &Work::unbounded(), |face| {
                 within.push(face);
@@ -192,7 +192,7 @@ fn the_nearest_triangle_is_found() {
             });
             assert!(all);
             within.sort_unstable();
-            let meets = |face: &[u32; 3]| Bounds::of(at(face)).meets(&bounds);
+            let meets = |face: &[u32; 3]| Bounds::enclosing(at(face)).meets(&bounds);
             let twin: Vec<u32> = (0..)
                 .zip(&faces)
                 .filter(|(_, f)| meets(f))

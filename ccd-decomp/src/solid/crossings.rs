@@ -18,7 +18,7 @@ pub(crate) fn crossings(
     work: &Work,
 ) -> Result<Vec<(u32, u32)>, OutOfWork> {
     let mut found = Vec::new();
-    let plates = Plates::of(manifold);
+    let plates = Plates::find(manifold);
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::triangle(manifold.triangle(face));
         let mut pair = |other: u32| {

@@ -124,11 +124,11 @@ impl<'a, 'm> Merger<'a, 'm> {
         let manifold = self.manifold;
         let rank = |h: HalfEdge| {
             let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
-            let way = b - a;
-            let length = (length(way).log2() * LENGTHS).round() as i32;
-            let way = unit(way).unwrap_or(DVec3::ZERO) * DIRECTIONS;
-            let way = way.to_array().map(|x| x.round() as i32);
-            (Reverse(length), way.max(way.map(|x| -x)), h)
+            let offset = b - a;
+            let length = (length(offset).log2() * LENGTHS).round() as i32;
+            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTIONS;
+            let offset = offset.to_array().map(|x| x.round() as i32);
+            (Reverse(length), offset.max(offset.map(|x| -x)), h)
         };
         let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)
             .into_par_iter()
@@ -196,7 +196,7 @@ impl<'a, 'm> Merger<'a, 'm> {
 
     /// Returns whether a rim is straight or turns left between two half-edges.
     fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
-        let Some(plane) = Projection::of(self.manifold.triangle(before / 3)) else {
+        let Some(plane) = Projection::new(self.manifold.triangle(before / 3)) else {
             return false;
         };
         let ([a, b], [_, c]) = (self.manifold.ends(before), self.manifold.ends(after));
@@ -225,7 +225,7 @@ impl<'a, 'm> Merger<'a, 'm> {
             flat.rim = std::iter::successors(Some(start), onward)
                 .take(most)
                 .collect();
-            let plane = Projection::of(self.manifold.triangle(flat.faces[0]));
+            let plane = Projection::new(self.manifold.triangle(flat.faces[0]));
             let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
             let points = self.manifold.mesh().vertices();
             flat.corners = plane.map_or(starts.clone(), |p| strict_corners(points, &starts, p));

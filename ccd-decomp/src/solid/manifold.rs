@@ -77,7 +77,7 @@ impl<'m> Manifold<'m> {
         }
         // Half-edges of reversed faces have other numbers.
         let edges = edges.filter(|_| !turned);
-        let edges = edges.unwrap_or_else(|| Edges::of(&faces));
+        let edges = edges.unwrap_or_else(|| Edges::new(&faces));
         match edges.twins(faces.len()) {
             Some(twins) if flat.is_empty() => Ok(Manifold {
                 mesh,
@@ -147,7 +147,7 @@ impl<'m> Manifold<'m> {
             Ordering::Equal => {
                 let [start, end] = self.ends(half_edge).map(|v| self.point(v));
                 let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
-                if Projection::of(triangle).is_some_and(beyond) {
+                if Projection::new(triangle).is_some_and(beyond) {
                     Dihedral::Flat
                 } else {
                     Dihedral::Folded

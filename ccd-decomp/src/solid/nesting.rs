@@ -41,7 +41,7 @@ impl Nesting {
     ///
     /// Exact. O(n log n) where few boxes of triangles of different shells meet, and few boxes of shells overlap along
     /// the mesh's longest axis.
-    pub(crate) fn of(mesh: &TriangleMesh, edges: &Edges) -> Self {
+    pub(crate) fn new(mesh: &TriangleMesh, edges: &Edges) -> Self {
         let shell_of = closed_parts(mesh, edges);
         let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
         match count {

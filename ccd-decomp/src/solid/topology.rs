@@ -61,7 +61,7 @@ impl Topology {
 
     /// Computes the topology like [`Topology::of`], and a mesh with wrong shells reversed, if there are any.
     pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
-        let edges = Edges::of(&mesh.welded_faces());
+        let edges = Edges::new(&mesh.welded_faces());
         Topology::by_edges(mesh, &edges)
     }
 
@@ -85,7 +85,7 @@ impl Topology {
         if !topology.is_closed() {
             return (topology, None);
         }
-        let nesting = Nesting::of(mesh, edges);
+        let nesting = Nesting::new(mesh, edges);
         topology.wrong_way = nesting.wrong;
         topology.unclear = nesting.unclear;
         let turned = (!nesting.turned.is_empty()).then(|| mesh.turned(&nesting.turned));

@@ -51,7 +51,7 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
 fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     let bounds = |piece: usize| {
         let piece = pieces.get(piece);
-        let Bounds { lo, hi } = Bounds::of(piece.points.iter().copied());
+        let Bounds { lo, hi } = Bounds::enclosing(piece.points.iter().copied());
         Bounds {
             lo: lo - piece.radius,
             hi: hi + piece.radius,
@@ -64,7 +64,7 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
         .map(bounds)
         .collect();
     // Shares of fixed size do not depend on the number of threads.
-    let corners = |share: &[Bounds]| Bounds::of(share.iter().flat_map(|b| [b.lo, b.hi]));
+    let corners = |share: &[Bounds]| Bounds::enclosing(share.iter().flat_map(|b| [b.lo, b.hi]));
     let shares: Vec<Bounds> = boxes.par_chunks(SHARE).map(corners).collect();
     let Bounds { lo, hi } = corners(&shares);
     // A tiny length has no finite reciprocal.
@@ -86,7 +86,7 @@ const SHARE: usize = 4096;
 
 /// Splits leaves at the medians of their centres into clusters, and agglomerates these. Returns the root first.
 fn split(leaves: &[Node]) -> Vec<Node> {
-    let mut centres: Vec<Centre> = leaves.iter().map(Centre::of).collect();
+    let mut centres: Vec<Centre> = leaves.iter().map(Centre::new).collect();
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
     let (root, below) = nodes.split_at_mut(1);
     let place = Place {
@@ -106,7 +106,7 @@ struct Centre {
 }
 
 impl Centre {
-    fn of(leaf: &Node) -> Self {
+    fn new(leaf: &Node) -> Self {
         Centre {
             at: leaf.cuboid.centre().to_array(),
             piece: leaf.below.index(),

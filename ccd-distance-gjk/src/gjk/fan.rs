@@ -1,6 +1,6 @@
 //! Axes spanned by a few vertices of the Minkowski difference.
 
-use super::search::Found;
+use super::search::Best;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
@@ -17,7 +17,7 @@ pub(crate) struct Fan {
 
 impl Fan {
     /// Takes the vertices of the nearest point; `None` if there are none.
-    pub(crate) fn new(found: &Found) -> Option<Self> {
+    pub(crate) fn new(found: &Best) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = Fan {
             point: DVec3::ZERO,

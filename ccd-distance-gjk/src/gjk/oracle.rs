@@ -2,7 +2,7 @@
 
 use super::minkowski::Difference;
 use super::refine;
-use super::search::{Found, search};
+use super::search::{Best, search};
 use super::sharpen;
 use super::simplex::Simplex;
 use super::start::Cache;
@@ -48,7 +48,7 @@ impl DistanceOracle for Gjk {
             return Ok(NOTHING);
         };
         let found = solve_from(&difference, cache);
-        *cache = Cache::of(&found);
+        *cache = Cache::from_found(&found);
         Ok(claim(&found))
     }
 }
@@ -63,7 +63,7 @@ pub(crate) const NOTHING: Claim = Claim {
 /// Searches for the nearest point from the cached simplex, and again without it if the result is poor.
 ///
 /// A cached simplex may be degenerate at the new positions, so that no step gets nearer.
-pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Found {
+pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Best {
     let found = solve(difference, cache.simplex(difference));
     if found.gap > 0.0 && !certified(&found) {
         found.better(solve(difference, Cache::default().simplex(difference)))
@@ -75,8 +75,8 @@ pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Found {
 /// Searches for the nearest point, repeatedly if rounding stalls the search.
 ///
 /// A search that stalls before its axis certifies the distance continues from the vertices found by axes of features.
-pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found {
-    let mut found = Found::nothing();
+pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Best {
+    let mut found = Best::nothing();
     for _ in 0..ROUND_CAP {
         let before = found.square;
         let stop = search(difference, simplex, &mut found);
@@ -102,12 +102,12 @@ pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found 
 }
 
 /// Returns whether the axis certifies the distance as well as rounding permits.
-pub(crate) fn certified(found: &Found) -> bool {
+pub(crate) fn certified(found: &Best) -> bool {
     found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 
 /// Converts the result to a claim.
-pub(crate) fn claim(found: &Found) -> Claim {
+pub(crate) fn claim(found: &Best) -> Claim {
     let mut out = Claim {
         axis: found.axis,
         ..NOTHING

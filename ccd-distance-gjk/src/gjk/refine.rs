@@ -1,7 +1,7 @@
 //! Refines the witnesses of the search in closed form.
 
 use super::minkowski::Difference;
-use super::search::Found;
+use super::search::Best;
 use super::simplex::Simplex;
 use crate::closed_form::nearest::{Corners, nearest};
 use ccd_core::Instructions;
@@ -13,7 +13,7 @@ use ccd_core::order::lesser;
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.
-pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Found) {
+pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Best) {
     let vertices = simplex.vertices();
     let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
     let q = Points::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));

@@ -2,7 +2,7 @@
 
 use super::fan::Fan;
 use super::minkowski::Difference;
-use super::search::Found;
+use super::search::Best;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
@@ -17,7 +17,7 @@ use ccd_core::vector::unit;
 /// the nearest point's direction out of that cone when the point is short. The axis is therefore
 /// made perpendicular to one or two of the edges `x − f` towards vertices x below it, repeatedly,
 /// until no vertex is below it.
-pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Found) -> Simplex {
+pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Best) -> Simplex {
     let Some(mut fan) = Fan::new(found) else {
         return Simplex::EMPTY;
     };
@@ -41,7 +41,7 @@ pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Found) -> Sim
 }
 
 /// Tries the face normals of a simplex that encloses the origin, as axes of least penetration.
-pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Found) {
+pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Best) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {
         return;

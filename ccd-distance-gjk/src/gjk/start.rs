@@ -1,7 +1,7 @@
 //! The first simplex: that of the last call on the pair, or a support vertex.
 
 use super::minkowski::Difference;
-use super::search::Found;
+use super::search::Best;
 use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -19,7 +19,7 @@ pub struct Cache {
 
 impl Cache {
     /// Creates a cache from the end of a search.
-    pub(crate) fn of(found: &Found) -> Self {
+    pub(crate) fn from_found(found: &Best) -> Self {
         let mut cache = Cache {
             axis: found.axis,
             ..Cache::default()

@@ -2,7 +2,7 @@
 
 use super::{nearest, next};
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next, Whose};
+use crate::feature::{Feature, Next, Which};
 use crate::placed::Line;
 use crate::tests::setting::{cube, edge, face, moved, needle, vertex};
 use crate::tests::shape::{Pcg64, RngExt, SeedableRng, direction, magnitude};
@@ -70,10 +70,10 @@ fn goes_on_to_the_face_on_whose_side_it_is() {
 
 #[test]
 fn finds_edges_below_both_faces() {
-    let Next::Behind(whose, behind) = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9)) else {
+    let Next::Behind(which, behind) = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9)) else {
         panic!("it is within the cube");
     };
-    assert_eq!((whose, behind.feature), (Whose::Y, Feature::Edge(0)));
+    assert_eq!((which, behind.feature), (Which::Y, Feature::Edge(0)));
     assert!(behind.point.distance(DVec3::new(0.0, 0.9, 0.9)) < 1e-15);
 }
 

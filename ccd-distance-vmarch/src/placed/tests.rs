@@ -30,7 +30,7 @@ fn worst_placing() {
         let placed = PlacedPair::new(&a, &b, &frame);
         // Corners keep the order of the points that have them.
         let (i, j) = (tape.pick(a.vertices.len()), tape.pick(b.vertices.len()));
-        let way = placed.b.vertex(j as u32) - placed.a.vertex(i as u32);
+        let offset = placed.b.vertex(j as u32) - placed.a.vertex(i as u32);
         let given = |of: &Polytope, k: usize, all: &[DVec3; 3]| {
             let at = of.vertices[k].point + of.origin;
             let nearer = |p: &&DVec3, q: &&DVec3| p.distance(at).total_cmp(&q.distance(at));
@@ -47,7 +47,7 @@ fn worst_placing() {
             let row = Exact3([0, 1, 2].map(|l| columns[l].0[k].clone()));
             row.dot(&y) + &to.0[k] - &x.0[k]
         });
-        let off = [0, 1, 2].map(|k| (exact(way[k]) - &truth[k]).to_f64().value());
+        let off = [0, 1, 2].map(|k| (exact(offset[k]) - &truth[k]).to_f64().value());
         let off = DVec3::from(off).length();
         // Points that coincide up to rounding may be swapped.
         let size = placed.scale.size;

@@ -44,7 +44,7 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
     for outline in &loops {
         let named: Vec<u32> = outline.iter().map(|&v| numbers[v as usize]).collect();
         out.faces.push(Face {
-            normal: Plane::of(points, &named).normal,
+            normal: Plane::new(points, &named).normal,
             first_side: 0,
             end_side: 0,
         });

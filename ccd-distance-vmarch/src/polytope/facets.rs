@@ -73,7 +73,7 @@ impl Facets {
             across: loops.iter().map(across).collect::<Option<Vec<_>>>()?,
             planes: loops
                 .iter()
-                .map(|corners| Plane::of(points, corners))
+                .map(|corners| Plane::new(points, corners))
                 .collect(),
             loops,
         })
@@ -82,7 +82,7 @@ impl Facets {
 
 impl Plane {
     /// Computes the plane from the polygon's area vector, with exact differences of corners.
-    pub(crate) fn of(points: &[DVec3], corners: &[u32]) -> Self {
+    pub(crate) fn new(points: &[DVec3], corners: &[u32]) -> Self {
         let at = |k: usize| points[corners[k] as usize];
         let mut sum = DoubleDoubleVector::default();
         for k in 1..corners.len() - 1 {

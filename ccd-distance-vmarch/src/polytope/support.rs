@@ -26,7 +26,7 @@ impl DirectionTable {
     }
 
     /// Returns the vertex for a direction of any length; any vertex if it is not finite.
-    fn of(&self, direction: DVec3) -> u32 {
+    fn vertex_towards(&self, direction: DVec3) -> u32 {
         self.0[square_of(direction)]
     }
 }
@@ -69,7 +69,7 @@ impl Polytope {
     /// Returns a corner that is farthest along a direction, except for rounding.
     pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(table) = &self.directions {
-            return self.climbed(table.of(direction), direction);
+            return self.climbed(table.vertex_towards(direction), direction);
         }
         let heights = self
             .vertices

@@ -21,8 +21,8 @@ fn is_sound(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
         for spoke in polytope.spokes_of(v) {
-            let way = polytope.vertex(spoke.to).point - vertex.point;
-            assert!((way - way.length() * spoke.along).length() <= slack);
+            let offset = polytope.vertex(spoke.to).point - vertex.point;
+            assert!((offset - offset.length() * spoke.along).length() <= slack);
             assert!(polytope.edge(spoke.edge).ends.contains(&v));
         }
     }

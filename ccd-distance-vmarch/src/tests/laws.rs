@@ -205,17 +205,17 @@ fn changes_of_features_are_exact_to_the_last_bit() {
     let (mut oracle, mut tally) = (Vmarch::default(), Tally::default());
     for _ in 0..cases() / 4 {
         let tilt = DQuat::from_scaled_axis(magnitude(&mut rng, -12.0, 0.0) * direction(&mut rng));
-        let pose = |way: DVec3| Frame {
+        let pose = |offset: DVec3| Frame {
             rotation: DMat3::from_quat(tilt),
-            translation: way,
+            translation: offset,
         };
         let far = |rng: &mut Pcg64| 4.0 * direction(rng);
         let (mut from, mut to) = (far(&mut rng), far(&mut rng));
-        let mut ask = |way: DVec3, cache: &mut Cache| {
+        let mut ask = |offset: DVec3, cache: &mut Cache| {
             let scene = Scene {
                 a: &cube,
                 b: &cube,
-                b_to_a: pose(way),
+                b_to_a: pose(offset),
                 gap: 0.1,
             };
             let answer = oracle.separation(&scene.pair(), cache);

@@ -61,7 +61,7 @@ pub(crate) fn scene_view(
         contacts: hits.iter().map(|impact| contact(bodies, impact)).collect(),
         time: hits.first().map_or(0.0, |impact| impact.hit.time),
         origin: origin.to_array(),
-        ..View::of(name, &scene_verdict(bodies, contacts, duration), duration)
+        ..View::new(name, &scene_verdict(bodies, contacts, duration), duration)
     };
     (meshes, view)
 }

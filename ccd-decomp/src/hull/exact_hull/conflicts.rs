@@ -37,7 +37,7 @@ struct Facet {
     seen_by: Vec<u32>,
     is_there: bool,
     /// The last point whose visibility was tested, and the result.
-    asked: (u32, bool),
+    last_test: (u32, bool),
 }
 
 struct Growing<'a> {
@@ -48,9 +48,9 @@ struct Growing<'a> {
     /// A facet that each point sees; a removed facet or [`NONE`] if the point is inside.
     sees: Vec<u32>,
     /// The last facet that a point was tested with, by point.
-    held: Vec<u32>,
+    last_tested: Vec<u32>,
     /// The new facet whose rim edge starts at a point, by point.
-    starting: Vec<u32>,
+    starting_at: Vec<u32>,
 }
 
 /// An edge of the rim of the visible part: its ends, the facet beyond, and the visible facet.
@@ -78,8 +78,8 @@ impl<'a> Growing<'a> {
             spare: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
             sees: vec![NONE; points.len()],
-            held: vec![NONE; points.len()],
-            starting: vec![NONE; points.len()],
+            last_tested: vec![NONE; points.len()],
+            starting_at: vec![NONE; points.len()],
         };
         hull.push([a, b, c], [1, 2, 3], order);
         hull.push([b, a, d], [0, 3, 2], order);
@@ -94,7 +94,7 @@ impl<'a> Growing<'a> {
         let plane = self.points.plane(corners);
         let mut seen_by = self.spare.pop().unwrap_or_default();
         for &v in candidates {
-            let is_new = std::mem::replace(&mut self.held[v as usize], number) != number;
+            let is_new = std::mem::replace(&mut self.last_tested[v as usize], number) != number;
             if is_new && self.points.is_in_front(&plane, corners, v) {
                 self.sees[v as usize] = number;
                 seen_by.push(v);
@@ -110,7 +110,7 @@ impl<'a> Growing<'a> {
             across,
             seen_by,
             is_there: true,
-            asked: (NONE, false),
+            last_test: (NONE, false),
         });
     }
 
@@ -120,10 +120,10 @@ impl<'a> Growing<'a> {
         if first == NONE || !self.facets[first as usize].is_there {
             return;
         }
-        let (gone, rim) = self.remove_seen(first, v);
+        let (removed, rim) = self.remove_seen(first, v);
         let base = self.facets.len() as u32;
         for (k, edge) in (base..).zip(&rim) {
-            self.starting[edge.ends[0] as usize] = k;
+            self.starting_at[edge.ends[0] as usize] = k;
         }
         let mut candidates = Vec::new();
         for (k, edge) in (base..).zip(&rim) {
@@ -133,7 +133,7 @@ impl<'a> Growing<'a> {
                 candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
             }
             // The previous facet is set once all are added.
-            let across = [edge.beyond, self.starting[b as usize], NONE];
+            let across = [edge.beyond, self.starting_at[b as usize], NONE];
             self.push([a, b, v], across, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
@@ -144,7 +144,7 @@ impl<'a> Growing<'a> {
             let after = self.facets[k as usize].across[1];
             self.facets[after as usize].across[2] = k;
         }
-        for facet in gone {
+        for facet in removed {
             let mut seen_by = std::mem::take(&mut self.facets[facet as usize].seen_by);
             if seen_by.capacity() <= SPARED {
                 seen_by.clear();
@@ -155,11 +155,11 @@ impl<'a> Growing<'a> {
 
     /// Removes the facets that a point sees, which are connected over edges, and returns them with their rim.
     fn remove_seen(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
-        let (mut rim, mut gone) = (Vec::new(), vec![first]);
+        let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_there = false;
         let mut at = 0;
         // Every facet is removed once.
-        while let Some(&seen) = gone.get(at) {
+        while let Some(&seen) = removed.get(at) {
             at += 1;
             let Facet {
                 corners, across, ..
@@ -171,28 +171,28 @@ impl<'a> Growing<'a> {
                 }
                 if self.is_seen(beyond, v) {
                     self.facets[beyond as usize].is_there = false;
-                    gone.push(beyond);
+                    removed.push(beyond);
                 } else {
                     let ends = [corners[k], corners[(k + 1) % 3]];
                     rim.push(RimEdge { ends, beyond, seen });
                 }
             }
         }
-        (gone, rim)
+        (removed, rim)
     }
 
     fn is_seen(&mut self, facet: u32, v: u32) -> bool {
         let Facet {
             corners,
             plane,
-            asked,
+            last_test,
             ..
         } = self.facets[facet as usize];
-        if asked.0 == v {
-            return asked.1;
+        if last_test.0 == v {
+            return last_test.1;
         }
         let seen = self.points.is_in_front(&plane, corners, v);
-        self.facets[facet as usize].asked = (v, seen);
+        self.facets[facet as usize].last_test = (v, seen);
         seen
     }
 }

@@ -17,7 +17,7 @@ pub(crate) fn cost(vertices: u64, corners: u64) -> u64 {
 
 impl Allowance {
     /// Returns the allowance of a file of a number of bytes.
-    pub(crate) fn of(bytes: u64) -> Self {
+    pub(crate) fn for_file(bytes: u64) -> Self {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.
         let once = bytes.saturating_mul(4);

@@ -13,7 +13,7 @@ mod schema;
 mod transform;
 mod whole;
 
-use super::{Beside, Reference};
+use super::{LinkedFiles, Reference};
 use crate::mesh::content::allowance::Allowance;
 use crate::mesh::content::assembly::Assembly;
 use crate::mesh::content::{Content, Layout};
@@ -27,16 +27,16 @@ use schema::{BufferList, Root};
 use std::collections::BTreeMap;
 
 /// Reads the parts of a glTF.
-pub(super) fn parse(bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
+pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let container = Container::of(bytes)?;
+    let container = Container::read(bytes)?;
     let root = Root::read(container.json)?;
     extensions::check_required(&root)?;
-    let buffers = Buffers::new(&root, container.binary, beside)?;
-    let all_bytes = bytes.len() + beside.values().map(Vec::len).sum::<usize>();
-    let allowance = Allowance::of(all_bytes as u64);
+    let buffers = Buffers::new(&root, container.binary, linked)?;
+    let all_bytes = bytes.len() + linked.values().map(Vec::len).sum::<usize>();
+    let allowance = Allowance::for_file(all_bytes as u64);
     let accessors = Accessors::new(&root, &buffers, allowance);
     let Scene {
         objects,
@@ -60,7 +60,7 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         return Ok(Vec::new());
     }
     let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-    let list = BufferList::read(Container::of(unmarked)?.json)?;
+    let list = BufferList::read(Container::read(unmarked)?.json)?;
     let mut needed = BTreeMap::new();
     for (k, buffer) in list.buffers.iter().enumerate() {
         let reference = buffers::reference(buffer);

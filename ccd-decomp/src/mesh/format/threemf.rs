@@ -25,7 +25,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let mut models = Models::of(Package::open(bytes)?)?;
+    let mut models = Models::read(Package::open(bytes)?)?;
     let unit = models.list[0].model.unit.unwrap_or(Unit::Millimetre);
     let parts = models.parts()?;
     let objects = models.objects()?;
@@ -41,7 +41,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
             None,
         );
     }
-    let allowance = Allowance::of(models.package.unpacked() + bytes.len() as u64);
+    let allowance = Allowance::for_file(models.package.unpacked() + bytes.len() as u64);
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
         let problem = "is a component of itself".into();
         MeshFault::syntax(None, problem).at(models.place(circle.object))
@@ -72,7 +72,7 @@ struct Named {
 
 impl<'a> Models<'a> {
     /// Reads the root model and all models that it needs.
-    fn of(mut package: Package<'a>) -> Result<Self, MeshFault> {
+    fn read(mut package: Package<'a>) -> Result<Self, MeshFault> {
         let first = package.first_model()?;
         let mut models = Models {
             package,

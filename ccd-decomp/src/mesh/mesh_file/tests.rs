@@ -140,7 +140,10 @@ mod beside {
         let gltf = Gltf::triangle();
         let path = folder.write("part.gltf", gltf.text_at("./deep%20er//da%74a.bin"));
         let error = TriangleMesh::read(&path).unwrap_err();
-        assert!(matches!(error.fault, MeshFault::Beside { .. }), "{error}");
+        assert!(
+            matches!(error.fault, MeshFault::LinkedFile { .. }),
+            "{error}"
+        );
         let message = error.to_string();
         assert!(
             message.contains(r#"part.gltf: refers to the file "deep er/data.bin""#),

@@ -91,7 +91,7 @@ fn outlines_are_filled_from_whichever_side() {
         assert_eq!(fill(&points), Some(vec![[0, 1, 2], [0, 2, 3]]));
         let turned: Vec<DVec3> = points.iter().rev().copied().collect();
         let filled = fill(&turned).unwrap();
-        let plane = Projection::of([points[0], points[2], points[1]]).unwrap();
+        let plane = Projection::new([points[0], points[2], points[1]]).unwrap();
         let [a, b, c] = filled[0].map(|k| turned[k]);
         assert_eq!(plane.turn(a, b, c), Ordering::Greater);
     }

@@ -49,7 +49,7 @@ fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: Vec<u32>) -> Cover
     let at = |v: u32| manifold.point(v);
     let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
     let triangle = [corners[0], corners[1], corners[2]];
-    let Some(plane) = Projection::of(triangle) else {
+    let Some(plane) = Projection::new(triangle) else {
         return CoveredFacet {
             corners: facet,
             faces: Vec::new(),

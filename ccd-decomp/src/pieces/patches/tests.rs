@@ -199,7 +199,7 @@ fn patches_of_slivers_take_linear_work() {
         let mesh = star(corners, 0.5);
         let manifold = bounding_solid(&mesh).unwrap();
         let flats = Flats::new(&manifold);
-        let work = Work::of(1_000 * u64::from(corners));
+        let work = Work::with_steps(1_000 * u64::from(corners));
         let decomposition = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
         check(&mesh, &decomposition);
         assert_eq!(decomposition.patches.len(), corners as usize / 2);

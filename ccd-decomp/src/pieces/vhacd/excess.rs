@@ -23,7 +23,7 @@ pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
     let floor = EXCESS_FLOOR * target.reach();
     let parts: Vec<PartPlanes<'_>> = parts
         .iter()
-        .map(|part| PartPlanes::of(part, target))
+        .map(|part| PartPlanes::new(part, target))
         .collect();
     let mut search = Search {
         target,
@@ -75,7 +75,7 @@ struct Cell {
 
 /// The result of examining a box.
 #[derive(Default)]
-struct Look {
+struct Examined {
     /// The distance of the centre, if that is in the part.
     distance: f64,
     /// The box; `None` if it cannot exceed the largest known distance.
@@ -104,8 +104,8 @@ impl Search<'_> {
             bounds: [bounds.lo, bounds.hi],
             planes: (0..planes.len() as u32).collect(),
         };
-        let look = self.look(&whole, whole.bounds);
-        self.note(look);
+        let examined = self.examine(&whole, whole.bounds);
+        self.note(examined);
     }
 
     /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
@@ -122,35 +122,37 @@ impl Search<'_> {
             .iter()
             .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
             .collect();
-        let looks: Vec<Look> = parts
+        let examined: Vec<Examined> = parts
             .par_iter()
-            .map(|(cell, bounds)| self.look(cell, *bounds))
+            .map(|(cell, bounds)| self.examine(cell, *bounds))
             .collect();
-        looks.into_iter().for_each(|look| self.note(look));
+        examined
+            .into_iter()
+            .for_each(|examined| self.note(examined));
         !worst.is_empty() && self.taken < EXCESS_WORK && self.heap.len() < EXCESS_BOXES
     }
 
-    fn note(&mut self, look: Look) {
-        self.taken += look.taken;
-        self.found = greater(self.found, look.distance);
-        self.heap.extend(look.cell);
+    fn note(&mut self, examined: Examined) {
+        self.taken += examined.taken;
+        self.found = greater(self.found, examined.distance);
+        self.heap.extend(examined.cell);
     }
 
     /// Examines a box within an examined one.
-    fn look(&self, within: &Cell, bounds: [DVec3; 2]) -> Look {
+    fn examine(&self, within: &Cell, bounds: [DVec3; 2]) -> Examined {
         let planes = &within.planes;
         let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.slack();
         work.spend(1 + planes.len() / PLANES_A_STEP);
-        let mut look = Look::default();
+        let mut examined = Examined::default();
         if let Some(meeting) = part.meets(centre, half, planes) {
             let near = match target.locate(centre, work) {
                 Location::Inside { depth } => reach - depth,
                 Location::Outside { distance } => {
                     if meeting.has_centre {
-                        look.distance = distance;
+                        examined.distance = distance;
                     }
                     distance + reach
                 }
@@ -163,15 +165,15 @@ impl Search<'_> {
             if !is_known(bound) {
                 bound = under().map_or(bound, |under| lesser(under, bound));
             }
-            look.cell = (!is_known(bound)).then_some(Cell {
+            examined.cell = (!is_known(bound)).then_some(Cell {
                 bound,
                 part: within.part,
                 bounds,
                 planes,
             });
         }
-        look.taken = work.taken();
-        look
+        examined.taken = work.taken();
+        examined
     }
 }
 

@@ -11,13 +11,13 @@ use std::f64::consts::PI;
 ///
 /// The directions are spread evenly over the box of the points, stretched to a cube.
 pub(super) fn farthest(points: &[DVec3], directions: u32) -> Vec<DVec3> {
-    let Bounds { lo, hi } = Bounds::of(points.iter().copied());
+    let Bounds { lo, hi } = Bounds::enclosing(points.iter().copied());
     let stretch = |x: f64| if x > 0.0 { x.recip() } else { 0.0 };
     let scale = DVec3::from_array((hi - lo).to_array().map(stretch));
     let mut found: Vec<usize> = (0..directions)
         .filter_map(|k| {
-            let way = scale * direction(k, directions);
-            let along = points.iter().map(|&p| way.dot(p - lo)).enumerate();
+            let direction_of = scale * direction(k, directions);
+            let along = points.iter().map(|&p| direction_of.dot(p - lo)).enumerate();
             let best = along.reduce(|best, next| if next.1 > best.1 { next } else { best });
             best.map(|(place, _)| place)
         })
@@ -48,7 +48,7 @@ pub(super) fn without_inner(points: Vec<DVec3>) -> Vec<DVec3> {
         return points;
     }
     let far = farthest(&points, DIRECTIONS);
-    let Some(hull) = ExactHull::of(&far) else {
+    let Some(hull) = ExactHull::new(&far) else {
         return points;
     };
     let facets: Vec<[DVec3; 3]> = hull

@@ -42,7 +42,7 @@ struct Measured {
 
 impl Merger {
     fn new(parts: Vec<Vec<DVec3>>) -> Self {
-        let measured = |points: Vec<DVec3>| Some(Measured::of(points));
+        let measured = |points: Vec<DVec3>| Some(Measured::new(points));
         let parts: Vec<_> = parts.into_par_iter().map(measured).collect();
         let mut merger = Merger {
             count: parts.len(),
@@ -80,7 +80,7 @@ impl Merger {
         };
         if let (Some(mut one), Some(other)) = (self.parts[k].take(), self.parts[l].take()) {
             one.points.extend(other.points);
-            self.parts[k] = Some(Measured::of(one.points));
+            self.parts[k] = Some(Measured::new(one.points));
         }
         self.count -= 1;
         for other in 0..self.parts.len() {
@@ -94,13 +94,13 @@ impl Merger {
 }
 
 impl Measured {
-    fn of(points: Vec<DVec3>) -> Self {
+    fn new(points: Vec<DVec3>) -> Self {
         let points = without_inner(points);
         let priced = farthest(&points, PRICED_POINTS);
-        let hull = ExactHull::of(&priced);
+        let hull = ExactHull::new(&priced);
         Measured {
             volume: hull.map_or(0.0, |hull| volume(&priced, hull.facets().iter().copied())),
-            bounds: Bounds::of(points.iter().copied()),
+            bounds: Bounds::enclosing(points.iter().copied()),
             priced,
             points,
         }

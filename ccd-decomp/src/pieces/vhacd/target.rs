@@ -34,9 +34,9 @@ pub(super) enum Location {
 }
 
 impl<'a> Target<'a> {
-    pub(super) fn of(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
+    pub(super) fn new(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
         let corners = mesh.faces().iter().flatten();
-        let Bounds { lo, hi } = Bounds::of(corners.map(|&v| mesh.vertices()[v as usize]));
+        let Bounds { lo, hi } = Bounds::enclosing(corners.map(|&v| mesh.vertices()[v as usize]));
         Target {
             mesh,
             search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
@@ -146,7 +146,13 @@ impl<'a> Target<'a> {
         let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
         let reached = on.length();
         // NaN counts as infinitely far.
-        let far = |way: f64| if way.is_nan() { f64::INFINITY } else { way };
+        let far = |offset: f64| {
+            if offset.is_nan() {
+                f64::INFINITY
+            } else {
+                offset
+            }
+        };
         (if found.is_nan() { 0.0 } else { found }, far(reached))
     }
 
@@ -181,9 +187,9 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     let (square, area) = (side.length_squared(), side.cross(apex - from).length());
     // Written so that NaN is no needle.
     (area < NEEDLE * square).then(|| {
-        let way = from - point;
-        let share = (-way.dot(side) / square).clamp(0.0, 1.0);
-        greater(0.0, (way + side * share).length() - area / square.sqrt())
+        let offset = from - point;
+        let share = (-offset.dot(side) / square).clamp(0.0, 1.0);
+        greater(0.0, (offset + side * share).length() - area / square.sqrt())
     })
 }
 

@@ -185,7 +185,7 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
     assert!(found.uncovered <= 1e-12 * size);
     let mut next = noise();
     let closed = crate::Topology::of(&mesh).is_closed();
-    let [lo, hi] = Target::of(&mesh, &Topology::of(&mesh)).bounds();
+    let [lo, hi] = Target::new(&mesh, &Topology::of(&mesh)).bounds();
     let mut samples: Vec<DVec3> = triangles(&mesh)
         .iter()
         .flat_map(|t| [mix(t, &mut next), mix(t, &mut next)])
@@ -304,7 +304,7 @@ fn refusals() {
 #[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(cubes(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 fn places(#[case] mesh: TriangleMesh) {
-    let (target, surface) = (Target::of(&mesh, &Topology::of(&mesh)), triangles(&mesh));
+    let (target, surface) = (Target::new(&mesh, &Topology::of(&mesh)), triangles(&mesh));
     for k in 0..21 * 21 * 21 {
         let point = DVec3::new((k % 21) as f64, (k / 21 % 21) as f64, (k / 441) as f64) / 4.0 - 2.5;
         let way = distance(&surface, point);

@@ -24,7 +24,7 @@ pub(super) type Cell = [usize; 3];
 impl Voxels {
     /// Creates the grid for a number of hulls, coarser if large triangles meet too many voxels; `None` if coordinates
     /// are too coarse for any grid.
-    pub(super) fn of(target: &Target<'_>, hulls: u32) -> Option<Self> {
+    pub(super) fn new(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
         while resolution >= tolerance::LEAST_RESOLUTION {

@@ -114,7 +114,7 @@ fn slow_decompositions_stay_triangles() {
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
-        let (parts, why) = within(&mesh, &Topology::of(&mesh), None, &Work::of(steps));
+        let (parts, why) = within(&mesh, &Topology::of(&mesh), None, &Work::with_steps(steps));
         assert_eq!(why, Why::TooLong);
         assert!(matches!(parts, Parts::Triangles));
     }

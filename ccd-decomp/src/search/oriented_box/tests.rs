@@ -41,7 +41,7 @@ fn worst_extent() {
     let found = Worst::of("box_rounding, an extent", 10_000).search(|tape| {
         let (of, points) = setting(tape);
         let direction = unit(tape.vector(-40..=0).into())?;
-        let extent = Extent::of(&points, direction);
+        let extent = Extent::along(&points, direction);
         // The same as `Extent::misses`.
         let along = extent.direction.dot(of.centre - extent.base);
         let apart = along - of.depth(extent.direction) - extent.hi;

@@ -36,14 +36,14 @@ struct Plate {
     plane: [DVec3; 3],
     projection: Projection,
     /// The vertices of the rim with their neighbours on it, in ascending order.
-    rim: Vec<Passage>,
+    rim: Vec<RimVertex>,
     bounds: Bounds,
     /// The boxes of the triangles, created on demand.
     group: OnceCell<Group>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Passage {
+struct RimVertex {
     at: u32,
     before: u32,
     after: u32,
@@ -61,7 +61,7 @@ const BESIDE: usize = 4;
 impl<'a, 'm> Plates<'a, 'm> {
     /// Finds the plates; `None` if no polygon has a large fan, so that the boxes of all triangles suffice. O(n log n),
     /// the time of [`Flats::new`].
-    pub(super) fn of(manifold: &'a Manifold<'m>) -> Option<Self> {
+    pub(super) fn find(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
             count[v as usize] += 1;
@@ -75,7 +75,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         for number in 0..flats.len() as u32 {
             let flat = flats.get(number);
             let is_large = has_fan(manifold, &flat.faces);
-            let Some(plate) = is_large.then(|| Plate::of(manifold, flat)).flatten() else {
+            let Some(plate) = is_large.then(|| Plate::new(manifold, flat)).flatten() else {
                 continue;
             };
             let number = plates.len() as u32;
@@ -88,7 +88,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             return None;
         }
         let rest = (0..).zip(&plate_of).filter(|(_, plate)| **plate == NONE);
-        let rest = Group::of(manifold, rest.map(|(face, _)| face).collect());
+        let rest = Group::new(manifold, rest.map(|(face, _)| face).collect());
         let boxes: Vec<_> = plates.iter().map(|plate| plate.bounds.as_aabb()).collect();
         Some(Plates {
             manifold,
@@ -132,7 +132,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             }
             let group = plate
                 .group
-                .get_or_init(|| Group::of(self.manifold, plate.faces.clone()));
+                .get_or_init(|| Group::new(self.manifold, plate.faces.clone()));
             group.boxes.all_meeting(region, work, |other| {
                 let other = group.faces[other as usize];
                 // Pairs of faces of two plates are found twice.
@@ -173,11 +173,11 @@ impl<'a, 'm> Plates<'a, 'm> {
                 _ => false,
             }
         };
-        let mut level_corners = level().map(|k| plate.passage(corners[k]));
+        let mut level_corners = level().map(|k| plate.rim_vertex(corners[k]));
         // The bounds of no points meet no bounds.
-        !Bounds::of(level().map(|k| points[k])).meets(&plate.bounds)
-            || level_corners.any(|passage| {
-                passage.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
+        !Bounds::enclosing(level().map(|k| points[k])).meets(&plate.bounds)
+            || level_corners.any(|rim_vertex| {
+                rim_vertex.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
             })
     }
 }
@@ -195,20 +195,20 @@ fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
 }
 
 impl Plate {
-    fn of(manifold: &Manifold<'_>, flat: &Flat) -> Option<Self> {
+    fn new(manifold: &Manifold<'_>, flat: &Flat) -> Option<Self> {
         let plane = manifold.triangle(*flat.faces.first()?);
         let starts = || flat.rim.iter().map(|&h| manifold.ends(h)[0]);
         let triples = starts()
             .zip(starts().cycle().skip(1))
             .zip(starts().cycle().skip(2));
-        let mut rim: Vec<Passage> = triples
-            .map(|((before, at), after)| Passage { at, before, after })
+        let mut rim: Vec<RimVertex> = triples
+            .map(|((before, at), after)| RimVertex { at, before, after })
             .collect();
-        rim.sort_unstable_by_key(|passage| passage.at);
+        rim.sort_unstable_by_key(|rim_vertex| rim_vertex.at);
         Some(Plate {
             number: NONE,
-            projection: Projection::of(plane)?,
-            bounds: Bounds::of(starts().map(|v| manifold.point(v))),
+            projection: Projection::new(plane)?,
+            bounds: Bounds::enclosing(starts().map(|v| manifold.point(v))),
             faces: flat.faces.clone(),
             plane,
             rim,
@@ -217,15 +217,17 @@ impl Plate {
     }
 
     /// Returns a rim vertex with its neighbours; `None` if the vertex is not on the rim.
-    fn passage(&self, vertex: u32) -> Option<Passage> {
-        let found = self.rim.binary_search_by_key(&vertex, |passage| passage.at);
+    fn rim_vertex(&self, vertex: u32) -> Option<RimVertex> {
+        let found = self
+            .rim
+            .binary_search_by_key(&vertex, |rim_vertex| rim_vertex.at);
         found.ok().map(|k| self.rim[k])
     }
 }
 
 impl Group {
     /// O(n log n) in the number of these faces.
-    fn of(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
+    fn new(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
         let corners = faces.iter().map(|&f| manifold.faces()[f as usize]);
         let mut vertices: Vec<u32> = corners.clone().flatten().collect();
         vertices.sort_unstable();

@@ -96,7 +96,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
         let mesh = prism(&(0..corners).map(corner).collect::<Vec<_>>());
         let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
         // All pairs about a corner of 5,000 would be 2,500 for each triangle.
-        let work = Work::of(100 * mesh.faces().len() as u64);
+        let work = Work::with_steps(100 * mesh.faces().len() as u64);
         assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
     }
 }
@@ -105,7 +105,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
     assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
-    let too_few = Work::of(100);
+    let too_few = Work::with_steps(100);
     assert_eq!(
         check_solid(&manifold, &too_few),
         Err(DecomposeError::TooLong)

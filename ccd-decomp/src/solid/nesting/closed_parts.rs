@@ -39,7 +39,7 @@ struct Use {
     ends: [u32; 2],
     face: u32,
     /// 1 if the face runs from the first end to the second, else −1.
-    way: i32,
+    direction: i32,
 }
 
 impl Use {
@@ -47,7 +47,7 @@ impl Use {
         Use {
             ends,
             face: of.half_edge() / 3,
-            way: if of.is_backward() { -1 } else { 1 },
+            direction: if of.is_backward() { -1 } else { 1 },
         }
     }
 }
@@ -58,7 +58,7 @@ fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
     of_parts.sort_by_key(|of| of.0);
     of_parts
         .chunk_by(|one, next| one.0 == next.0)
-        .filter(|part| part.iter().map(|of| of.1.way).sum::<i32>() != 0)
+        .filter(|part| part.iter().map(|of| of.1.direction).sum::<i32>() != 0)
         .flatten()
         .map(|of| of.1)
         .collect()
@@ -66,17 +66,21 @@ fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
 
 /// Pairs the faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all are paired.
 fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
-    let Some(around) = AngularOrder::of(mesh, edge) else {
+    let Some(around) = AngularOrder::new(mesh, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face, pair[1].face)).collect();
     };
     let mut order = edge.to_vec();
     // Among faces at one angle, those that end a wedge come first.
-    order.sort_by(|one, other| around.order(one, other).then(other.way.cmp(&one.way)));
+    order.sort_by(|one, other| {
+        around
+            .order(one, other)
+            .then(other.direction.cmp(&one.direction))
+    });
     let (mut begun, mut pairs) = (Vec::new(), Vec::new());
     // A wedge that begins before the first face ends in the second round; paired faces are removed.
     for _ in 0..2 {
-        order.retain(|one| match one.way {
+        order.retain(|one| match one.direction {
             1 => match begun.pop() {
                 Some(other) => {
                     pairs.push((one.face, other));
@@ -106,11 +110,11 @@ struct AngularOrder<'m> {
 impl<'m> AngularOrder<'m> {
     /// Starts at the first face. Returns `None` if a face is degenerate or a coordinate is too near to 0 for exact
     /// predicates.
-    fn of(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
+    fn new(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
         let [v, w] = edge.first()?.ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|one| apex(mesh, one)).collect();
         let is_fine = too_fine(&[v, w]).or(too_fine(&apexes)).is_some();
-        let flat = |&p: &DVec3| Projection::of([v, w, p]).is_none();
+        let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
         if is_fine || apexes.iter().any(flat) {
             return None;
         }
@@ -118,7 +122,7 @@ impl<'m> AngularOrder<'m> {
             mesh,
             ends: [v, w],
             first: apexes[0],
-            projection: Projection::of([v, w, apexes[0]])?,
+            projection: Projection::new([v, w, apexes[0]])?,
         })
     }
 

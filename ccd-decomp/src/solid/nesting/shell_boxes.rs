@@ -24,7 +24,7 @@ impl ShellBoxes {
     pub(super) fn new<V: Iterator<Item = DVec3>>(shells: impl Iterator<Item = V>) -> Self {
         let boxes = shells.zip(0..).map(|(vertices, shell)| ShellBox {
             shell,
-            bounds: Bounds::of(vertices),
+            bounds: Bounds::enclosing(vertices),
             reach: f64::NEG_INFINITY,
         });
         let mut boxes: Vec<ShellBox> = boxes.collect();

@@ -58,7 +58,7 @@ impl<'a> Accessors<'a> {
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
         self.at(accessor, |accessors, about| {
             check_kind(about, "VEC3")?;
-            let component = Component::of(about.component_type)?;
+            let component = Component::from_code(about.component_type)?;
             let size = component.size();
             let point = |row: &[u8]| {
                 let number = |k: usize| component.number(&row[k * size..], about.normalized);
@@ -73,7 +73,7 @@ impl<'a> Accessors<'a> {
     pub(super) fn numbers(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
         self.at(accessor, |accessors, about| {
             check_kind(about, "SCALAR")?;
-            let component = Component::of_index(about.component_type)?;
+            let component = Component::index_from_code(about.component_type)?;
             let whole = |row: &[u8]| component.whole(row);
             accessors.elements(about, component.size(), cost(0, about.count), 0, whole)
         })
@@ -159,7 +159,7 @@ impl<'a> Accessors<'a> {
     /// Reads the indices that a sparse accessor replaces in a list of a given length.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
-        let component = Component::of_index(about.component_type)?;
+        let component = Component::index_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
         let rows = self.rows_at(about.buffer_view, about.byte_offset, layout, None)?;
         self.allowance.take(cost(0, sparse.count))?;
@@ -202,7 +202,7 @@ impl<'a> Rows<'a> {
 }
 
 impl Component {
-    fn of(number: u32) -> Result<Self, MeshFault> {
+    fn from_code(number: u32) -> Result<Self, MeshFault> {
         Ok(match number {
             5120 => Component::I8,
             5121 => Component::U8,
@@ -218,8 +218,8 @@ impl Component {
     }
 
     /// Returns the component type of an index.
-    fn of_index(number: u32) -> Result<Self, MeshFault> {
-        match Component::of(number)? {
+    fn index_from_code(number: u32) -> Result<Self, MeshFault> {
+        match Component::from_code(number)? {
             unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
             _ => {
                 let problem = format!("has components of type {number} instead of whole numbers");

@@ -3,7 +3,7 @@
 use super::schema::{Buffer, Root};
 use super::{element, extensions, name};
 use crate::mesh::error::{MeshFault, Quote};
-use crate::mesh::format::{Beside, Reference};
+use crate::mesh::format::{LinkedFiles, Reference};
 use base64::Engine;
 use base64::engine::general_purpose::GeneralPurpose;
 use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
@@ -19,11 +19,11 @@ impl<'a> Buffers<'a> {
     pub(super) fn new(
         root: &'a Root,
         binary: Option<&'a [u8]>,
-        beside: &'a Beside,
+        linked: &'a LinkedFiles,
     ) -> Result<Self, MeshFault> {
         let found = |(k, buffer)| {
             let binary = binary.filter(|_| k == 0);
-            content(buffer, binary, beside).map_err(|fault| fault.at(name("buffer", k, None)))
+            content(buffer, binary, linked).map_err(|fault| fault.at(name("buffer", k, None)))
         };
         let bytes: Result<_, _> = root.buffers.iter().enumerate().map(found).collect();
         Ok(Buffers {
@@ -73,7 +73,7 @@ impl<'a> Buffers<'a> {
 fn content<'a>(
     buffer: &'a Buffer,
     binary: Option<&'a [u8]>,
-    beside: &'a Beside,
+    linked: &'a LinkedFiles,
 ) -> Result<Option<Cow<'a, [u8]>>, MeshFault> {
     let bytes: Cow<'_, [u8]> = match &buffer.uri {
         None => match binary {
@@ -84,8 +84,8 @@ fn content<'a>(
             Some(data) => decode(data?)?.into(),
             None => {
                 let name = decoded(uri)?;
-                let beside = beside.get(&name).map(Vec::as_slice);
-                beside.ok_or_else(|| alone(name))?.into()
+                let bytes = linked.get(&name).map(Vec::as_slice);
+                bytes.ok_or_else(|| alone(name))?.into()
             }
         },
     };
@@ -99,7 +99,7 @@ fn content<'a>(
 }
 
 fn alone(name: String) -> MeshFault {
-    MeshFault::Beside {
+    MeshFault::LinkedFile {
         name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
             .into(),

@@ -20,7 +20,7 @@ pub(super) struct Container<'a> {
 const VERSION: u32 = 2;
 
 impl<'a> Container<'a> {
-    pub(super) fn of(bytes: &'a [u8]) -> Result<Self, MeshFault> {
+    pub(super) fn read(bytes: &'a [u8]) -> Result<Self, MeshFault> {
         let Some(mut rest) = bytes.strip_prefix(b"glTF") else {
             return Ok(Container {
                 json: bytes,

@@ -40,7 +40,7 @@ fn add(
     known: &mut HashMap<usize, Vertices>,
     accessors: &mut Accessors<'_>,
 ) -> Result<(), MeshFault> {
-    let Some(mode) = Mode::of(primitive.mode)? else {
+    let Some(mode) = Mode::from_code(primitive.mode)? else {
         return Ok(());
     };
     // A primitive without positions draws nothing.
@@ -98,7 +98,7 @@ fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
 
 impl Mode {
     /// Returns the mode by its number; `None` for points and lines.
-    fn of(number: Option<u32>) -> Result<Option<Self>, MeshFault> {
+    fn from_code(number: Option<u32>) -> Result<Option<Self>, MeshFault> {
         match number {
             Some(0..=3) => Ok(None),
             None | Some(4) => Ok(Some(Mode::Triangles)),

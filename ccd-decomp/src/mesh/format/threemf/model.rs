@@ -271,7 +271,7 @@ impl Model {
     }
 
     fn add_component(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        let used = Use::of(element, "a component")?;
+        let used = Use::read(element, "a component")?;
         if let Some(ModelObject {
             shape: Shape::Components(components),
             ..
@@ -283,13 +283,13 @@ impl Model {
     }
 
     fn add_item(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        self.items.push(Use::of(element, "an item")?);
+        self.items.push(Use::read(element, "an item")?);
         Ok(Tag::Other)
     }
 }
 
 impl Use {
-    fn of(element: &Element<'_>, what: &str) -> Result<Self, MeshFault> {
+    fn read(element: &Element<'_>, what: &str) -> Result<Self, MeshFault> {
         let names = ["objectid", "transform", ":path", "partnumber"];
         let [object, transform, path, part_number] = element.values(names)?;
         let map = transform.map(|transform| transform::parse(&transform));

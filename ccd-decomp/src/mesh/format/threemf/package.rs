@@ -19,7 +19,7 @@ pub(super) struct Package<'a> {
 
 #[derive(Clone, Copy)]
 struct Entry {
-    way: ZipArchiveEntryWayfinder,
+    wayfinder: ZipArchiveEntryWayfinder,
     method: CompressionMethod,
     encrypted: bool,
 }
@@ -42,7 +42,7 @@ impl<'a> Package<'a> {
         while let Some(record) = records.next_entry().map_err(|error| unzip(&error))? {
             let path = String::from_utf8_lossy(record.file_path().as_ref()).into_owned();
             entries.entry(normalized(&path)).or_insert(Entry {
-                way: record.wayfinder(),
+                wayfinder: record.wayfinder(),
                 method: record.compression_method(),
                 encrypted: record.flags().is_encrypted(),
             });
@@ -147,7 +147,7 @@ impl<'a> Unpacking<'a> {
             });
         }
         let found = archive
-            .get_entry(entry.way)
+            .get_entry(entry.wayfinder)
             .map_err(|error| unzip(&error))?;
         let content: Box<dyn Read + 'a> = match entry.method {
             CompressionMethod::STORE => Box::new(found.verifying_reader(found.data())),

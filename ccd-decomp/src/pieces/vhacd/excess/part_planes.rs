@@ -37,15 +37,15 @@ pub(super) struct Meeting {
 }
 
 impl<'a> PartPlanes<'a> {
-    pub(super) fn of(part: &'a Part, target: &Target<'_>) -> Self {
+    pub(super) fn new(part: &'a Part, target: &Target<'_>) -> Self {
         PartPlanes {
             part,
             planes: part
                 .facets
                 .iter()
-                .filter_map(|facet| Plane::of(part, facet))
+                .filter_map(|facet| Plane::of_facet(part, facet))
                 .collect(),
-            bounds: Bounds::of(part.corners.iter().copied()),
+            bounds: Bounds::enclosing(part.corners.iter().copied()),
             slack: target.slack(),
         }
     }
@@ -105,7 +105,7 @@ impl<'a> PartPlanes<'a> {
         let mut share = 1.0_f64;
         let near = target
             .triangles()
-            .filter(|&t| Bounds::of(t).meets(&self.bounds));
+            .filter(|&t| Bounds::enclosing(t).meets(&self.bounds));
         for triangle in near {
             let [p, q, r] = triangle;
             let towards = [(p + q + r) / 3.0, p, q, r].into_iter();
@@ -120,7 +120,7 @@ impl<'a> PartPlanes<'a> {
 
 impl Plane {
     /// Computes the plane of a facet; `None` if the facet is not well shaped.
-    fn of(part: &Part, facet: &[u32]) -> Option<Self> {
+    fn of_facet(part: &Part, facet: &[u32]) -> Option<Self> {
         let at = |k: usize| part.corners[facet[k] as usize];
         // The triangle of the fan with the largest area.
         let last = facet.len() - 1;

@@ -57,7 +57,7 @@ fn worst_distance() {
     let found = Worst::of("NEAREST_SLACK", 6_000).search(|tape| {
         let (corners, point) = setting(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
-        let target = Target::of(&mesh, &Topology::of(&mesh));
+        let target = Target::new(&mesh, &Topology::of(&mesh));
         let (found, reached) = target.nearest(point, &Work::unbounded());
         let scale = exact(2f64.powi(400));
         let truth = (square(corners, point) * &scale).to_f64().value().sqrt() * 2f64.powi(-200);

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A file with a unique temporary name, removed on drop unless it is placed.
-pub(crate) struct Beside {
+pub(crate) struct TempFile {
     pub(crate) file: File,
     part: Option<PathBuf>,
     target: PathBuf,
 }
 
-impl Beside {
+impl TempFile {
     /// Creates a file beside the target with an unused name: threads and processes may write at the same time.
     pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
@@ -25,7 +25,7 @@ impl Beside {
                 Err(error) => return Err(naming(&part, &error)),
                 Ok(file) => {
                     let part = Some(part);
-                    return Ok(Beside { file, part, target });
+                    return Ok(TempFile { file, part, target });
                 }
             }
         }
@@ -41,7 +41,7 @@ impl Beside {
     }
 }
 
-impl Drop for Beside {
+impl Drop for TempFile {
     fn drop(&mut self) {
         if let Some(part) = &self.part {
             // A file that stays behind does no harm.

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// The motion of a shown body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum Course {
+pub enum ShownMotion {
     /// At constant velocities, by the formula of [`Motion`].
     Steady {
         /// The centre of rotation, in the body's frame.
@@ -54,10 +54,10 @@ impl Key {
     }
 }
 
-impl From<&Motion> for Course {
+impl From<&Motion> for ShownMotion {
     fn from(motion: &Motion) -> Self {
         let from: DVec3 = motion.start().transform_point(motion.centre());
-        Course::Steady {
+        ShownMotion::Steady {
             centre: motion.centre().to_array(),
             from: from.to_array(),
             velocity: motion.velocity().to_array(),
@@ -67,15 +67,15 @@ impl From<&Motion> for Course {
     }
 }
 
-impl Course {
+impl ShownMotion {
     /// Returns whether the body moves.
     pub(crate) fn moves(&self) -> bool {
         match self {
-            Course::Steady { velocity, spin, .. } => velocity
+            ShownMotion::Steady { velocity, spin, .. } => velocity
                 .iter()
                 .chain(spin)
                 .any(|component| *component != 0.0),
-            Course::Keys { keys, .. } => keys
+            ShownMotion::Keys { keys, .. } => keys
                 .windows(2)
                 .any(|two| two[0].place != two[1].place || two[0].turn != [0.0; 3]),
         }
