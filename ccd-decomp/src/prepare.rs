@@ -70,12 +70,11 @@ pub enum Detail {
 /// ```
 ///
 /// # Guarantee
-/// The pieces cover the mesh, and the body is solid where the mesh bounds a solid: see [`prepare`].
+/// The pieces cover the mesh, and the body is solid if the mesh bounds a solid: see [`prepare`].
 ///
 /// # Errors
-/// [`PrepareError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
-/// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
-/// pieces.
+/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
+/// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
 pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, PrepareError> {
     prepare(mesh, detail)?.into_prepared()
 }
@@ -83,15 +82,14 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
 /// Makes the pieces of a mesh, and a hierarchy over them: a model, which can be stored.
 ///
 /// # Guarantee
-/// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it
-/// bounds. Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented alike, and it is
-/// [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside out are
-/// turned round, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
+/// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it bounds.
+/// Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented
+/// alike, and it is [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside
+/// out are reversed, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
 ///
 /// # Errors
-/// [`PrepareError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
-/// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
-/// pieces.
+/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
+/// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
     // Both take equally long, and the hierarchy is nearly always needed.
     let (choice, triangles) = rayon::join(

@@ -204,7 +204,7 @@ mod threemf {
         zip(&entries)
     }
 
-    /// A model of some objects and items, with attributes of its own.
+    /// A model of some objects and items, with attributes.
     pub(crate) fn model(attributes: &str, objects: &str, items: &str) -> String {
         format!(
             r#"<?xml version="1.0" encoding="UTF-8"?>

@@ -42,7 +42,7 @@ pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 /// 292, 258.
 pub(crate) const PATCH_POLYGONS: usize = 48;
 
-/// The most corners of a patch of several polygons; a polygon of more is a patch of its own.
+/// The most corners of a patch of several polygons; a larger polygon is a separate patch.
 ///
 /// Unit: corners. A polygon is tested with all facets of a patch, and so is every triangle near it: the time of
 /// growing increases with their square. Twice as many as 48 polygons of a sphere have.
@@ -61,11 +61,11 @@ pub(crate) const EIGEN_ROUNDS: usize = 256;
 /// Returns a bound on how far clipping a polygon to a voxel moves its points, for coordinates up to `farthest`, in its
 /// unit of length. A grid of 128 layers is halved at most 21 times.
 ///
-/// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an
-/// edge has a relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by
-/// `2√3 · u m` each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed
-/// because they are between two others on an edge are off by twice [`on_edge`] more for each of three edges:
-/// 804u. 1024u are taken. Cubes are widened by as much, so that what is cut off at one is left at the next.
+/// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an edge has a
+/// relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
+/// each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed because they are between two
+/// others on an edge are off by twice [`on_edge`] more for each of three edges: 804u. 1024u are used. Voxels are
+/// widened by this margin, so that neighbours overlap.
 pub(crate) fn clip_rounding(farthest: f64) -> f64 {
     1024.0 * U64 * farthest
 }
@@ -79,11 +79,10 @@ pub(crate) fn on_edge(farthest: f64) -> f64 {
 /// Returns a bound on the error of a difference of points along a direction, plus that of the extent of an [oriented
 /// box](crate::search), for coordinates up to `reach`, in its unit of length, for a direction of length about 1.
 ///
-/// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a
-/// difference is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as
-/// there is one of the box and one of the shape. The box's half lengths are at most `2√3 m`, and the
-/// product of each with the direction is off by `4u d`: `42u d m`. Their sums round by `12u d m`. That is 70u; 128u are
-/// taken, and what may underflow.
+/// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a difference
+/// is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as there is one of the
+/// box and one of the shape. The box's half lengths are at most `2√3 m`, and the product of each with the direction is
+/// off by `4u d`: `42u d m`. Their sums round by `12u d m`. That is 70u; 128u are used, plus a term for underflow.
 pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
     128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
@@ -92,10 +91,10 @@ pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
 /// `size` is the sum of `|a| |b| |c|`, and the rounding error of each addition is summed separately; in the unit of the
 /// products.
 ///
-/// With `u` half a unit in the last place: of the six products of three coordinates each comes from three
-/// differences, and is rounded twice and added up four times: a relative error of 9u. Their sizes add up to at most
-/// `√3 |a| |b| |c|`: 16u of the size. A compensated sum of `n` terms has a relative error of `u`, and an error
-/// of `2 n² u²` of their sizes. The size has a relative error of `(n + 16) u`. 32u are taken, and what grows with `n²`.
+/// With `u` half a unit in the last place: of the six products of three coordinates each comes from three differences,
+/// and is rounded twice and added up four times: a relative error of 9u. Their sizes add up to at most
+/// `√3 |a| |b| |c|`: 16u of the size. A compensated sum of `n` terms has a relative error of `u`, and an error of
+/// `2 n² u²` of their sizes. The size has a relative error of `(n + 16) u`. 32u are used, plus a term in `n²`.
 pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
     (32.0 + 4.0 * terms * (terms * U64)) * U64 * size
 }

@@ -1,5 +1,4 @@
-//! Every numeric tolerance of this crate: its unit, the reason for its value, and what breaks
-//! without it.
+//! Every numeric tolerance of this crate, with unit, derivation, and purpose.
 
 /// The share of the witnesses' distance that an axis must certify to be claimed without further search.
 ///

@@ -2,7 +2,7 @@
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
-use crate::polytope::{NO_FACE, Polytope, unit};
+use crate::polytope::{Polytope, unit};
 use crate::tolerance::{AXIS_EDGES, CERTIFIED, CERTIFIED_SHARE};
 use crate::witness::{Witness, across};
 use ccd_core::glam::DVec3;
@@ -117,21 +117,11 @@ struct Around {
 impl Around {
     fn new<P: Placed>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
         let shape: &Polytope = polytope.shape();
-        let mut edges: Vec<u32> = match feature {
-            Feature::Vertex(v) => shape.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
-            Feature::Edge(e) => vec![e],
-            Feature::Face(_) => Vec::new(),
-        };
+        let mut edges = shape.edges_at(feature);
         let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(offset).abs();
         edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
         edges.truncate(AXIS_EDGES);
-        let mut faces: Vec<u32> = match feature {
-            Feature::Face(f) => vec![f],
-            _ => edges.iter().flat_map(|&e| shape.edge(e).faces).collect(),
-        };
-        faces.sort_unstable();
-        faces.dedup();
-        faces.retain(|&f| f != NO_FACE);
+        let faces = shape.faces_at(feature, &edges);
         let within = edges.iter().flat_map(|&e| shape.edge(e).inward);
         Around {
             within: within.map(|inward| polytope.vector(inward)).collect(),

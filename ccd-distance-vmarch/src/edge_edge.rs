@@ -6,6 +6,7 @@ use crate::feature::{Behind, Feature, Next, Which};
 use crate::placed::{Line, Placed, Scale, clamped};
 use crate::polytope::Edge;
 use crate::tolerance::{LEVEL, PARALLEL};
+use crate::vertex_edge::side_faced;
 use ccd_core::glam::DVec3;
 
 /// Tests the nearest points of both edges against the other edge's planes, vertex-edge planes first.
@@ -144,23 +145,15 @@ impl Facing {
     /// point.
     #[inline(always)]
     fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
-        let one = |face| Some(Side::Before(face));
-        match slopes.map(|slope| slope > self.slack) {
-            [false, false] => None,
-            [true, false] => one(edge.faces[0]),
-            [false, true] => one(edge.faces[1]),
-            [true, true] => {
-                let normal = |f| p.vector(p.shape().face(f).normal);
-                let height = edge.faces.map(|f| normal(f).dot(self.offset));
-                let higher = usize::from(height[1] > height[0]);
-                let face = edge.faces[higher];
-                if height[higher] > 0.0 {
-                    one(face)
-                } else {
-                    Some(Side::Behind(face))
-                }
-            }
-        }
+        let inward = slopes.map(|slope| slope - self.slack);
+        let face = side_faced(p, edge.faces, inward, self.offset)?;
+        let is_above = || p.vector(p.shape().face(face).normal).dot(self.offset) > 0.0;
+        let beyond_both = inward.iter().all(|&into| into > 0.0);
+        Some(if beyond_both && !is_above() {
+            Side::Behind(face)
+        } else {
+            Side::Before(face)
+        })
     }
 }
 

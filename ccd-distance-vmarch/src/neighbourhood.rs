@@ -3,7 +3,6 @@
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
-use crate::polytope::NO_FACE;
 use crate::tolerance::AROUND;
 use ccd_core::glam::DVec3;
 
@@ -84,23 +83,15 @@ struct Star {
 impl Star {
     fn new<P: Placed>(polytope: &P, feature: Feature) -> Self {
         let shape = polytope.shape();
-        let own: Vec<u32> = match feature {
-            Feature::Vertex(v) => shape.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
-            Feature::Edge(e) => vec![e],
-            Feature::Face(f) => shape.sides_of(f).iter().map(|side| side.edge).collect(),
-        };
-        let mut faces: Vec<u32> = match feature {
-            Feature::Face(f) => vec![f],
-            _ => own.iter().flat_map(|&e| shape.edge(e).faces).collect(),
-        };
-        faces.retain(|&f| f != NO_FACE);
+        let own = shape.edges_at(feature);
+        let faces = shape.faces_at(feature, &own);
         let sides = faces.iter().flat_map(|&f| shape.sides_of(f));
         let mut edges: Vec<u32> = sides.map(|side| side.edge).chain(own).collect();
         let mut vertices: Vec<u32> = edges.iter().flat_map(|&e| shape.edge(e).ends).collect();
         if let Feature::Vertex(v) = feature {
             vertices.push(v);
         }
-        for list in [&mut vertices, &mut edges, &mut faces] {
+        for list in [&mut vertices, &mut edges] {
             list.sort_unstable();
             list.dedup();
         }

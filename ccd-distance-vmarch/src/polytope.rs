@@ -142,6 +142,27 @@ impl Polytope {
         &self.sides[face.first_side as usize..face.end_side as usize]
     }
 
+    /// Returns the edges that end in a vertex, or the edge; none for a face.
+    pub(crate) fn edges_at(&self, feature: Feature) -> Vec<u32> {
+        match feature {
+            Feature::Vertex(v) => self.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
+            Feature::Edge(e) => vec![e],
+            Feature::Face(_) => Vec::new(),
+        }
+    }
+
+    /// Returns the face, or the faces of some edges, in ascending order.
+    pub(crate) fn faces_at(&self, feature: Feature, edges: &[u32]) -> Vec<u32> {
+        let mut faces: Vec<u32> = match feature {
+            Feature::Face(f) => vec![f],
+            _ => edges.iter().flat_map(|&e| self.edge(e).faces).collect(),
+        };
+        faces.sort_unstable();
+        faces.dedup();
+        faces.retain(|&f| f != NO_FACE);
+        faces
+    }
+
     /// Returns whether the polytope has such a feature.
     #[inline]
     pub(crate) fn has(&self, feature: Feature) -> bool {

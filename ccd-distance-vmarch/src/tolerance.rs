@@ -1,5 +1,4 @@
-//! Every numeric tolerance of this crate: its unit, the reason for its value, and what breaks
-//! without it.
+//! Every numeric tolerance of this crate, with unit, derivation, and purpose.
 //!
 //! `u` is half a unit in the last place of 1. Lengths are in the unit of the pieces' coordinates. A pair's *size* is
 //! the sum of both pieces' radii about their own origins, and of the distance of those origins.

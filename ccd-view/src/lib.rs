@@ -1,4 +1,4 @@
-//! Offline pages that show bodies in motion, where they touch, and the proven gap between them.
+//! Offline pages that show moving bodies, their contacts, and the proven gap between them.
 //!
 //! | to … | use |
 //! |---|---|

@@ -19,10 +19,9 @@ pub(super) enum Refutation {
 
 /// Returns the polygons, if they are the facets of the hull of the points.
 ///
-/// No point is in front of a polygon, so that each is within a facet of the hull, in the facet's orientation.
-/// Beyond each of its edges the plane changes, so that the edge is on the facet's rim, and a convex polygon
-/// with all edges on the rim is the facet. As every edge occurs once in either direction, no facet is
-/// repeated, and none is missing.
+/// No point is in front of a polygon, so that each is within a facet of the hull, in the facet's orientation. Beyond
+/// each of its edges the plane changes, so that the edge is on the facet's rim, and a convex polygon with all edges on
+/// the rim is the facet. Every edge occurs once in each direction, so that no facet is repeated or missing.
 ///
 /// # Errors
 /// [`Refutation`].

@@ -70,7 +70,7 @@ pub enum MeshFault {
     /// The file has no part of that name or number.
     #[error("has no part {part:?}; {}", Parts(.parts))]
     NoSuchPart {
-        /// The name or number asked for.
+        /// The requested name or number.
         part: String,
         /// The names of all parts; a part may have none.
         parts: Vec<Option<String>>,
@@ -304,6 +304,14 @@ impl fmt::Debug for Quote<'_> {
             Some((end, _)) => write!(f, "{:?}", format!("{}…", &self.0[..end])),
             None => write!(f, "{:?}", self.0),
         }
+    }
+}
+
+/// Returns the name of an element for messages, such as `node 2 "lid"`.
+pub(crate) fn element_name(kind: &str, number: impl fmt::Display, name: Option<&str>) -> String {
+    match name {
+        Some(name) => format!("{kind} {number} {:?}", Quote(name)),
+        None => format!("{kind} {number}"),
     }
 }
 

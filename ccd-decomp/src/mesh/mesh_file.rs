@@ -2,7 +2,7 @@
 
 use super::TriangleMesh;
 use super::content::Content;
-use super::error::{MeshError, MeshFault, Quote};
+use super::error::{MeshError, MeshFault, element_name};
 use super::format::{Format, LinkedFiles, Reference};
 use super::unit::{Conversion, Unit};
 use std::fs::{self, File};
@@ -89,7 +89,7 @@ impl MeshFile {
     }
 
     /// Returns the unit of the coordinates: that of [`MeshFile::in_unit`], else that of the file. OBJ, STL, PLY and OFF
-    /// have none.
+    /// have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
     }
@@ -116,8 +116,8 @@ impl MeshFile {
     ///
     /// # Guarantee
     /// Between metric units a coordinate is the exact product or quotient by a power of ten, rounded to nearest. It is
-    /// exact where a glTF is converted from metres to centimetres, millimetres or micrometres and no node moves the
-    /// mesh: its floats have room for it. From and to inches and feet it is rounded up to twice.
+    /// exact for a glTF converted to centimetres, millimetres or micrometres, if no node transforms the mesh. From and
+    /// to inches and feet it is rounded up to twice.
     ///
     /// ```
     /// use ccd_decomp::{Format, MeshFile, Unit};
@@ -217,10 +217,7 @@ impl MeshFile {
 
     /// The name of a part in messages.
     fn place(&self, part: usize) -> String {
-        match self.content.name(part) {
-            Some(name) => format!("part {part} {:?}", Quote(name)),
-            None => format!("part {part}"),
-        }
+        element_name("part", part, self.content.name(part))
     }
 
     fn error(&self, fault: MeshFault) -> MeshError {

@@ -28,7 +28,7 @@ impl Remarks {
         self.0.iter()
     }
 
-    /// Returns whether the whole file was read as it stands.
+    /// Returns whether the file was read completely and unchanged.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -37,7 +37,7 @@ use voxels::Voxels;
 /// polytope, whose radius this is. No point of a polytope is farther than `sticks_out` from S.
 #[derive(Clone, Debug)]
 pub(crate) struct Approximation {
-    /// The hulls, at most as many as asked for. Their facets are no part of the mesh.
+    /// The hulls, at most the requested number. Their facets are no part of the mesh.
     pub(crate) polytopes: Vec<Polytope>,
     /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
     /// mesh's unit of length.

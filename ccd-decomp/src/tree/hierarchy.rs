@@ -16,9 +16,9 @@ use reinsert::reinsert;
 /// Builds a hierarchy over pieces: splits them at medians into clusters, agglomerates each cluster, and reinserts the
 /// worst subtrees.
 ///
-/// Agglomeration alone (`[PLOC18]`) makes the best trees. On pieces that all have one centre, such as nested or
-/// equal ones, it merges a single pair per pass, which takes quadratic time and makes a chain. Clusters bound
-/// both.
+/// Agglomeration alone (`[PLOC18]`) makes the best trees. On pieces that all have one centre, such as nested or equal
+/// ones, it merges a single pair per pass, which takes quadratic time and makes a chain. Clusters bound both. The
+/// builder of `parry3d` is sequential and bounds neither.
 ///
 /// # Guarantee
 /// The same pieces give the same hierarchy, on any number of threads. Every piece appears once; no input panics.

@@ -71,8 +71,7 @@ pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
             out
         }
     };
-    // Most pieces are in frames of their own; some kinds lose their special property if they are
-    // turned.
+    // Most pieces have separate frames; some kinds lose their special property if they are turned.
     let kept = matches!(kind, Kind::Grid | Kind::Coplanar | Kind::Sliver);
     let placed = shapes.into_iter().map(|shape| {
         let (turn, shift) = (rotation(rng), vector(rng));

@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 /// Computes the facets of the hull of points that span a volume, from an initial tetrahedron.
 ///
 /// Points are inserted in rounds of about half of the remaining points, chosen pseudorandomly. The expected work is O(n
-/// log n) for any points, and the memory O(n). Within a round they keep the given order, in which neighbours likely
-/// follow each other `[ACR03]`.
+/// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
+/// `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = Growing::all(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_there);
@@ -116,7 +116,7 @@ impl<'a> Growing<'a> {
 
     fn insert(&mut self, v: u32) {
         let first = self.sees[v as usize];
-        // A point that sees a new facet sees one of the two at its edge of the rim: none is forgotten.
+        // A point that sees a new facet also saw one of the two facets at its rim edge, so that no conflict is lost.
         if first == NONE || !self.facets[first as usize].is_there {
             return;
         }

@@ -17,7 +17,7 @@ use super::{LinkedFiles, Reference};
 use crate::mesh::content::allowance::Allowance;
 use crate::mesh::content::assembly::Assembly;
 use crate::mesh::content::{Content, Layout};
-use crate::mesh::error::{MeshFault, Quote};
+use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::unit::Unit;
 use accessor::Accessors;
 use buffers::Buffers;
@@ -65,7 +65,7 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     for (k, buffer) in list.buffers.iter().enumerate() {
         let reference = buffers::reference(buffer);
         if let Some(Reference { name, bytes }) =
-            reference.map_err(|fault| fault.at(name("buffer", k, None)))?
+            reference.map_err(|fault| fault.at(element_name("buffer", k, None)))?
         {
             let most = needed.entry(name).or_insert(bytes);
             *most = bytes.max(*most);
@@ -75,14 +75,6 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     Ok(references
         .map(|(name, bytes)| Reference { name, bytes })
         .collect())
-}
-
-/// Returns the name of an element for messages.
-fn name(kind: &str, number: usize, name: Option<&str>) -> String {
-    match name {
-        Some(name) => format!("{kind} {number} {:?}", Quote(name)),
-        None => format!("{kind} {number}"),
-    }
 }
 
 /// Returns an element by its number.

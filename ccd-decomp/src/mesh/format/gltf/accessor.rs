@@ -1,10 +1,10 @@
 //! Accessors: typed arrays in buffers.
 
 use super::buffers::Buffers;
+use super::element;
 use super::schema::{self, Root, Sparse};
-use super::{element, name};
 use crate::mesh::content::allowance::{Allowance, cost};
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, element_name};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -86,7 +86,7 @@ impl<'a> Accessors<'a> {
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
     ) -> Result<T, MeshFault> {
         let about = element(&self.root.accessors, "accessor", accessor)?;
-        read(self, about).map_err(|fault| fault.at(name("accessor", accessor, None)))
+        read(self, about).map_err(|fault| fault.at(element_name("accessor", accessor, None)))
     }
 
     /// Reads all elements of an accessor, sparse ones included.

@@ -1,8 +1,8 @@
 //! Buffers of a glTF.
 
 use super::schema::{Buffer, Root};
-use super::{element, extensions, name};
-use crate::mesh::error::{MeshFault, Quote};
+use super::{element, extensions};
+use crate::mesh::error::{MeshFault, Quote, element_name};
 use crate::mesh::format::{LinkedFiles, Reference};
 use base64::Engine;
 use base64::engine::general_purpose::GeneralPurpose;
@@ -23,7 +23,8 @@ impl<'a> Buffers<'a> {
     ) -> Result<Self, MeshFault> {
         let found = |(k, buffer)| {
             let binary = binary.filter(|_| k == 0);
-            content(buffer, binary, linked).map_err(|fault| fault.at(name("buffer", k, None)))
+            content(buffer, binary, linked)
+                .map_err(|fault| fault.at(element_name("buffer", k, None)))
         };
         let bytes: Result<_, _> = root.buffers.iter().enumerate().map(found).collect();
         Ok(Buffers {
@@ -57,7 +58,7 @@ impl<'a> Buffers<'a> {
                 MeshFault::syntax(None, problem)
             })
         };
-        found().map_err(|fault: MeshFault| fault.at(name("buffer view", view, None)))
+        found().map_err(|fault: MeshFault| fault.at(element_name("buffer view", view, None)))
     }
 
     /// Returns the stride of a buffer view, if it states one.

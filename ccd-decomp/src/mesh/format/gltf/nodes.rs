@@ -2,10 +2,10 @@
 
 use super::accessor::Accessors;
 use super::schema::{Node, Root};
-use super::{element, extensions, name, primitive, transform};
+use super::{element, extensions, primitive, transform};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Object, Part, Placed};
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
@@ -60,7 +60,7 @@ impl<'a> Walk<'a> {
         let mut waiting: Vec<(usize, AffineMap)> = tops.iter().rev().map(top).collect();
         while let Some((number, above)) = waiting.pop() {
             let node = element(&self.root.nodes, "node", number)?;
-            let place = || name("node", number, node.name.as_deref());
+            let place = || element_name("node", number, node.name.as_deref());
             // Nodes form a tree. The check also ends at cycles.
             if std::mem::replace(&mut self.visited[number], true) {
                 let problem = "is below itself, or below two others".into();
@@ -89,7 +89,7 @@ impl<'a> Walk<'a> {
             .collect();
         if tops.is_empty() {
             let problem = "is below itself".into();
-            return Err(MeshFault::syntax(None, problem).at(name("node", 0, None)));
+            return Err(MeshFault::syntax(None, problem).at(element_name("node", 0, None)));
         }
         self.below(&tops)
     }
@@ -152,7 +152,7 @@ impl<'a> Walk<'a> {
         let object = match self.known.get(&mesh) {
             Some(&object) => object,
             None => {
-                let place = || name("mesh", mesh, about.name.as_deref());
+                let place = || element_name("mesh", mesh, about.name.as_deref());
                 let shape = primitive::shape(about, &mut self.accessors)
                     .map_err(|fault| fault.at(place()))?;
                 let members = Vec::new();
@@ -163,7 +163,7 @@ impl<'a> Walk<'a> {
                     .or_insert(self.scene.objects.len() - 1)
             }
         };
-        // An empty name is none.
+        // An empty name counts as no name.
         let given = |name: &String| !name.is_empty();
         let name = label.filter(given).or(about.name.clone().filter(given));
         let placed = Placed { object, map };

@@ -1,9 +1,9 @@
 //! The primitives of a mesh, as triangles.
 
 use super::accessor::Accessors;
+use super::extensions;
 use super::schema::{Mesh, Primitive};
-use super::{extensions, name};
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::polygons::{Polygons, check_count};
 use ccd_core::glam::DVec3;
 use std::collections::HashMap;
@@ -14,7 +14,7 @@ pub(super) fn shape(mesh: &Mesh, accessors: &mut Accessors<'_>) -> Result<Polygo
     let mut known = HashMap::new();
     for (k, primitive) in mesh.primitives.iter().enumerate() {
         add(primitive, &mut shape, &mut known, accessors)
-            .map_err(|fault| fault.at(name("primitive", k, None)))?;
+            .map_err(|fault| fault.at(element_name("primitive", k, None)))?;
     }
     Ok(shape)
 }

@@ -3,7 +3,7 @@
 use super::transform;
 use super::xml::{Element, Origin, Step, Xml};
 use crate::mesh::affine::AffineMap;
-use crate::mesh::error::{MeshFault, Quote};
+use crate::mesh::error::{MeshFault, Quote, element_name};
 use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
@@ -97,10 +97,7 @@ pub(super) fn read<R: BufRead>(xml: &mut Xml<R>) -> Result<Model, MeshFault> {
 /// Returns the name of an object for messages.
 pub(super) fn place(path: Option<&str>, id: u32, name: Option<&str>) -> String {
     let path = path.map_or_else(String::new, |path| format!("{:?}: ", Quote(path)));
-    match name {
-        Some(name) => format!("{path}object {id} {:?}", Quote(name)),
-        None => format!("{path}object {id}"),
-    }
+    path + &element_name("object", id, name)
 }
 
 impl Model {
