@@ -21,8 +21,8 @@ use std::path::Path;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// Wavefront OBJ: statements `v` and `f`, in f64. Normals, texture coordinates, colours and materials are passed over;
-    /// lines, points, curves and unknown statements, too, with a remark. A fourth number of a vertex divides the others,
+    /// Wavefront OBJ: statements `v` and `f`, in f64. Normals, texture coordinates, colours and materials are skipped;
+    /// lines, points, curves and unknown statements are skipped with a remark. A fourth number of a vertex divides the others,
     /// with a remark unless it is 1. Free-form surfaces and calls of other files are errors.
     ///
     /// Its parts are its objects (`o`) or, in a file without any, its groups (`g`).
@@ -37,16 +37,15 @@ pub enum Format {
     Off,
     /// glTF 2.0, text (`.gltf`) or binary (`.glb`), in metres; with the feature `gltf`.
     ///
-    /// Numbers are read in f64, and rotations are made unit. The maps of nodes below each other are multiplied in f64
-    /// before they are applied: each product rounds as [`AffineMap::apply`](crate::AffineMap::apply) does.
+    /// Numbers are read in f64, and rotations are normalized. Transforms of nested nodes are multiplied in f64 before
+    /// they are applied: each product rounds as [`AffineMap::apply`](crate::AffineMap::apply) does.
     ///
-    /// Its parts are the nodes of its scene that have a mesh: of the scene that is shown first or, in a file without
-    /// scenes, of all nodes. A node without a name has that of its mesh. Every primitive of triangles, strips
-    /// or fans is read, with or without indices, from floats, quantized integers or sparse accessors. Materials and
-    /// animations are passed over; points, lines, skins and morph targets, too, with a remark: a mesh is as it is at rest,
-    /// without its skin. So is a node that is scaled to zero along all three axes, with all below it, as the
-    /// specification hides them so. Instances make about ten million triangles at most. Compression by Draco or meshopt, and any extension that the file requires and
-    /// that changes the shape, is an error.
+    /// Parts are the nodes with a mesh, of the default scene or, in a file without scenes, of all nodes. A node without
+    /// a name has that of its mesh. Primitives of triangles, strips and fans are read, with or without indices, from
+    /// floats, quantized integers or sparse accessors. Materials and animations are skipped; points, lines, skins and
+    /// morph targets are skipped with a remark, so that meshes are in their rest pose. A node scaled to zero along all
+    /// axes is hidden with its descendants, as specified. Instances make about ten million triangles at most.
+    /// Compression by Draco or meshopt, and required extensions that change the shape, are errors.
     Gltf,
     /// 3MF, in the unit that it states; with the feature `3mf`. Numbers and maps are as in a glTF.
     ///

@@ -1,6 +1,7 @@
 //! The rounding bounds cover their derivations, repeated here.
 
 use super::*;
+use ccd_core::glam::DVec3;
 
 /// Half a unit in the last place.
 const U: f64 = 1.0 / 9_007_199_254_740_992.0;
