@@ -32,16 +32,12 @@ pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
         found: 0.0,
         heap: BinaryHeap::new(),
     };
-    let mut settled = 0.0_f64;
-    for (k, part) in parts.iter().enumerate() {
-        match part.excess_by_shrinking(target, floor) {
-            Some(bound) => settled = greater(settled, bound),
-            None => search.begin(k),
-        }
+    for part in 0..parts.len() {
+        search.begin(part);
     }
     while search.split_worst(floor) {}
     let open = search.heap.peek().map_or(0.0, |cell| cell.bound);
-    greater(greater(open, search.found), settled)
+    greater(open, search.found)
 }
 
 /// The approximate number of corners of a part that are examined.

@@ -4,10 +4,7 @@ use super::super::part::Part;
 use super::super::target::Target;
 use crate::bounds::Bounds;
 use crate::tolerance::WELL_SHAPED;
-use crate::work::Work;
-use ccd_core::SupportTree;
 use ccd_core::glam::DVec3;
-use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
 /// A part and the planes of its facets.
@@ -72,49 +69,6 @@ impl<'a> PartPlanes<'a> {
             }
         }
         Some(meeting)
-    }
-
-    /// Bounds the excess of a part that the surface hardly enters; `None` if the bound would exceed `most`.
-    ///
-    /// The part is shrunk towards a point of the solid until each triangle of the surface is in front of one of its
-    /// planes. The shrunk part contains no surface, and is therefore in the solid. The shrinkage bounds the excess.
-    ///
-    /// # Complexity
-    /// O(log f) for each triangle near the part, of f facets.
-    pub(super) fn excess_by_shrinking(&self, target: &Target<'_>, most: f64) -> Option<f64> {
-        let count = self.part.corners.len() as f64;
-        let centre = self.part.corners.iter().sum::<DVec3>() / count;
-        let depths = self.planes.iter().map(|plane| plane.above(centre));
-        let depths: Vec<f64> = depths.map(|above| self.slack - above).collect();
-        let is_inside = depths.iter().all(|&depth| depth > 2.0 * self.slack);
-        if depths.is_empty() || !is_inside || !target.winds_about(centre, &Work::unbounded()) {
-            return None;
-        }
-        let far = self.part.corners.iter().map(|p| p.distance(centre));
-        let reach = far.fold(0.0, greater) + self.slack;
-        // Relative to the centre's depth, a point is farthest from the plane whose dual is extremal towards it.
-        let duals = self.planes.iter().zip(&depths);
-        let duals: Vec<DVec3> = duals.map(|(plane, depth)| plane.normal / *depth).collect();
-        let farthest = SupportTree::new(&duals);
-        let share_before = |triangle: [DVec3; 3], towards: DVec3| {
-            let k = farthest.extremal(towards - centre) as usize;
-            let out = triangle.map(|p| self.planes[k].normal.dot(p - centre) - self.slack);
-            out.into_iter().fold(f64::INFINITY, lesser) / depths[k]
-        };
-        let enough = 1.0 - most / reach;
-        let mut share = 1.0_f64;
-        let near = target
-            .triangles()
-            .filter(|&t| Bounds::enclosing(t).meets(&self.bounds));
-        for triangle in near {
-            let [p, q, r] = triangle;
-            let towards = [(p + q + r) / 3.0, p, q, r].into_iter();
-            let of_this = towards
-                .map(|towards| share_before(triangle, towards))
-                .find(|&share| share >= enough)?;
-            share = lesser(share, of_this);
-        }
-        Some((1.0 - share) * reach)
     }
 }
 
