@@ -13,7 +13,7 @@ use ccd_bench::method::{Method, Ours};
 use ccd_bench::run::contest::{Allowance, Contest, Truths};
 use ccd_bench::run::evaluation::USUAL_TOLERANCE;
 use ccd_bench::scene::{Models, Pieces, listings};
-use ccd_core::Config;
+use ccd_core::Settings;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -64,9 +64,9 @@ fn advancement(criterion: &mut Criterion) {
             if !is_right(&contest, method, &truths) {
                 continue;
             }
-            let config = Config {
+            let config = Settings {
                 tolerance: USUAL_TOLERANCE,
-                ..Config::default()
+                ..Settings::DEFAULT
             };
             let bodies = scene
                 .bodies_of(pieces)

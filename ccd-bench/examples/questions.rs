@@ -9,9 +9,9 @@
 
 use anyhow::{Context, bail, ensure};
 use rigid_ccd::batch::median;
-use rigid_ccd::schedule::{AnyContact, BestFirst, ClosestApproach, DepthFirst};
+use rigid_ccd::schedule::{BestFirst, DepthFirst, Schedule};
 use rigid_ccd::table::motions::{MotionTable, Query};
-use rigid_ccd::{Body, Config, Direct, Outcome, Problem, Schedule, load};
+use rigid_ccd::{Answer, Body, Direct, InputError, Outcome, Settings, load};
 use std::fs::File;
 use std::io::Write;
 use std::time::{Duration, Instant};
@@ -27,9 +27,9 @@ fn main() -> anyhow::Result<()> {
     let bodies = (&load(a)?, &load(b)?);
     let table = MotionTable::read(File::open(motions).context("motions")?)?;
     ensure!(table.errors.is_empty(), "the table has bad rows");
-    let config = Config {
+    let config = Settings {
         tolerance,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let mut solvers = Solvers::default();
     let mut rows = Vec::new();
@@ -51,8 +51,8 @@ struct Solvers {
 /// The answers to one row, with the least time of each.
 struct Row {
     first: (Outcome, Duration),
-    any: (AnyContact, Duration),
-    closest: (ClosestApproach, Duration),
+    any: (Outcome, Duration),
+    closest: (Outcome, Duration),
     tolerance: f64,
 }
 
@@ -61,36 +61,37 @@ impl Solvers {
         &mut self,
         (a, b): (&Body, &Body),
         query: &Query,
-        config: &Config,
+        config: &Settings,
         rounds: usize,
     ) -> anyhow::Result<Row> {
-        let problem = Problem::new((a, query.a), (b, query.b), query.duration, config)?;
+        let query = rigid_ccd::Query::new((a, query.a), (b, query.b), query.duration, config)?;
         let Solvers {
             best_first,
             depth_first,
             oracle,
         } = self;
         Ok(Row {
-            first: least(rounds, || best_first.solve(&problem, oracle).outcome),
-            any: least(rounds, || depth_first.any_contact(&problem, oracle).outcome),
-            closest: least(rounds, || {
-                depth_first.closest_approach(&problem, oracle).outcome
-            }),
-            tolerance: problem.tolerance(),
+            first: least(rounds, || best_first.first_contact(&query, oracle))?,
+            any: least(rounds, || depth_first.any_contact(&query, oracle))?,
+            closest: least(rounds, || depth_first.closest_approach(&query, oracle))?,
+            tolerance: query.tolerance(),
         })
     }
 }
 
-/// Returns the answer and the least time of some calls, after one that is not timed.
-fn least<T>(rounds: usize, mut call: impl FnMut() -> T) -> (T, Duration) {
-    let mut answer = call();
+/// Returns the outcome and the least time of some calls, after one that is not timed.
+fn least(
+    rounds: usize,
+    mut call: impl FnMut() -> Result<Answer, InputError>,
+) -> Result<(Outcome, Duration), InputError> {
+    let mut answer = call()?;
     let mut taken = Duration::MAX;
     for _ in 0..rounds {
         let start = Instant::now();
-        answer = call();
+        answer = call()?;
         taken = taken.min(start.elapsed());
     }
-    (answer, taken)
+    Ok((answer.outcome, taken))
 }
 
 impl Row {
@@ -99,7 +100,7 @@ impl Row {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        let any_hit = !matches!(self.any.0, AnyContact::Free { .. });
+        let any_hit = !matches!(self.any.0, Outcome::Free { .. });
         let closest = &self.closest.0;
         let width = closest.upper() - closest.lower();
         ensure!(

@@ -60,7 +60,7 @@ fn answer(
 ) -> Result<(Duration, Vec<Answer>), InputError> {
     let start = Instant::now();
     let answers = solver.map(queries, |solver, query| {
-        solver.answer((a, query.a), (b, query.b), query.duration)
+        solver.first_contact((a, query.a), (b, query.b), query.duration)
     });
     let taken = start.elapsed();
     Ok((taken, answers.into_iter().collect::<Result<_, _>>()?))

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Opens a page in a headless browser and takes a screenshot. The console must stay empty, and the page has
-# to draw all its parts: the plane and the view in three dimensions, or those that are named.
+# to draw all its parts: the view in three dimensions, or those that are named.
 #
 #   check_page.sh PAGE.html SHOT.png [WIDTH,HEIGHT [PART...]]
 #
@@ -17,7 +17,7 @@ size=${3:-1200,1800}
 if [ $# -gt 3 ]; then
     shift 3
 else
-    set -- plane view
+    set -- view
 fi
 
 browser=

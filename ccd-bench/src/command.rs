@@ -1,9 +1,7 @@
-//! The command `ccd-bench`: demo, charts, brackets of exact first contacts, stability,
-//! the smallest failures.
+//! The command `ccd-bench`: demo, charts, brackets of exact first contacts, stability.
 
 mod answer;
 mod chart;
-mod falsify;
 mod judge;
 mod stability;
 mod truth;
@@ -12,7 +10,6 @@ use crate::show::tables::TextTable;
 use answer::AnswerArgs;
 use chart::{ChartArgs, CommonArgs};
 use clap::{Parser, Subcommand};
-use falsify::FalsifyArgs;
 use judge::JudgeArgs;
 use rigid_ccd::command::{CannotWrite, exit_code};
 use stability::StabilityArgs;
@@ -46,8 +43,6 @@ enum Command {
     Truth(TruthArgs),
     /// Find where each method fails: families of scenes that get harder step by step
     Stability(StabilityArgs),
-    /// Search for the smallest scene at which each method fails
-    Falsify(FalsifyArgs),
     /// Ask one method about a table of motions, and judge its answers by exact ones
     Judge(JudgeArgs),
     #[command(hide = true)]
@@ -63,7 +58,6 @@ pub fn main() -> ExitCode {
             Command::Chart(args) => chart::run(&args),
             Command::Truth(args) => truth::run(&args),
             Command::Stability(args) => stability::run(&args),
-            Command::Falsify(args) => falsify::run(&args),
             Command::Judge(args) => judge::run(&args),
             Command::Answer(args) => answer::run(&args),
         },

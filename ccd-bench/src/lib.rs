@@ -7,11 +7,9 @@
 //! | answer by this project, by published rivals, or by peer libraries | [`method`] |
 //! | time and judge every method on every scene | [`run`] |
 //! | find where each method fails | [`stability`] |
-//! | search for the smallest scene at which a method fails | [`falsify`] |
 //! | show the measurements | [`show`] |
 
 pub mod command;
-pub mod falsify;
 pub mod method;
 pub mod run;
 pub mod scene;

@@ -12,10 +12,11 @@ use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, screw};
 use crate::method::script::ScriptKind;
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use crate::scene::Pieces;
-use ccd_core::{Config, InputError, Instructions, Outcome};
+use ccd_core::Answer;
+use ccd_core::{InputError, Instructions, Outcome, Settings};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
-use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, ScheduleKind, Solve, SolverKind, solve};
+use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, Question, ScheduleKind, Solve, SolverKind};
 use rigid_ccd::table::motions::Query;
 use std::fmt;
 
@@ -192,17 +193,33 @@ impl RivalKind {
     }
 }
 
+/// Finds the first contact of two bodies on motions.
+///
+/// # Errors
+/// A motion or the duration is out of range.
+pub(crate) fn first_contact(
+    bodies: Bodies<'_>,
+    query: &Query,
+    settings: &Settings,
+    solver: &mut dyn Solve,
+) -> Result<Answer, InputError> {
+    let (a, b) = ((bodies.a, query.a), (bodies.b, query.b));
+    let query = rigid_ccd::Query::new(a, b, query.duration, settings)?;
+    let answer = solver.answer(Question::FirstContact, &query);
+    answer.expect("all schedules find the first contact")
+}
+
 /// A solver of this project.
 pub struct Ours<'s> {
     bodies: Bodies<'s>,
     kind: SolverKind,
     solver: Box<dyn Solve>,
-    config: Config,
+    config: Settings,
 }
 
 impl<'s> Ours<'s> {
     /// Returns a solver of the given kind on two bodies.
-    pub fn new(kind: SolverKind, bodies: Bodies<'s>, config: Config) -> Self {
+    pub fn new(kind: SolverKind, bodies: Bodies<'s>, config: Settings) -> Self {
         Ours {
             bodies,
             kind,
@@ -221,7 +238,7 @@ impl Adjustable for Ours<'_> {
 impl Solver for Ours<'_> {
     /// Steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
     fn answer(&mut self, query: &Query) -> Reply {
-        let answer = match solve(self.bodies, query, &self.config, self.solver.as_mut()) {
+        let answer = match first_contact(self.bodies, query, &self.config, self.solver.as_mut()) {
             Ok(answer) => answer,
             // An invalid query is not answered.
             Err(error) => {
@@ -235,17 +252,19 @@ impl Solver for Ours<'_> {
             Outcome::Contact { time, .. } => Claim::Contact { time },
             Outcome::Touching { .. } | Outcome::Overlapping { .. } => Claim::Contact { time: 0.0 },
             Outcome::Free { .. } => Claim::Free,
-            Outcome::Unresolved { safe_until, .. } => Claim::Unresolved { safe_until },
+            Outcome::Unresolved(known) => Claim::Unresolved {
+                safe_until: known.safe_until,
+            },
+            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+                unreachable!("no outcome of a first contact")
+            }
         };
         let steps = if self.kind.schedule.uses_a_bound() {
             answer.stats.advancements
         } else {
             answer.stats.iterations
         };
-        let reason = match answer.outcome {
-            Outcome::Unresolved { reason, .. } => Some(reason.to_string()),
-            _ => None,
-        };
+        let reason = answer.outcome.limit().map(|limit| limit.to_string());
         Reply {
             claim,
             steps,

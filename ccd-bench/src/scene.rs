@@ -7,7 +7,6 @@ mod shots;
 mod tests;
 
 pub use listing::{Listing, listings};
-pub(crate) use shots::unit_vector;
 pub use shots::{Shots, drops_past_board};
 
 use crate::scene::model::{Model, Origin};

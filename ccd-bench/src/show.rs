@@ -1,6 +1,5 @@
 //! Shows measurements as tables, charts and a page.
 
-pub mod atlas;
 pub mod chart;
 pub mod comparable;
 pub mod page;

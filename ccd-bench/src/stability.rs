@@ -7,9 +7,8 @@
 //! | judge an answer | [`judge`] |
 //! | ask all methods, each in a process that can be stopped | [`Survey`] |
 //! | know what was asked and answered | [`Findings`] |
-//! | see how far each method follows | [`summary`], [`limits`], [`reach_map`], [`growth_map`], [`write_atlas`] |
+//! | see how far each method follows | [`summary`], [`limits`], [`reach_map`], [`growth_map`] |
 
-mod atlas;
 mod families;
 mod family;
 mod findings;
@@ -18,7 +17,6 @@ mod shapes;
 mod summary;
 mod survey;
 
-pub use atlas::write_atlas;
 pub use families::families;
 pub use family::{Case, Expected, Family, Step, StepError};
 pub use findings::Findings;

@@ -2,7 +2,7 @@
 //! touch, where, and with which features?
 //!
 //! A [`Body`] is a set of convex [pieces](Pieces) with a tree over them; a [`Motion`] carries it
-//! along; a [`Problem`] poses the query; a [`Schedule`] answers it with the help of a
+//! along; a [`Query`] poses the question; a [`Schedule`] answers it with the help of a
 //! [`DistanceOracle`], the backend that measures the distance of two pieces. Backends, mesh files and
 //! commands live in crates of their own: this one knows no backend, no file, no IO.
 //!
@@ -27,9 +27,9 @@
 //! let flying = |from: DVec3, velocity: DVec3| Motion::new(Pose::at(from)?, velocity, DVec3::ZERO);
 //! let a = flying(DVec3::new(-3.0, 0.6, 0.0), 2.0 * DVec3::X)?;
 //! let b = flying(DVec3::new(3.0, 0.0, 0.0), -2.0 * DVec3::X)?;
-//! let config = Config { tolerance: 1e-6, ..Config::default() };
-//! let problem = Problem::new((&ball, a), (&ball, b), 2.0, &config)?;
-//! let answer = BestFirst::default().solve(&problem, &mut Balls);
+//! let settings = Settings { tolerance: 1e-6, ..Settings::DEFAULT };
+//! let query = Query::new((&ball, a), (&ball, b), 2.0, &settings)?;
+//! let answer = BestFirst::default().first_contact(&query, &mut Balls)?;
 //! let Outcome::Contact { time, contact } = answer.outcome else { panic!("they meet") };
 //! // Centres that are 0.6 apart sideways are 1 apart when they are 0.8 apart along x: at 5.2 / 4.
 //! assert!(time <= 1.3 && time > 1.3 - 1e-6);
@@ -48,12 +48,13 @@
 //! 4. **Checkable.** A backend is never believed: its claim is [checked](Separation) with one support
 //!    query. A wrong one makes a query slow or unresolved, never late.
 //! 5. **Same answer** whichever backend, schedule or order of the two bodies, within the tolerance;
-//!    the same call twice gives the same bits; except for what a [deadline](Config::deadline) ends.
+//!    the same call twice gives the same bits; except for what a [deadline](Settings::deadline) ends.
 //!
 //! # From the paper to the files
 //! | step | file |
 //! |---|---|
-//! | the question: two bodies, their motions, a duration | `problem.rs` |
+//! | the question: two bodies, their motions, a duration, settings | `query.rs`, `settings.rs` |
+//! | the same in units of its own, as schedules search it | `problem.rs` |
 //! | pieces of a body, and the wide tree over them `[FAST06 §5.1]` | `body/pieces.rs`, `body/tree.rs` |
 //! | tree of convex hulls `[FAST06 §3.3]` | `body/hull_tree.rs` |
 //! | farthest corner along a direction `[FAST06 §4.2]` | `body/support.rs` |
@@ -64,7 +65,7 @@
 //! | conservative advancement, best first | `schedule/best_first.rs` |
 //! | the steps that all searches take | `schedule/search.rs` |
 //! | any contact, the closest approach | `schedule/depth_first.rs`, `schedule/any_contact.rs`, `schedule/closest_approach.rs` |
-//! | motions of any kind, stretch by stretch | `motion/trajectory.rs`, `schedule/journey.rs` |
+//! | motions of any kind, stretch by stretch | `motion/trajectory.rs`, `schedule/along.rs` |
 //! | the same in steps, for many pairs of bodies side by side | `schedule/first_contact.rs` |
 //! | boxes about moving bodies, for a broad phase | `swept_box.rs` |
 //! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
@@ -74,7 +75,7 @@
 //! | distance at one clock, nearest pairs first | `schedule/nearest.rs` |
 //! | contact at the start, one body inside the other | `schedule/start.rs`, `schedule/start/containment.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
-//! | the answer | `outcome.rs` |
+//! | the answer | `answer.rs` |
 //! | accepted ranges, and every allowance for rounding | [`limits`], [`tolerance`] |
 //!
 //! # Features
@@ -92,23 +93,29 @@ compile_error!(
      worth nothing then: remove `-C target-cpu=native` from the rustflags, or replace it by `x86-64-v3`; add \
      the feature `avx512` if your compiler is known to be free of the fault"
 );
+mod answer;
 mod body;
-mod config;
 mod contacts;
 mod distance;
 mod error;
 pub mod limits;
 mod math;
 mod motion;
-mod outcome;
+
 mod problem;
+mod query;
 pub mod schedule;
+mod settings;
 mod swept_box;
 #[cfg(test)]
 mod tests;
 pub mod tolerance;
 mod touching_plane;
 
+pub use answer::{
+    Answer, Clearance, Contact, Hit, HitKind, Limit, Outcome, Overlap, Separation, Stats,
+    Unresolved,
+};
 pub use body::combination::Combination;
 pub use body::facets::Facets;
 pub use body::feature::Feature;
@@ -121,7 +128,6 @@ pub use body::polytope::{Face, Facet, Origin, Polytope};
 pub use body::round::{Enclosure, Round};
 pub use body::support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};
 pub use body::{Body, Volume};
-pub use config::{Config, Instructions, StartPolicy};
 pub use contacts::{ContactsError, FeaturePair};
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use error::InputError;
@@ -135,7 +141,7 @@ pub use motion::Motion;
 pub use motion::bound::Bound;
 pub use motion::pose::{Frame, Pose};
 pub use motion::trajectory::{Acceleration, Accelerations, Smooth, Stray, Stretch, Trajectory};
-pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};
-pub use problem::{Moving, Problem};
-pub use schedule::{Journey, Schedule, Travelling};
+pub use query::{Movement, Moving, Query};
+pub use schedule::Schedule;
+pub use settings::{Instructions, Settings, StartPolicy};
 pub use swept_box::SweptBox;

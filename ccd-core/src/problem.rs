@@ -1,15 +1,15 @@
-//! A query: two moving bodies and a duration.
+//! A query about two motions, as schedules search it.
 
 use crate::body::Body;
 use crate::body::excess::Excess;
 use crate::body::piece::Piece;
-use crate::config::{Config, StartPolicy};
 use crate::error::{InputError, check};
-use crate::limits::{LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN};
+use crate::limits::{MAX_COORDINATE, MAX_TURN};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
+use crate::settings::{StartPolicy, Terms};
 use crate::tolerance::{self, NODE_GAP};
 use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
@@ -17,43 +17,9 @@ use glam::DVec3;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// A body and its motion.
-///
-/// ```
-/// use ccd_core::{Body, Motion, Moving};
-/// let ball = Body::ball(0.5)?;
-/// let resting: Moving = (&ball, Motion::STILL).into();
-/// assert_eq!(resting.motion, Motion::STILL);
-/// # Ok::<(), ccd_core::InputError>(())
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct Moving<'a> {
-    /// The body.
-    pub body: &'a Body,
-    /// The motion of the body.
-    pub motion: Motion,
-}
-
-impl<'a> From<(&'a Body, Motion)> for Moving<'a> {
-    fn from((body, motion): (&'a Body, Motion)) -> Self {
-        Moving { body, motion }
-    }
-}
-
-/// A well-posed query over `[0, duration]`.
-///
-/// ```
-/// use ccd_core::{glam::DVec3, Body, Config, Motion, Pose, Problem};
-/// let cube = Body::cuboid([0.5, 0.5, 0.5])?;
-/// let above = Pose::at(DVec3::new(0.0, 0.0, 1e9))?;
-/// let falling = Motion::new(above, -1e9 * DVec3::Z, DVec3::X)?;
-/// let problem = Problem::new((&cube, falling), (&cube, Motion::STILL), 1.0, &Config::default())?;
-/// // At such coordinates no finer tolerance than this can be certified.
-/// assert!(problem.tolerance() > 1e-6);
-/// # Ok::<(), ccd_core::InputError>(())
-/// ```
+/// A query about two motions, in units of its own: time runs from 0 to 1, and the origin is near both bodies.
 #[derive(Clone, Debug)]
-pub struct Problem<'a> {
+pub(crate) struct Problem<'a> {
     pub(crate) a: Side<'a>,
     pub(crate) b: Side<'a>,
     /// The time at which it begins: 0, unless it is a part of another one.
@@ -112,48 +78,43 @@ impl Which {
 }
 
 impl<'a> Problem<'a> {
-    /// Poses a query over two moving bodies, given as [`Moving`] or as pairs of a body and its
-    /// motion.
+    /// Poses a query about two bodies on motions.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a negative duration or margin, a tolerance that is not
-    /// positive, and quantities that exceed [`MAX_COORDINATE`] or [`MAX_TURN`]: tolerance and
-    /// margin; each body's coordinates of the position at the start and of the centre, its distance
-    /// from B's position to the centre and on along its travel, and its turn.
-    pub fn new(
-        a: impl Into<Moving<'a>>,
-        b: impl Into<Moving<'a>>,
+    /// Those of [`Query::new`](crate::Query::new).
+    pub(crate) fn new(
+        bodies: [(&'a Body, Motion); 2],
         duration: f64,
-        config: &Config,
+        terms: &Terms<'a>,
     ) -> Result<Self, InputError> {
-        Problem::accelerated([a.into(), b.into()], [DVec3::ZERO; 2], duration, config)
+        Problem::accelerated(bodies, [DVec3::ZERO; 2], duration, terms)
     }
 
-    /// Like [`Problem::new`] for bodies whose centres accelerate, for the schedules that answer
-    /// questions along trajectories: others do not know of accelerations.
+    /// Like [`Problem::new`] for bodies whose centres accelerate, for schedules that take
+    /// [accelerations](crate::schedule::contract::Solve::takes_accelerations).
     pub(crate) fn accelerated(
-        [a, b]: [Moving<'a>; 2],
+        [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
         duration: f64,
-        config: &Config,
+        terms: &Terms<'a>,
     ) -> Result<Self, InputError> {
-        check_config(duration, config)?;
-        let origin = b.motion.start().translation();
-        let side = |moving: Moving<'a>, other: Moving<'a>, acceleration: DVec3| {
-            let body = moving.body.against(other.body);
-            let path = Path::new(&moving.motion, origin, duration);
+        terms.check(duration)?;
+        let origin = b.1.start().translation();
+        let side = |(given, motion): (&'a Body, Motion), other: &'a Body, acceleration: DVec3| {
+            let body = given.against(other);
+            let path = Path::new(&motion, origin, duration);
             Side {
                 body,
-                given: (!std::ptr::eq(body, moving.body)).then_some(moving.body),
+                given: (!std::ptr::eq(body, given)).then_some(given),
                 path: path.accelerated(acceleration * duration * duration),
             }
         };
-        for moving in [&a, &b] {
-            check_coordinates("position", moving.motion.start().translation())?;
-            check_coordinates("centre", moving.motion.centre())?;
+        for (_, motion) in [&a, &b] {
+            check_coordinates("position", motion.start().translation())?;
+            check_coordinates("centre", motion.centre())?;
         }
-        let [pull_a, pull_b] = accelerations;
-        let (a, b) = (side(a, b, pull_a), side(b, a, pull_b));
+        let [of_a, of_b] = accelerations;
+        let (a, b) = (side(a, b.0, of_a), side(b, a.0, of_b));
         for side in [&a, &b] {
             side.check()?;
         }
@@ -163,7 +124,7 @@ impl<'a> Problem<'a> {
             distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
                 + a.path.speed()
                 + b.path.speed()
-                + config.margin,
+                + terms.margin,
         );
         Ok(Problem {
             a,
@@ -171,44 +132,22 @@ impl<'a> Problem<'a> {
             begin: 0.0,
             duration,
             origin,
-            tolerance: greater(config.tolerance, tolerance::least_tolerance(rounding)),
-            margin: config.margin,
-            clearance: config.clearance,
-            start: config.start,
+            tolerance: greater(terms.tolerance, tolerance::least_tolerance(rounding)),
+            margin: terms.margin,
+            clearance: terms.clearance,
+            start: terms.start,
             touching: None,
-            budget: config.budget,
-            deadline: config.deadline,
-            stop: None,
+            budget: terms.budget,
+            deadline: terms.deadline,
+            stop: terms.stop,
             rounding,
-            level: config.instructions.level(),
+            level: terms.level,
         })
-    }
-
-    /// Lets other threads stop the query: soon after the flag is set, it ends as
-    /// [`Limit::Stopped`](crate::Limit::Stopped), with a certified time.
-    ///
-    /// The flag is read as often as the clock is for a [deadline](Config::deadline).
-    ///
-    /// ```
-    /// use std::sync::atomic::AtomicBool;
-    /// # use ccd_core::{Body, Config, Motion, Problem};
-    /// # let ball = Body::ball(0.5)?;
-    /// # let [a, b] = [(&ball, Motion::STILL); 2];
-    /// let stop = AtomicBool::new(false);
-    /// let problem = Problem::new(a, b, 1.0, &Config::default())?.stopped_by(&stop);
-    /// # Ok::<(), ccd_core::InputError>(())
-    /// ```
-    #[must_use]
-    pub fn stopped_by(self, stop: &'a AtomicBool) -> Self {
-        Problem {
-            stop: Some(stop),
-            ..self
-        }
     }
 
     /// The tolerance of the answer: the requested one, or the least that can be certified in f64 at
     /// the scene's coordinates.
-    pub fn tolerance(&self) -> f64 {
+    pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
@@ -399,35 +338,6 @@ impl Side<'_> {
         let turn = self.path.rate;
         check("turn", turn, turn <= MAX_TURN, "at most 1e6 radians")
     }
-}
-
-/// Refuses a duration, a tolerance or a margin that is out of range.
-pub(crate) fn check_config(duration: f64, config: &Config) -> Result<(), InputError> {
-    let finite = 0.0..=f64::MAX;
-    check(
-        "duration",
-        duration,
-        finite.contains(&duration),
-        "at least 0 and finite",
-    )?;
-    let tolerance = config.tolerance;
-    let allowed = (LEAST_TOLERANCE..=MAX_COORDINATE).contains(&tolerance);
-    check("tolerance", tolerance, allowed, "from 1e-100 to 1e12")?;
-    let allowed = (0.0..=MAX_COORDINATE).contains(&config.margin);
-    check(
-        "margin",
-        config.margin,
-        allowed,
-        "at least 0 and at most 1e12",
-    )?;
-    let clearance = config.clearance.unwrap_or(0.0);
-    let allowed = (0.0..=MAX_COORDINATE).contains(&clearance);
-    check(
-        "clearance",
-        clearance,
-        allowed,
-        "at least 0 and at most 1e12",
-    )
 }
 
 /// Refuses a point with a coordinate that is too large.

@@ -5,20 +5,20 @@
 //! the proven facts (`proven.rs`). `search.rs` has the steps, and each question draws its own conclusions
 //! from them: the first contact (`best_first.rs`, in steps `first_contact.rs`), any contact (`any_contact.rs`), the closest approach
 //! (`closest_approach.rs`). `nearest.rs` measures bodies at one clock, `start.rs` those in contact at the
-//! start; `answer.rs` runs the schedule as the policy for the start demands. `journey.rs` asks along
+//! start; `answer.rs` runs the schedule as the policy for the start demands. `along.rs` asks along
 //! trajectories. `rounds.rs` searches a period of bodies that turn many times for all that repeat it. `out_of_reach.rs` tells bodies apart that are far
 //! from each other all the time.
 
+mod along;
 mod answer;
 mod any_contact;
 mod best_first;
 mod closest_approach;
-mod contract;
+pub(crate) mod contract;
 mod depth_first;
 #[cfg(feature = "hull-tree")]
 mod fast;
 mod first_contact;
-mod journey;
 mod memory;
 mod meter;
 mod naive;
@@ -34,13 +34,10 @@ mod stack;
 mod start;
 mod waiting;
 
-pub use any_contact::AnyContact;
 pub use best_first::BestFirst;
-pub use closest_approach::bracket::{Clearance, ClosestApproach};
 pub use contract::Schedule;
 pub use depth_first::DepthFirst;
 #[cfg(feature = "hull-tree")]
 pub use fast::Fast;
 pub use first_contact::{FirstContact, Progress};
-pub use journey::{ContactInterval, GreatestDistance, Journey, Touch, Travelling};
 pub use naive::Naive;

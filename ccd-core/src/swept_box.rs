@@ -1,12 +1,16 @@
 //! Boxes that moving bodies do not leave, for a broad phase over many of them.
 
-use crate::config::Config;
+use crate::body::Body;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
+use crate::motion::Motion;
 use crate::motion::path::Path;
-use crate::problem::{Moving, Side, check_config, check_coordinates};
-use crate::tolerance::{least_tolerance, share_of_rounding};
+use crate::motion::trajectory::{Stretch, Trajectory};
+use crate::problem::{Side, check_coordinates};
+use crate::query::{Movement, Moving};
+use crate::settings::{Settings, Terms};
+use crate::tolerance::{STRETCH_F64, least_tolerance, share_of_rounding};
 use glam::DVec3;
 
 /// A box along the world's axes that a moving body does not leave, grown by half the distance of a contact.
@@ -15,14 +19,14 @@ use glam::DVec3;
 /// Two bodies are free, over the same duration and with the same settings, if their boxes have no point in common.
 ///
 /// ```
-/// use ccd_core::{Body, Config, Motion, Moving, Pose};
+/// use ccd_core::{Body, Motion, Moving, Pose, Settings};
 /// let ball = Body::ball(0.5)?;
 /// let flies = Motion::new(Pose::IDENTITY, [3.0, 0.0, 0.0], [0.0; 3])?;
-/// let swept = Moving::from((&ball, flies)).swept_box(1.0, &Config::default())?;
+/// let swept = Moving::from((&ball, flies)).swept_box(1.0, &Settings::DEFAULT)?;
 /// assert!((swept.max.x - 3.5).abs() < 1e-3 && (swept.max.y - 0.5).abs() < 1e-3);
 ///
 /// let beside = Motion::still(Pose::at([2.0, 1.1, 0.0])?);
-/// let other = Moving::from((&ball, beside)).swept_box(1.0, &Config::default())?;
+/// let other = Moving::from((&ball, beside)).swept_box(1.0, &Settings::DEFAULT)?;
 /// assert!(!swept.meets(&other));
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
@@ -48,28 +52,98 @@ impl Moving<'_> {
     /// that a body which turns farther stays in.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for what [`Problem::new`](crate::Problem::new) refuses, with a travel at most 1e12
+    /// [`InputError::OutOfRange`] for what [`Query::new`](crate::Query::new) refuses, with a travel at most 1e12
     /// from the world's origin.
-    pub fn swept_box(&self, duration: f64, config: &Config) -> Result<SweptBox, InputError> {
-        check_config(duration, config)?;
-        check_coordinates("position", self.motion.start().translation())?;
-        check_coordinates("centre", self.motion.centre())?;
-        let side = Side {
-            body: self.body,
-            given: None,
-            path: Path::new(&self.motion, DVec3::ZERO, duration),
-        };
-        side.check()?;
-        let Side { path, .. } = &side;
-        let (low, high) = at_start(&side);
-        // As seen from the centre of rotation, which goes straight, the body only turns.
-        let way = path.velocity;
-        let room = DVec3::splat(room(&side, config));
-        Ok(SweptBox {
-            min: low + least(way, DVec3::ZERO) - room,
-            max: high + most(way, DVec3::ZERO) + room,
-        })
+    pub fn swept_box(&self, duration: f64, settings: &Settings) -> Result<SweptBox, InputError> {
+        let terms = settings.terms();
+        terms.check(duration)?;
+        match self.movement {
+            Movement::Motion(motion) => of_motion(self.body, &motion, duration, &terms),
+            Movement::Trajectory(trajectory) => {
+                of_stretches(self.body, trajectory, duration, &terms)
+            }
+        }
     }
+}
+
+/// The number of parts of equal length that a trajectory is cut into, besides those at its corners.
+const PARTS: usize = 16;
+
+/// Returns the box about those of all stretches.
+fn of_stretches(
+    body: &Body,
+    trajectory: &dyn Trajectory,
+    duration: f64,
+    terms: &Terms<'_>,
+) -> Result<SweptBox, InputError> {
+    let (mut whole, mut from): (Option<SweptBox>, f64) = (None, 0.0);
+    for k in 1..=PARTS {
+        let to = if k < PARTS {
+            duration * (k as f64 / PARTS as f64)
+        } else {
+            duration
+        };
+        // A corner bounds a stretch better; of many in one part, some are left out.
+        let corner = trajectory
+            .corner(from, to)
+            .filter(|&at| at > from && at < to);
+        for end in corner.into_iter().chain([to]) {
+            let part = of_stretch(body, &trajectory.stretch(from, end)?, end - from, terms)?;
+            whole = Some(whole.map_or(part, |whole| SweptBox {
+                min: least(whole.min, part.min),
+                max: most(whole.max, part.max),
+            }));
+            from = end;
+        }
+    }
+    // `PARTS` is not 0.
+    whole.map_or_else(|| of_motion(body, &Motion::STILL, duration, terms), Ok)
+}
+
+/// Returns a box about a body near a motion with an acceleration.
+fn of_stretch(
+    body: &Body,
+    stretch: &Stretch,
+    time: f64,
+    terms: &Terms<'_>,
+) -> Result<SweptBox, InputError> {
+    let swept = of_motion(body, &stretch.motion, time, terms)?;
+    let (centre, radius) = body.tree().ball();
+    let reach = centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius;
+    let moved = 0.5 * (time * (time * length(stretch.acceleration)));
+    let room = (moved + stretch.stray.at(reach)) * (1.0 + STRETCH_F64);
+    // What is no bound is NaN: then the body may be anywhere.
+    let room = DVec3::splat(if room >= 0.0 { room } else { f64::INFINITY });
+    let rounding = DVec3::splat(2.0 * f64::EPSILON) * most(swept.min.abs(), swept.max.abs());
+    Ok(SweptBox {
+        min: swept.min - room - rounding,
+        max: swept.max + room + rounding,
+    })
+}
+
+fn of_motion(
+    body: &Body,
+    motion: &Motion,
+    duration: f64,
+    terms: &Terms<'_>,
+) -> Result<SweptBox, InputError> {
+    check_coordinates("position", motion.start().translation())?;
+    check_coordinates("centre", motion.centre())?;
+    let side = Side {
+        body,
+        given: None,
+        path: Path::new(motion, DVec3::ZERO, duration),
+    };
+    side.check()?;
+    let Side { path, .. } = &side;
+    let (low, high) = at_start(&side);
+    // As seen from the centre of rotation, which goes straight, the body only turns.
+    let way = path.velocity;
+    let room = DVec3::splat(room(&side, terms));
+    Ok(SweptBox {
+        min: low + least(way, DVec3::ZERO) - room,
+        max: high + most(way, DVec3::ZERO) + room,
+    })
 }
 
 /// Returns the box at the start about all that the body turns to while its centre of rotation stands still.
@@ -96,12 +170,12 @@ fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
 
 /// Bounds half the distance of a contact, which is the greater one of the settings and the least that can be
 /// certified, and the rounding of the box.
-fn room(side: &Side<'_>, config: &Config) -> f64 {
+fn room(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
     let path = &side.path;
-    let way = length(path.centre_at(0.0)) + path.speed() + config.margin;
+    let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;
     let rounding = share_of_rounding(side.span(), path.rate, way);
     // The box is made by no more operations than a distance; its sums round by a few units of the greatest number.
-    0.5 * (config.margin + config.tolerance) + least_tolerance(rounding) + 2.0 * rounding
+    0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }
 
 fn least(a: DVec3, b: DVec3) -> DVec3 {

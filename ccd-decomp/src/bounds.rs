@@ -1,11 +1,11 @@
-//! Boxes along the coordinate axes.
+//! Axis-aligned boxes.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 
-/// A box along the coordinate axes; touching counts as meeting.
+/// An axis-aligned box; touching counts as meeting.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) lo: DVec3,
@@ -13,8 +13,8 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// The smallest box that holds some points.
-    pub(crate) fn of(points: impl IntoIterator<Item = DVec3>) -> Self {
+    /// Returns the bounding box of some points.
+    pub(crate) fn enclosing(points: impl IntoIterator<Item = DVec3>) -> Self {
         let empty = Bounds {
             lo: DVec3::INFINITY,
             hi: DVec3::NEG_INFINITY,
@@ -25,7 +25,7 @@ impl Bounds {
         })
     }
 
-    /// The smallest box that holds two boxes.
+    /// Returns the bounding box of two boxes.
     pub(crate) fn union(self, other: Self) -> Self {
         Bounds {
             lo: self.lo.min(other.lo),
@@ -43,7 +43,7 @@ impl Bounds {
         Aabb::new(vector(self.lo), vector(self.hi))
     }
 
-    /// The distance of a point from the box, up to rounding; 0 inside.
+    /// Returns the distance of a point from the box, up to rounding; 0 inside.
     pub(crate) fn distance(&self, point: DVec3) -> f64 {
         let beyond = (self.lo - point).max(point - self.hi).max(DVec3::ZERO);
         greater(beyond.length(), 0.0)

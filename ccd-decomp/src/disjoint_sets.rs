@@ -1,26 +1,44 @@
-//! Disjoint sets of elements, which are joined (union and find).
+//! Disjoint sets (union-find).
 
 /// Disjoint sets: every element points to another one of its set, and the root to itself.
 pub(crate) struct DisjointSets(Vec<u32>);
 
 impl DisjointSets {
-    /// Makes one set of each element.
+    /// Creates a set for each element.
     pub(crate) fn new(count: usize) -> Self {
         DisjointSets((0..count as u32).collect())
     }
 
-    /// The representative of an element's set.
+    /// Returns the smallest element of an element's set.
     pub(crate) fn root(&mut self, mut k: u32) -> u32 {
         // Every element but the root points to a smaller one.
         while self.0[k as usize] != k {
-            // Halving the path keeps later ones short.
+            // Path halving keeps later searches short.
             self.0[k as usize] = self.0[self.0[k as usize] as usize];
             k = self.0[k as usize];
         }
         k
     }
 
-    /// Makes one set of two.
+    /// Returns the number of each element's set. Sets are numbered by their smallest elements.
+    pub(crate) fn numbers(&mut self) -> Vec<u32> {
+        let mut numbers = Vec::with_capacity(self.0.len());
+        let mut count = 0;
+        for k in 0..self.0.len() as u32 {
+            let root = self.root(k);
+            // A root comes before all others of its set.
+            let number = if root == k {
+                count += 1;
+                count - 1
+            } else {
+                numbers[root as usize]
+            };
+            numbers.push(number);
+        }
+        numbers
+    }
+
+    /// Joins the sets of two elements.
     pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b) as usize] = a.min(b);

@@ -1,4 +1,4 @@
-//! Exact predicates on points, segments and triangles: signs that rounding cannot change. They know no mesh.
+//! Exact geometric predicates on points, segments and triangles.
 
 pub(crate) mod predicates;
 pub(crate) mod rays;

@@ -1,4 +1,4 @@
-//! Prepared bodies as files: written once, read at every start.
+//! Files of prepared bodies.
 
 pub(crate) mod error;
 mod frame;
@@ -16,14 +16,14 @@ use std::path::Path;
 /// The extension of a stored body's file.
 pub const STORED_EXTENSION: &str = "ccd";
 
-/// Returns whether a file holds a stored body, by its extension.
+/// Returns whether a path has the extension of a stored body.
 pub(crate) fn is_stored(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
 }
 
-/// The stored parts of a model, in this order; remarks of its mesh follow, if there are any. A hull tree is stored without its pieces, which are there
-/// already. A change to any of these types, or to their order, needs another version of the format.
+/// The stored fields of a model, in this order, followed by remarks if there are any. A hull tree is stored without its
+/// pieces. Any change to these types or their order needs a new version of the format.
 type Stored = (
     Pieces,
     Hierarchy,
@@ -36,11 +36,11 @@ type Stored = (
 impl Model {
     /// Stores the model in a file, by convention called `NAME.ccd`.
     ///
-    /// Until it is complete, it is in a file beside it, whose name ends in `.part`: a write that is cut short destroys no
-    /// older file. A link is followed. A pipe or a device is written directly.
+    /// It is written to a temporary file (`.part`) first: an interrupted write does not damage an older file. Links are
+    /// followed. Pipes and devices are written directly.
     ///
     /// # Errors
-    /// [`StoreFault::Unwritable`] when the operating system refuses.
+    /// [`StoreFault::Unwritable`] if the file cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
         ccd_file::write(path, |out| self.store(out))
@@ -50,8 +50,8 @@ impl Model {
     /// Loads a model that [`Model::save`] stored.
     ///
     /// # Guarantee
-    /// The body gives the same answers as the stored one, bit by bit. No bytes panic: a changed file is an error
-    /// or, where even the checksum was forged, still a valid body.
+    /// The body gives the same answers as the stored one, bit by bit. No bytes panic: a modified file is an error or,
+    /// with a forged checksum, a valid body.
     ///
     /// # Errors
     /// [`StoreError`], which names the file.
@@ -65,7 +65,7 @@ impl Model {
     /// Writes the model to any writer, in the format of [`Model::save`].
     ///
     /// # Errors
-    /// [`StoreFault::Unwritable`] when the writer fails.
+    /// [`StoreFault::Unwritable`] if the writer fails.
     pub fn write(&self, writer: impl Write) -> Result<(), StoreError> {
         Ok(self.store(writer).map_err(StoreFault::Unwritable)?)
     }
@@ -124,7 +124,7 @@ impl Model {
         Ok(model)
     }
 
-    /// Checks that the parts, which are valid by themselves, belong together.
+    /// Checks that the fields, which are valid separately, are consistent.
     fn check(&self) -> Result<(), &'static str> {
         let pieces = self.pieces.len();
         // A binary tree has one more leaf than inner nodes.

@@ -1,19 +1,19 @@
-//! Half-edges of triangles, and the edges that they run along.
+//! Half-edges and edges of triangles.
 
 /// The number of a half-edge: `3 f + k` runs along face `f` from its corner `k` to the next. Less than 2³¹.
 pub(crate) type HalfEdge = u32;
 
 /// The edges of triangles, in ascending order of their ends, the smaller end first.
 pub(crate) struct Edges {
-    /// The lower ends that are in use; empty where every vertex is numbered.
+    /// The lower end vertices in use; empty if slots are vertex numbers.
     lower: Vec<u32>,
     /// The end of the uses of each lower end.
     ends: Vec<u32>,
     uses: Vec<Use>,
 }
 
-/// The use of an edge by a half-edge: the edge's upper end, the half-edge, and in the lowest bit whether it starts
-/// at the upper end. In the order of these.
+/// A use of an edge by a half-edge, packed: the upper end, the half-edge, and in the lowest bit whether it starts at
+/// the upper end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Use(u64);
 
@@ -37,12 +37,12 @@ impl Use {
 }
 
 impl Edges {
-    /// Finds all edges; one from a vertex to itself is none. Linear in the number of triangles, where few edges start
-    /// at any vertex.
-    pub(crate) fn of(triangles: &[[u32; 3]]) -> Self {
+    /// Finds all edges, except from a vertex to itself. Linear in the number of triangles, if few edges meet at each
+    /// vertex.
+    pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
         let last = triangles.iter().flatten().max();
         let range = last.map_or(0, |&last| last as usize + 1);
-        // A table of all vertices must not be larger than the triangles.
+        // A table of all vertices must not dwarf the triangles.
         if range <= 8 * triangles.len() {
             Edges::by_slot(triangles, Vec::new(), range, |_, vertex| vertex as usize)
         } else {
@@ -91,7 +91,7 @@ impl Edges {
         Edges { lower, ends, uses }
     }
 
-    /// The edges: the lower and the upper end, and the uses in ascending order of the half-edges.
+    /// Iterates over the edges: lower and upper end, and the uses in ascending order of half-edges.
     pub(crate) fn iter(&self) -> EdgesIter<'_> {
         EdgesIter {
             edges: self,
@@ -100,8 +100,7 @@ impl Edges {
         }
     }
 
-    /// Finds the twin of every half-edge of so many triangles, which runs along the same edge in the opposite
-    /// direction; none unless every half-edge has exactly one.
+    /// Returns the twin of every half-edge, which is opposite on the same edge; `None` unless each has exactly one.
     pub(crate) fn twins(&self, triangles: usize) -> Option<Vec<HalfEdge>> {
         // Every half-edge is the use of one edge.
         if self.uses.len() != 3 * triangles {
@@ -121,10 +120,10 @@ impl Edges {
     }
 }
 
-/// The edges that are left.
+/// The iterator over edges.
 pub(crate) struct EdgesIter<'e> {
     edges: &'e Edges,
-    /// The slot of the last edge's lower end, and the first use after that edge.
+    /// The slot of the last edge's lower end, and the first use after it.
     slot: usize,
     at: usize,
 }
@@ -150,9 +149,9 @@ impl<'e> Iterator for EdgesIter<'e> {
     }
 }
 
-/// Finds the [twin](Edges::twins) of every half-edge.
+/// Returns the [twin](Edges::twins) of every half-edge.
 pub(crate) fn twins(triangles: &[[u32; 3]]) -> Option<Vec<HalfEdge>> {
-    Edges::of(triangles).twins(triangles.len())
+    Edges::new(triangles).twins(triangles.len())
 }
 
 #[cfg(test)]

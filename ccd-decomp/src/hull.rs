@@ -1,5 +1,4 @@
-//! Convex hulls of points, proven by exact predicates: computed by a library for some points, exactly for few or
-//! many.
+//! Convex hulls of points, proven by exact predicates.
 //!
 //! ```text
 //! points ─► span.rs ─┬─ in one plane ─► flat.rs ───────────────────────────────────────┐
@@ -27,12 +26,11 @@ use span::Span;
 /// A convex hull of points, by their indices.
 ///
 /// # Guarantee
-/// In exact arithmetic on the stored points: every point is inside or on the hull. The facets are whole, so that
-/// no two are in one plane (except the two sides of a flat hull), and strictly convex. Every edge is an edge of
-/// two of them, once in either direction, so that they tile the hull's boundary.
+/// Exact for the stored points: every point is inside or on the hull. Facets are strictly convex and maximal: no two
+/// are coplanar, except the two sides of a flat hull. Every edge is in two facets, once in each direction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Hull {
-    /// The hull's corners in ascending order; the first of several points at one place represents them.
+    /// The corners in ascending order; the first of several equal points represents them.
     pub(crate) vertices: Vec<u32>,
     /// Convex polygons, counter-clockwise seen from outside.
     pub(crate) facets: Loops,
@@ -41,7 +39,7 @@ pub(crate) struct Hull {
 }
 
 impl Hull {
-    /// The points of the corners, and the facets by the numbers of these.
+    /// Returns the points of the corners, and the facets by corner indices.
     pub(crate) fn corners_and_facets(mut self, points: &[DVec3]) -> (Vec<DVec3>, Loops) {
         let mut number = vec![0; points.len()];
         for (k, &v) in (0..).zip(&self.vertices) {
@@ -58,13 +56,13 @@ impl Hull {
 /// The method that found a hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Method {
-    /// The library computed it, and it was proven.
+    /// Computed by the library, and proven.
     Library,
-    /// The library failed, or its hull was refuted: it was computed exactly instead.
+    /// Computed exactly, because the library failed or its hull was refuted.
     Rebuilt,
-    /// It was computed exactly from the start, because the points are few or many.
+    /// Computed exactly, because the points are few or many.
     Exact,
-    /// All points are in one plane: it is a polygon with two sides.
+    /// The points are coplanar: a polygon with two sides.
     Flat,
 }
 
@@ -74,7 +72,7 @@ pub enum HullError {
     /// There are no points.
     #[error("a hull of no points")]
     Empty,
-    /// All points are at the place of this one.
+    /// All points equal this one.
     #[error("all points are at the place of point {0}")]
     Single(u32),
     /// All points are on the segment between these two.
@@ -88,10 +86,10 @@ pub enum HullError {
     Unproven(usize),
 }
 
-/// Computes the convex hull of points; several may be at one place.
+/// Computes the convex hull of points, with a proof. Points may be equal.
 ///
 /// # Errors
-/// [`HullError`] when there is no hull with facets.
+/// [`HullError`] if there is no hull with facets.
 ///
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
@@ -99,10 +97,10 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     hull_by(points, solid)
 }
 
-/// Computes the convex hull by exact predicates, without the proof, for callers that prove it themselves.
+/// Computes the convex hull by exact predicates, without a proof, for callers that prove it themselves.
 ///
 /// # Errors
-/// [`HullError`] when there is no hull with facets.
+/// [`HullError`] if there is no hull with facets.
 ///
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
@@ -113,7 +111,7 @@ pub(crate) fn unproven_hull(points: &[DVec3]) -> Result<Hull, HullError> {
     })
 }
 
-/// Computes a convex hull; `solid` computes it for points at different places that span a volume.
+/// Computes a convex hull; `solid` computes it for distinct points that span a volume.
 fn hull_by(
     points: &[DVec3],
     solid: impl FnOnce(&[DVec3]) -> Result<(Loops, Method), HullError>,
@@ -124,9 +122,9 @@ fn hull_by(
     if let Some(point) = out_of_range.or_else(|| predicates::too_fine(points)) {
         return Err(HullError::OutOfRange(point as u32));
     }
-    let cloud = DistinctPoints::of(points);
+    let cloud = DistinctPoints::new(points);
     let name = |k: usize| cloud.ids[k];
-    let found = match Span::of(&cloud.points) {
+    let found = match Span::new(&cloud.points) {
         Span::Nothing => Err(HullError::Empty),
         Span::Point(a) => Err(HullError::Single(name(a))),
         Span::Line(a, b) => Err(HullError::Collinear(name(a), name(b))),
@@ -136,9 +134,8 @@ fn hull_by(
     found.map(|(facets, method)| cloud.named(facets, method))
 }
 
-/// Computes triangles that are likely the hull of points. A number of points between few and many takes the
-/// library's hull without a proof, which is fast. None where the library fails, or few or many points lie in one
-/// plane.
+/// Computes triangles that are likely the hull of points: the library's hull without a proof for medium numbers of
+/// points. Returns `None` if the library fails, or the points are coplanar.
 pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     if (FEW_POINTS + 1..=LIKELY_POINTS).contains(&points.len()) {
         library::triangles(points)
@@ -147,7 +144,7 @@ pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     }
 }
 
-/// Computes the hull of points at different places that span a volume.
+/// Computes the hull of distinct points that span a volume, with a proof.
 fn solid(points: &[DVec3]) -> Result<(Loops, Method), HullError> {
     let some = FEW_POINTS < points.len() && points.len() <= LIBRARY_POINTS;
     if some
@@ -163,24 +160,22 @@ fn solid(points: &[DVec3]) -> Result<(Loops, Method), HullError> {
     }
 }
 
-/// Computes the facets of the hull of points that span a volume by exact predicates; none if they cannot be
-/// proven to close a convex surface.
+/// Computes the facets of the hull of points that span a volume, by exact predicates; `None` if they cannot be proven.
 ///
-/// No point is in front of a facet: each became a corner, or was in front of none when it was inserted, and the
-/// hull has only grown since.
+/// No point is in front of a facet: each became a corner or was inside when it was inserted, and the hull only grows.
 fn computed(points: &[DVec3]) -> Option<Loops> {
     let triangles = ExactHull::facets_of(points)?;
     proof::prove_convex(points, loops(points, &triangles)).ok()
 }
 
-/// The different places of some points, and the number of the first point at each.
+/// The distinct points of a list, and the index of the first point at each.
 struct DistinctPoints {
     points: Vec<DVec3>,
     ids: Vec<u32>,
 }
 
 impl DistinctPoints {
-    fn of(points: &[DVec3]) -> Self {
+    fn new(points: &[DVec3]) -> Self {
         let at = |k: u32| points[k as usize];
         let mut ids: Vec<u32> = (0..points.len() as u32).collect();
         ids.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));
@@ -192,7 +187,7 @@ impl DistinctPoints {
         }
     }
 
-    /// Makes a hull of facets, by the numbers of the given points.
+    /// Creates a hull of facets, by indices of the original points.
     fn named(&self, mut facets: Loops, method: Method) -> Hull {
         for corner in facets.corners_mut() {
             *corner = self.ids[*corner as usize];

@@ -5,7 +5,7 @@
 //! | read OBJ, STL, PLY, OFF, glTF or 3MF | [`TriangleMesh::read`], [`Format`] |
 //! | read the parts of a file, convert units | [`MeshFile`], [`Unit`] |
 //! | move, join and measure meshes | [`TriangleMesh::transformed`], [`TriangleMesh::merge`], [`TriangleMesh::bounding_box`] |
-//! | find the faults of a mesh, and what of a file was not read | [`Repairs`], [`Remarks`], [`Topology`], [`MeshFault`] |
+//! | find the faults of a mesh, and skipped content | [`Repairs`], [`Remarks`], [`Topology`], [`MeshFault`] |
 //! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
 //! | store a prepared body, and load it | [`prepare`](fn@prepare), [`Model::save`], [`Model::load`] |
@@ -13,7 +13,7 @@
 //! | build a hierarchy, or a tree of hulls, over pieces of any kind | [`build_hierarchy`], [`build_hull_tree`] |
 //!
 //! # Example
-//! A body inside this part goes unnoticed, because the part is not solid. The report names the edges of the hole.
+//! A body inside this part does not touch it, because the part is not solid. The report names the edges of the hole.
 //!
 //! ```
 //! use ccd_decomp::{Detail, Format, TriangleMesh, body_from_mesh};
@@ -57,7 +57,7 @@
 //! | `search` | trees of oriented boxes over triangles |
 //! | `hull` | convex hulls of points, proven, [`HullError`] |
 //! | `exact` | exact predicates |
-//! | `tolerance`, `work`, `tally`, `bounds`, `half_edges`, `disjoint_sets`, `messages` | numbers that are choices, budgets, counts, boxes, pairs of edges, sets, parts of messages |
+//! | `tolerance`, `work`, `tally`, `bounds`, `half_edges`, `disjoint_sets`, `messages` | constants, budgets, counts, boxes, edges, sets, error messages |
 
 mod bounds;
 mod disjoint_sets;

@@ -28,7 +28,7 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
-/// Triangles over finite vertices. Each has the number of the face of the file that it is part of.
+/// Triangles over finite vertices. Each has the number of its face in the file.
 ///
 /// # Guarantee
 /// The triangles cover every planar polygon of the file and every point of its degenerate faces. There is at
@@ -47,7 +47,7 @@ pub struct TriangleMesh {
     vertices: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     face_ids: Vec<u32>,
-    /// For every vertex the first one at exactly the same point.
+    /// The first vertex at exactly the same point, by vertex.
     positions: Vec<u32>,
     /// The number of faces that the file has, dropped ones included.
     face_count: u32,
@@ -55,8 +55,8 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// Reads a mesh from a file, in the format of its extension: all its parts together. [`MeshFile`] reads one part, or
-    /// each of them, and converts units.
+    /// Reads a file in the format of its extension, all parts as one mesh. [`MeshFile`] reads one part, or each of
+    /// them, and converts units.
     ///
     /// # Errors
     /// [`MeshError`], which names the file and the element. No bytes panic.
@@ -105,15 +105,14 @@ impl TriangleMesh {
         repairs.note_unreferenced(polygons.vertices.len(), &polygons.corners);
         let face_count = polygons.ends.len() as u32;
         let vertices = std::mem::take(&mut polygons.vertices);
-        // The rest may be larger than what is made next.
+        // Freed early: it may be larger than the mesh.
         drop(polygons);
         Ok(TriangleMesh::from_triangles(
             vertices, triangles, face_count, repairs,
         ))
     }
 
-    /// Makes a mesh of valid triangles, each with the number of its face, and drops those that are there twice or
-    /// collapsed.
+    /// Creates a mesh of valid triangles, each with its face number, and drops duplicates and collapsed ones.
     fn from_triangles(
         vertices: Vec<DVec3>,
         (all_faces, all_ids): (Vec<[u32; 3]>, Vec<u32>),
@@ -160,12 +159,12 @@ impl TriangleMesh {
         &self.faces
     }
 
-    /// The number, by triangle, of the face of the file that the triangle is part of.
+    /// Returns the face number in the file, by triangle.
     pub fn face_ids(&self) -> &[u32] {
         &self.face_ids
     }
 
-    /// Copies the mesh, with some triangles turned round.
+    /// Copies the mesh, with some triangles reversed.
     pub(crate) fn turned(&self, faces: &[u32]) -> Self {
         let mut mesh = self.clone();
         for &face in faces {
@@ -174,17 +173,17 @@ impl TriangleMesh {
         mesh
     }
 
-    /// The faults that were repaired.
+    /// Returns the faults that were repaired.
     pub fn repairs(&self) -> &Repairs {
         &self.repairs
     }
 
-    /// The points of a triangle's corners.
+    /// Returns the points of a triangle's corners.
     pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
         self.faces[face as usize].map(|v| self.vertices[v as usize])
     }
 
-    /// The corners of a triangle, each by the first vertex at exactly its point.
+    /// Returns a triangle's corners, each as the first vertex at exactly its point.
     pub(crate) fn welded_face(&self, face: u32) -> [u32; 3] {
         self.faces[face as usize].map(|v| self.positions[v as usize])
     }
@@ -196,7 +195,7 @@ impl TriangleMesh {
     }
 }
 
-/// Finds for every vertex the first one at exactly the same point; 0 and −0 are the same.
+/// Maps every vertex to the first one at exactly the same point; 0 and −0 are equal.
 fn weld(vertices: &[DVec3]) -> Vec<u32> {
     let mut first = HashMap::with_capacity(vertices.len());
     let number = |(vertex, point): (usize, &DVec3)| {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-/// Prints the path of a file before a fault, if there is a file.
+/// Formats the path of a file before a fault, if there is a file.
 pub(crate) struct Prefix<'a>(pub(crate) &'a Option<PathBuf>);
 
 impl fmt::Display for Prefix<'_> {
@@ -15,14 +15,14 @@ impl fmt::Display for Prefix<'_> {
     }
 }
 
-/// The first bytes of a file that Git LFS puts in the place of one that is not fetched yet.
+/// The first bytes of a Git LFS pointer.
 const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
 
-/// The fault of such a file, with the remedy.
+/// The error message for a Git LFS pointer.
 pub(crate) const LFS_ADVICE: &str = "is a Git LFS pointer, a few lines that stand for the file; run `git \
                                      lfs pull` to fetch the file itself";
 
-/// Returns whether bytes begin like a pointer of Git LFS.
+/// Returns whether bytes begin like a Git LFS pointer.
 pub(crate) fn is_lfs_pointer(bytes: &[u8]) -> bool {
     bytes.starts_with(LFS_BEGINNING)
 }

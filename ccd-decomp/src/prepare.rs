@@ -1,4 +1,4 @@
-//! Meshes made into bodies.
+//! Prepares bodies from meshes.
 
 mod choose;
 pub(crate) mod error;
@@ -29,21 +29,20 @@ pub enum Detail {
     Auto,
     /// Makes one piece of every triangle: exact for any mesh or soup.
     Triangles,
-    /// Makes one piece of every triangle, and fills nothing: a closed mesh is a hollow surface, and what is inside it
-    /// touches nothing.
+    /// Makes one piece of every triangle, without volume: a closed mesh is a hollow surface.
     Surface,
     /// Makes convex patches of the surface: exact, for meshes that bound a solid.
     Patches(Order),
     /// Makes one piece of the solid itself: exact, for convex ones.
     Hull,
-    /// Makes hulls about the parts of the mesh: they cover any mesh, and stick out of it.
+    /// Makes approximate hulls: they cover any mesh, and exceed it by a certified bound.
     Vhacd {
-        /// The most hulls that there may be.
+        /// The maximum number of hulls.
         hulls: u32,
     },
 }
 
-/// Makes a body of a mesh: calls [`prepare`], then [`Model::into_prepared`].
+/// Makes a body from a mesh: calls [`prepare`], then [`Model::into_prepared`].
 ///
 /// ```
 /// use ccd_core::glam::dvec3;
@@ -71,12 +70,11 @@ pub enum Detail {
 /// ```
 ///
 /// # Guarantee
-/// The pieces cover the mesh, and the body is solid where the mesh bounds a solid: see [`prepare`].
+/// The pieces cover the mesh, and the body is solid if the mesh bounds a solid: see [`prepare`].
 ///
 /// # Errors
-/// [`PrepareError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
-/// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
-/// pieces.
+/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
+/// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
 pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, PrepareError> {
     prepare(mesh, detail)?.into_prepared()
 }
@@ -84,19 +82,18 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
 /// Makes the pieces of a mesh, and a hierarchy over them: a model, which can be stored.
 ///
 /// # Guarantee
-/// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it
-/// bounds. Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented alike, and it is
-/// [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside out are
-/// turned round, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
+/// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it bounds.
+/// Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented
+/// alike, and it is [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside
+/// out are reversed, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
 ///
 /// # Errors
-/// [`PrepareError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
-/// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
-/// pieces.
+/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
+/// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
-    // The choice takes as long as the triangles' hierarchy, and hardly ever does without it.
+    // Both take equally long, and the hierarchy is nearly always needed.
     let (choice, triangles) = rayon::join(
-        || Choice::of(mesh, detail),
+        || Choice::new(mesh, detail),
         || {
             detail
                 .may_need_triangles()
@@ -107,7 +104,7 @@ pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareErro
 }
 
 impl Detail {
-    /// Returns whether a model of this kind may hold the triangles of the mesh.
+    /// Returns whether a model of this kind may contain the triangles of the mesh.
     fn may_need_triangles(self) -> bool {
         match self {
             Detail::Auto | Detail::Triangles | Detail::Surface | Detail::Hull => true,
@@ -117,10 +114,10 @@ impl Detail {
 }
 
 impl Choice {
-    fn of(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
-        let edges = Edges::of(&mesh.welded_faces());
+    fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
+        let edges = Edges::new(&mesh.welded_faces());
         let (topology, turned) = Topology::by_edges(mesh, &edges);
-        // The edges of a turned mesh have other half-edges.
+        // A mesh with reversed shells has other half-edges.
         let edges = turned.is_none().then_some(edges);
         let mesh = turned.as_ref().unwrap_or(mesh);
         let (parts, why) = match detail {

@@ -1,4 +1,4 @@
-//! Searches among triangles: those that may meet a region, and those nearest to a point.
+//! Searches for triangles that may meet a region, or are nearest to a point.
 //!
 //! ```text
 //! element.rs ─► oriented_box.rs ─► planes.rs ─► box_tree.rs ─┬─► fans.rs ─► TriangleBoxes
@@ -22,9 +22,8 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use region::Region;
 
-/// Triangles in trees of boxes, to be searched by region. The boxes are oriented like the triangles, so that those
-/// of slivers side by side hardly meet. The triangles of a large fan about one vertex, where all of them meet,
-/// have a tree of their own.
+/// Trees of boxes over triangles, to search by region. Boxes are oriented like the triangles, so that those of adjacent
+/// slivers hardly overlap. Large fans around one vertex, where all boxes overlap, have separate trees.
 pub(crate) struct TriangleBoxes {
     single: BoxTree,
     fans: Vec<Fan>,
@@ -44,11 +43,11 @@ impl TriangleBoxes {
         }
     }
 
-    /// Calls back with every triangle that may meet a region, and some that do not, until the answer is no, or the
-    /// work is spent, one step for each box. Returns whether all answers were yes.
+    /// Calls `holds` for every triangle that may meet a region, and some others, until it returns false or the work is
+    /// spent, one step for each box. Returns whether all results were true.
     ///
     /// # Guarantee
-    /// A triangle that is left out shares no point with the region, except perhaps a common corner.
+    /// An omitted triangle shares no point with the region, except perhaps a common corner.
     pub(crate) fn all_meeting(
         &self,
         region: &Region,
@@ -67,7 +66,7 @@ impl TriangleBoxes {
         })
     }
 
-    /// A bound, up to rounding, on the distance of a point from the points of all triangles.
+    /// Returns an upper bound, up to rounding, of the distance from a point to any point of the triangles.
     pub(crate) fn reach(&self, point: DVec3) -> f64 {
         let single = self.single.bounds();
         let all = self.fans.iter().map(Fan::bounds).chain(single);

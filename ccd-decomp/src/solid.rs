@@ -1,4 +1,4 @@
-//! Decides whether a mesh bounds a solid, and holds the surface of one that does.
+//! Decides whether a mesh bounds a solid.
 //!
 //! ```text
 //! TriangleMesh ─► topology.rs ─► manifold.rs ─┬─ star_shaped.rs ───────────┬─► bounds a solid
@@ -25,24 +25,24 @@ use shells::check_orientation;
 use star_shaped::is_star_shaped;
 use topology::Topology;
 
-/// Returns the surface of the solid that a mesh bounds, after a check of every edge, and of every pair of triangles
-/// that are near each other.
+/// Returns the surface of the solid that a mesh bounds, after checks of every edge and of every pair of nearby
+/// triangles.
 ///
-/// A mesh that is inside out as a whole is turned.
+/// A mesh that is entirely inside out is reversed.
 ///
 /// # Errors
-/// [`DecomposeError`] when the mesh bounds no solid.
+/// [`DecomposeError`] if the mesh bounds no solid.
 pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
     check_solid(&manifold, &Work::unbounded())?;
     Ok(manifold)
 }
 
-/// Checks properties that the edges alone do not decide: faces share no more than their vertices and edges,
-/// and the solid is behind all of them.
+/// Checks what edges alone do not decide: faces intersect only in shared vertices and edges, and the solid is behind
+/// all of them.
 ///
 /// # Errors
-/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.
+/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) if the work does not suffice.
 pub(crate) fn check_solid(manifold: &Manifold<'_>, work: &Work) -> Result<(), DecomposeError> {
     if is_star_shaped(manifold) {
         return Ok(());

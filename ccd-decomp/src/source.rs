@@ -1,4 +1,4 @@
-//! Bodies as they are named on a command line.
+//! Descriptions of bodies on a command line.
 
 pub(crate) mod error;
 pub(crate) mod mesh_source;
@@ -56,7 +56,7 @@ pub enum BodySource {
         radius: f64,
         /// Half its length along z.
         half_height: f64,
-        /// How far its polytope may exceed it; none for the [usual](Round::usual_excess).
+        /// The maximum excess of its polytope; `None` for the [usual](Round::usual_excess).
         excess: Option<f64>,
     },
     /// `cone:r,h` or `cone:r,h,excess`, see [`Body::cone`] and [`Round::enclosed`].
@@ -65,7 +65,7 @@ pub enum BodySource {
         radius: f64,
         /// Half its length along z; the apex is up.
         half_height: f64,
-        /// How far its polytope may exceed it; none for the [usual](Round::usual_excess).
+        /// The maximum excess of its polytope; `None` for the [usual](Round::usual_excess).
         excess: Option<f64>,
     },
     /// The path of a file that ends in `.ccd`: a [stored](crate::Model::save) body.
@@ -74,7 +74,7 @@ pub enum BodySource {
     Mesh(MeshSource),
 }
 
-/// Makes the body that a text describes.
+/// Creates the body that a text describes.
 ///
 /// # Errors
 /// [`BodyError`]: it names the file and the element, or shows examples.
@@ -83,19 +83,19 @@ pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
 }
 
 impl BodySource {
-    /// Makes the body. The detail applies to meshes only: shapes are single pieces, and a stored body keeps
-    /// the detail that it was prepared with.
+    /// Creates the body. The detail applies to meshes only: shapes are single pieces, and a stored body keeps its
+    /// pieces.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`] and [`BodyError::Store`] when the file cannot be read, [`BodyError::InFile`] when its
-    /// content cannot be made into a body, [`BodyError::Input`] when a length is out of range.
+    /// [`BodyError::Mesh`] and [`BodyError::Store`] if the file cannot be read, [`BodyError::InFile`] if its content
+    /// cannot be made into a body, [`BodyError::Input`] if a length is out of range.
     pub fn load(&self, detail: Detail) -> Result<Prepared, BodyError> {
         self.load_adjusted(&Adjustments::NONE, detail)
     }
 
-    /// Makes the body, as [`BodySource::load`] does, with coordinates in a unit. Those of a mesh file that states
-    /// its unit are [converted](crate::MeshFile::in_unit); all other lengths are taken to be in the unit already, those
-    /// of shapes and stored bodies too.
+    /// Creates the body like [`BodySource::load`], with coordinates in a unit. Those of a mesh file that states its
+    /// unit are [converted](crate::MeshFile::in_unit); all other lengths, including those of shapes and stored bodies,
+    /// are assumed to be in that unit.
     ///
     /// # Errors
     /// Those of [`BodySource::load`].
@@ -103,11 +103,10 @@ impl BodySource {
         self.load_adjusted(&Adjustments::NONE.converted_to(unit), detail)
     }
 
-    /// Makes the body, as [`BodySource::load`] does, with adjustments of mesh files beside those of the description.
-    /// Shapes stay as they are.
+    /// Creates the body like [`BodySource::load`], with further adjustments of mesh files. Shapes do not change.
     ///
     /// # Errors
-    /// Those of [`BodySource::load`]; [`SourceError::Prepared`] for a stored body that would have to be made anew.
+    /// Those of [`BodySource::load`]; [`SourceError::Prepared`] for a stored body, unless only the unit is given.
     pub fn load_adjusted(
         &self,
         adjustments: &Adjustments,
@@ -149,10 +148,10 @@ impl BodySource {
         Ok(Prepared { unit, ..prepared })
     }
 
-    /// The files that the body is read from: a glTF may have its buffers in files of their own.
+    /// Returns the files that the body is read from, including buffer files of a glTF.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`] when a glTF cannot be read far enough to know.
+    /// [`BodyError::Mesh`] if a glTF cannot be read.
     pub fn files(&self) -> Result<Vec<PathBuf>, BodyError> {
         Ok(match self {
             BodySource::Stored(path) => vec![path.clone()],
@@ -177,7 +176,7 @@ fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError
 }
 
 impl BodySource {
-    /// The description of a file, by its extension: a stored body, or a mesh.
+    /// Describes a file by its extension: a stored body, or a mesh.
     pub fn of_file(path: PathBuf) -> Self {
         if is_stored(&path) {
             BodySource::Stored(path)
@@ -195,7 +194,7 @@ impl FromStr for BodySource {
         if text.is_empty() {
             return Err(SourceError::Empty);
         }
-        // No file of a mesh is called so: it has no extension.
+        // A mesh file has an extension.
         if let Some(&(shape, expected)) = SHAPES.iter().find(|(shape, _)| *shape == text) {
             return Err(SourceError::WrongCount {
                 shape,
@@ -230,7 +229,7 @@ impl FromStr for BodySource {
                     excess,
                 })
             }
-            // A single letter is a drive.
+            // A single letter is a drive letter.
             Some((shape, _)) if shape.len() > 1 && shape.chars().all(char::is_alphanumeric) => {
                 Err(SourceError::UnknownShape {
                     shape: shape.into(),
@@ -259,7 +258,7 @@ const SHAPES: [(&str, usize); 5] = [
     ("cone", 2),
 ];
 
-/// Returns a radius, half a height and an excess.
+/// Parses a radius, half a height and an optional excess.
 fn round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
     if given.matches(',').count() == 2 {
         let [radius, half_height, excess] = lengths(shape, given)?;

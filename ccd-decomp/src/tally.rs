@@ -1,4 +1,4 @@
-//! Counts of elements that a report names.
+//! Counts of elements in reports.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -10,16 +10,16 @@ pub struct Tally<T> {
     first: Vec<T>,
 }
 
-/// The most elements that are kept: a report that names more becomes a list nobody reads.
+/// The maximum number of stored elements, to keep reports short.
 const NAMED: usize = 8;
 
 impl<T> Tally<T> {
-    /// The number of elements.
+    /// Returns the number of elements.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The first elements, at most eight, in the order in which they were found.
+    /// Returns the first elements, at most eight, in order of discovery.
     pub fn first(&self) -> &[T] {
         &self.first
     }
@@ -38,7 +38,7 @@ impl<T> Tally<T> {
 }
 
 impl Tally<u32> {
-    /// Adds the elements of another tally, with numbers that go on from `first`.
+    /// Adds the elements of another tally, with `first` added to each.
     pub(crate) fn append(&mut self, other: &Self, first: u32) {
         let room = NAMED - self.first.len();
         let numbers = other.first.iter().map(|number| first + number);

@@ -1,11 +1,11 @@
-//! Files for tests: glTF and 3MF, made in memory.
+//! Test files: glTF and 3MF in memory.
 
 #[cfg(feature = "gltf")]
 pub(crate) use gltf::Gltf;
 #[cfg(feature = "3mf")]
 pub(crate) use threemf::{Entry, model, object, package, zip};
 
-/// Files on disk for one test; they are removed when it ends.
+/// Temporary files for one test, removed at its end.
 pub(crate) struct Folder(pub(crate) std::path::PathBuf);
 
 impl Folder {
@@ -136,7 +136,7 @@ mod gltf {
             json.to_string().into_bytes()
         }
 
-        /// The text form, with the buffer in it.
+        /// The text form, with an embedded buffer.
         pub(crate) fn text(&self) -> Vec<u8> {
             let data = STANDARD.encode(&self.binary);
             self.text_at(&format!("data:application/octet-stream;base64,{data}"))
@@ -185,7 +185,7 @@ mod threemf {
         bytes
     }
 
-    /// A package of models; the first one is its own.
+    /// A package of models; the first one is the root model.
     pub(crate) fn package(models: &[(&str, &str)]) -> Vec<u8> {
         let relationships = format!(
             r#"<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/Metadata/thumbnail.png" Id="rel0" Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/><Relationship Target="/{}" Id="rel1" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#,
@@ -204,7 +204,7 @@ mod threemf {
         zip(&entries)
     }
 
-    /// A model of some objects and items, with attributes of its own.
+    /// A model of some objects and items, with attributes.
     pub(crate) fn model(attributes: &str, objects: &str, items: &str) -> String {
         format!(
             r#"<?xml version="1.0" encoding="UTF-8"?>

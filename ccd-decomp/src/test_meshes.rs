@@ -81,7 +81,7 @@ pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> Triangle
     mesh(vertices.collect(), part.faces())
 }
 
-/// A mesh with every face turned round.
+/// A mesh with every face reversed.
 pub(crate) fn turned(part: &TriangleMesh) -> TriangleMesh {
     let faces: Vec<[u32; 3]> = part.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
     mesh(part.vertices().to_vec(), &faces)

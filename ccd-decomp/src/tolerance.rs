@@ -1,38 +1,35 @@
-//! Every number of this crate that is a choice rather than a consequence: its unit, and its effect.
+//! Tuning constants of this crate, with unit and effect: another value costs time, memory or quality, never
+//! correctness. The bounds on rounding are in `rounding.rs`.
 
-use ccd_core::glam::DVec3;
-use ccd_core::tolerance::U64;
+mod rounding;
 
-/// The number of pieces up to which a hierarchy is agglomerated; above it is split at medians.
+pub(crate) use rounding::*;
+
+/// The largest number of pieces that are agglomerated; more are split at medians.
 ///
 /// Unit: pieces. Larger: better trees by a few percent, but pieces with one common centre take time
 /// that grows with it.
 pub(crate) const AGGLOMERATED_PIECES: usize = 256;
 
-/// The number of passes of agglomeration after which a node looks for its neighbour farther than one place away.
+/// The number of initial passes of agglomeration in which only adjacent nodes are compared.
 ///
 /// Unit: passes. Fewer: slower, hardly better trees.
 pub(crate) const SEARCH_DEPTH: usize = 2;
 
-/// The number of places up to which a node looks for its neighbour after those passes.
+/// The search distance for neighbours in later passes.
 ///
 /// Unit: places. Larger: better trees by less than a percent, but slower to build.
 pub(crate) const SEARCH_DISTANCE: usize = 6;
 
-/// The share of the nodes, the largest first, that are tried at other places in the tree.
+/// The share of the nodes, largest first, that are candidates for reinsertion.
 ///
 /// Unit: one. Larger: better trees by a percent for every doubling, but slower to build.
 pub(crate) const REINSERTED_SHARE: f32 = 0.02;
 
-/// The number of rays that are tried from a shell of a mesh before its surroundings count as unknown.
+/// The number of rays from a shell after which its nesting counts as unknown.
 ///
-/// Unit: rays. Each one grazes an edge only by accident.
+/// Unit: rays. A ray meets an edge only by accident.
 pub(crate) const RAY_TRIES: usize = 16;
-
-/// The distance on either side of a face within which no other shell may be, for the face's middle to
-/// represent the shell; in units of the mesh's size and of its distance from the origin. Rounding moves the middle off the face by 8 [`U64`] at
-/// most, and the face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
-pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
 /// The number of polygons at which a patch stops growing.
 ///
@@ -42,67 +39,23 @@ pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 /// 292, 258.
 pub(crate) const PATCH_POLYGONS: usize = 48;
 
-/// The most corners of a patch of several polygons; a polygon of more is a patch of its own.
+/// The most corners of a patch of several polygons; a larger polygon is a separate patch.
 ///
 /// Unit: corners. A polygon is tested with all facets of a patch, and so is every triangle near it: the time of
 /// growing increases with their square. Twice as many as 48 polygons of a sphere have.
 pub(crate) const PATCH_CORNERS: usize = 256;
 
-/// The least share of its pieces that a node of a hull tree leaves to either child; otherwise it is split at the
-/// median.
+/// The least share of a node's pieces in each child of a hull tree; otherwise the split is at the median.
 ///
 /// Unit: one. At 1/8 a tree of n pieces is at most `log n / log (8/7)` deep: 104 for a million.
 pub(crate) const LEAST_SHARE: f64 = 1.0 / 8.0;
 
-/// The cap on the rounds in which the eigenvectors of a 3 × 3 matrix are found.
+/// The maximum number of iterations for the eigenvectors of a 3 × 3 matrix.
 ///
-/// Unit: rounds. A handful suffice; without an answer a node is split along x.
+/// Unit: rounds. A handful suffice; without convergence a node is split along x.
 pub(crate) const EIGEN_ROUNDS: usize = 256;
 
-/// Bounds how far cutting a polygon to a cube moves any of its points, when no coordinate exceeds `farthest`;
-/// in its unit of length. A grid of 128 layers is halved at most 21 times.
-///
-/// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an
-/// edge has a relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by
-/// `2√3 · u m` each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed
-/// because they are between two others on an edge are off by twice [`on_edge`] more for each of three edges:
-/// 804u. 1024u are taken. Cubes are widened by as much, so that what is cut off at one is left at the next.
-pub(crate) fn clip_rounding(farthest: f64) -> f64 {
-    1024.0 * U64 * farthest
-}
-
-/// The distance from an edge's line up to which a point that was cut from it counts as on it, when no
-/// coordinate exceeds `farthest`; in its unit of length. One cut moves a point by less than a third of it.
-pub(crate) fn on_edge(farthest: f64) -> f64 {
-    64.0 * U64 * farthest
-}
-
-/// Bounds the error of the length of a difference of points along a direction, and of the reach of an
-/// [oriented box](crate::search) along it, when no coordinate exceeds `reach`; in its unit of length, for a
-/// direction of length about 1.
-///
-/// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a
-/// difference is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as
-/// there is one of the box and one of the shape. The box's half lengths are at most `2√3 m`, and the
-/// product of each with the direction is off by `4u d`: `42u d m`. Their sums round by `12u d m`. That is 70u; 128u are
-/// taken, and what may underflow.
-pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
-    128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
-}
-
-/// Bounds the error of the sum of `terms` products `a · (b × c)` of rounded differences of points. Here
-/// `size` is the sum of `|a| |b| |c|`, and the rounding error of each addition is summed separately; in the
-/// unit of the products.
-///
-/// With `u` half a unit in the last place: of the six products of three coordinates each comes from three
-/// differences, and is rounded twice and added up four times: a relative error of 9u. Their sizes add up to at most
-/// `√3 |a| |b| |c|`: 16u of the size. A compensated sum of `n` terms has a relative error of `u`, and an error
-/// of `2 n² u²` of their sizes. The size has a relative error of `(n + 16) u`. 32u are taken, and what grows with `n²`.
-pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
-    (32.0 + 4.0 * terms * (terms * U64)) * U64 * size
-}
-
-/// Chooses the number of voxels along a mesh's longest side, for an approximation by a number of hulls.
+/// Returns the number of voxels along a mesh's longest side, for a number of hulls.
 ///
 /// Finer ones place the cuts between the hulls better, at a cost of their cube. Measured on a knot, a
 /// ring and a bunny: 128 for 64 gains a tenth of the error and costs four times the time.
@@ -110,69 +63,57 @@ pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
     if hulls <= 32 { 64 } else { 96 }
 }
 
-/// The coarsest useful grid; unit: voxels.
+/// The smallest useful resolution, in voxels.
 pub(crate) const LEAST_RESOLUTION: u32 = 8;
 
-/// The most pairs of a triangle and a voxel in its box that may be examined: a third of a second's work.
+/// The maximum number of triangle–voxel pairs to examine: a third of a second of work.
 pub(crate) const VOXELS_TESTED: usize = 1 << 21;
 
-/// The least size of a voxel, in units of the rounding of cuts.
+/// The minimum size of a voxel, in units of the rounding of cuts.
 pub(crate) const COARSE_VOXELS: f64 = 1024.0;
 
-/// The share of the whole hull's volume by which a part's hull may exceed the part before the part is split.
-/// Smaller: nearly convex meshes use all hulls that are asked for, too.
+/// V-HACD's concavity: the excess volume, in shares of the whole hull, above which a part is split. So small that
+/// nearly convex meshes also use all requested hulls.
 pub(crate) const CONCAVITY: f64 = 1e-6;
 
-/// The cost of an uneven cut for V-HACD, in shares of the concavity. Measured on a bunny with 128 hulls: they
-/// stick out by a quarter less than at the library's own 0.05; of a knot and a ring it makes no odds.
+/// V-HACD's weight of balanced cuts. Measured on a bunny with 128 hulls: they stick out by a quarter less than at the
+/// library's own 0.05; no difference for a knot and a ring.
 pub(crate) const BALANCE: f64 = 0.5;
 
-/// The number of parts to ask the library for per hull; the best pairs are merged. Measured: one makes 32 hulls of a
-/// knot stick out by two thirds more, four hardly less.
+/// The number of parts to request from the library per hull; the best pairs are merged. Measured: one makes 32 hulls of
+/// a knot stick out by two thirds more, four hardly less.
 pub(crate) const PARTS_PER_HULL: u32 = 2;
 
-/// The most parts to ask the library for: the time of merging grows with their cube.
+/// The maximum number of parts to request: the time of merging grows with their cube.
 pub(crate) const MOST_PARTS: u32 = 512;
 
-/// The number of points of a part that estimate the cost of merging it with another one.
+/// The number of points of a part used to estimate the cost of merging.
 ///
 /// Unit: points. At most half of [`LIKELY_POINTS`]. More: hardly better choices, and time that grows with
 /// their square.
 pub(crate) const PRICED_POINTS: u32 = 96;
 
-/// The bound on how far hulls stick out above which they are rejected, in units of half the mesh's diagonal.
+/// The maximum accepted excess of hulls, in units of half the mesh's diagonal.
 pub(crate) const TOO_COARSE: f64 = 0.5;
 
-/// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. Rounding makes 1e-15 for
-/// well-shaped triangles, and less than a tenth of this for those that are just no [needles](NEEDLE).
-pub(crate) const NEAREST_SLACK: f64 = 1e-9;
-
-/// The height of a triangle over its longest side, in units of that side, below which its distance is bounded by
-/// that of the side. The library's error grows with the inverse: it exceeds [`NEAREST_SLACK`] at 1e-6.
-pub(crate) const NEEDLE: f64 = 1e-4;
-
-/// The least sine at a corner of a facet whose plane is used. The error of its normal is then at most
-/// `4 U64 / 1e-6`, less than [`NEAREST_SLACK`].
-pub(crate) const WELL_SHAPED: f64 = 1e-6;
-
-/// The budget of work for the bound on how far hulls stick out.
+/// The work budget for the bound on the excess of hulls.
 ///
 /// Unit: boxes and triangles examined in searches, of 10 to 50 ns: half a second's work.
 pub(crate) const EXCESS_WORK: u64 = 3 << 23;
 
-/// The most boxes that may wait in that search.
+/// The maximum number of waiting boxes in that search.
 ///
 /// Unit: boxes, of about 130 bytes each. Most meshes spend the work on fewer. On a mesh of two triangles a box takes
 /// only a few steps: millions of them took hundreds of megabytes.
 pub(crate) const EXCESS_BOXES: usize = 1 << 19;
 
-/// The ratio to the largest distance found at which the bound on how far hulls stick out is good enough …
+/// The ratio of the excess bound to the largest distance found at which the search ends …
 pub(crate) const EXCESS_RATIO: f64 = 1.01;
 
-/// … and the difference at which it is, in units of half the mesh's diagonal; either suffices.
+/// … and the difference at which it ends, in units of half the mesh's diagonal; either suffices.
 pub(crate) const EXCESS_FLOOR: f64 = 1e-4;
 
-/// The most triangles near a box that are examined to bound how far a part sticks out in it.
+/// The maximum number of triangles near a box that bound the excess within it.
 pub(crate) const TRIANGLES_UNDER: usize = 64;
 
 /// The time of queries with one kind of pieces.
@@ -180,7 +121,7 @@ pub(crate) const TRIANGLES_UNDER: usize = 64;
 pub(crate) struct PieceCost {
     /// The median time against a body of many triangles, for any number of pieces. Unit: µs.
     pub(crate) usual: f64,
-    /// The time for every piece of a plane that rests flat on another one. Unit: µs.
+    /// The time per piece of a plane that rests flat on another. Unit: µs.
     pub(crate) resting: f64,
 }
 
@@ -204,89 +145,87 @@ pub(crate) const PATCHES: PieceCost = PieceCost {
     resting: 6.0,
 };
 
-/// The share of queries in which bodies are assumed to come to rest flat on each other, within a tolerance so
-/// small that all pieces of the plane are examined. Unit: one. A guess: the larger, the sooner patches are chosen;
-/// at this value they are chosen from about three hundred triangles in one plane on.
+/// The assumed share of queries in which bodies rest flat on each other, so that all pieces of a plane are examined. A
+/// guess: at this value patches are chosen from about three hundred triangles in one plane on.
 pub(crate) const FLAT_SHARE: f64 = 1.0 / 50.0;
 
-/// The number of classes of lengths for each doubling of the length. Edges within a plane count as equally long
-/// in one class, so that rounding does not separate the edges of a grid.
+/// Number of length bins per doubling of the length. Edges in one bin count as equally long, so that rounding does not
+/// separate the edges of a grid.
 pub(crate) const LENGTHS: f64 = 16.0;
 
-/// The number of classes of directions for one unit of a coordinate of the direction.
+/// Number of direction bins per unit of each coordinate of a unit vector.
 pub(crate) const DIRECTIONS: f64 = 64.0;
 
-/// The most points whose hull is the library's, if that can be proven.
+/// The maximum number of points for the library's hull, which is then proven.
 ///
 /// Unit: points. The library's time and memory grow with their square: a hull of 625 corners on a circle and two
 /// on its axis took 380 MB.
 pub(crate) const LIBRARY_POINTS: usize = 64;
 
-/// The most points whose hull grows by testing each of them with all facets.
+/// The maximum number of points for the incremental hull without a conflict graph.
 ///
 /// Unit: points. More: the time grows with their square. Fewer: the library takes three to ten times as long, and
 /// fails on many that are coplanar.
 pub(crate) const FEW_POINTS: usize = 32;
 
-/// The number of pieces from which the two sides of a node of a hull tree are built in parallel.
+/// The minimum number of pieces to build the two sides of a hull tree node in parallel.
 ///
-/// Unit: pieces. Fewer: handing over takes as long as the work. More: a core waits at the end.
+/// Unit: pieces. Fewer: tasks cost more than they gain. More: a core idles at the end.
 pub(crate) const SIDE_BY_SIDE: usize = 256;
 
-/// The most pieces whose centres choose the axis along which a node of a hull tree is split.
+/// The maximum number of centres that determine the split axis of a hull tree node.
 ///
 /// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centres at all nodes took as long as the
 /// tree's own.
 pub(crate) const SPREAD_PIECES: usize = 64;
 
-/// The number of triangles about one vertex from which they are searched as a fan.
+/// The minimum number of triangles at one vertex that are searched as a fan.
 ///
-/// Unit: triangles. The boxes of fewer triangles all meet each other, too, but these are few.
+/// Unit: triangles. The boxes of fewer triangles also overlap, but are few.
 pub(crate) const FAN_TRIANGLES: u32 = 32;
 
-/// The number of boxes along the coordinate axes that may meet that of a shape before oriented boxes are tested
-/// with the shape itself.
+/// The number of axis-aligned boxes that may meet the box of a shape before oriented boxes are tested.
 ///
-/// Unit: boxes. A smaller value is slower for triangles that are no slivers, which hardly ever meet as many.
+/// Unit: boxes. A smaller value is slower for triangles that are not slivers.
 pub(crate) const BOXES_MET: usize = 32;
 
-/// The number of pairs of intersecting faces at which the search for more ends.
+/// The maximum number of reported pairs of intersecting faces.
 ///
-/// Unit: pairs. The fan of a polygon that is not convex may have as many as the square of its corners.
+/// Unit: pairs. The fan of a non-convex polygon may have as many as the square of its corners.
 pub(crate) const CROSSINGS: usize = 1000;
 
-/// The budget of `Detail::Auto` for deciding whether patches are exact, and for making them.
+/// The work budget of `Detail::Auto` for testing and making patches.
 ///
 /// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
 pub(crate) const AUTO_WORK: u64 = 1 << 24;
 
-/// The cost of a vertex that is made, in units of the cost of a corner, which is about 25 bytes.
+/// The cost of an expanded vertex, in units of a corner, which is about 25 bytes.
 pub(crate) const VERTEX_COST: u64 = 4;
 
-/// The most that a file may make by naming the same vertices, corners and objects again: so much …
+/// The limit on what a file may expand to by repeated references: a constant …
 ///
 /// Unit: the cost of a corner, and of an object. More: a hostile file of a kilobyte takes more memory. Fewer: small
 /// files with many instances are refused.
 pub(crate) const REPEATED: u64 = 1 << 20;
 
-/// … so much more for each of its bytes: an assembly of 1,000 screws of 1,000 triangles takes about 50 for each
-/// byte …
+/// … plus this for each byte of the file (an assembly of 1,000 screws of 1,000 triangles takes about 50) …
 pub(crate) const REPEATED_PER_BYTE: u64 = 1 << 8;
 
-/// … and no more than this in any case: about ten million triangles, which take 3 GB at most until they are a body.
+/// … and at most this: about ten million triangles, which take up to 3 GB to prepare.
 pub(crate) const REPEATED_AT_MOST: u64 = 1 << 25;
 
-/// The number of bytes to which the parts of a compressed file may unpack together, in addition to …
+/// The limit on the unpacked bytes of a compressed file: a constant …
 ///
 /// Unit: bytes. More: a hostile file of a kilobyte takes more memory.
 #[cfg(feature = "3mf")]
 pub(crate) const UNPACKED: u64 = 1 << 24;
 
-/// … this many times the size of the file. Models of slicers and CAD programs unpack to five to thirty times the size.
+/// … plus this many times the size of the file. Models of slicers and CAD programs unpack to five to thirty times the
+/// size.
 #[cfg(feature = "3mf")]
 pub(crate) const UNPACKED_RATIO: u64 = 128;
 
-/// The most points for which a hull that only serves comparisons is the library's, right or wrong.
+/// The maximum number of points for the library's unproven hull, which only serves comparisons.
 ///
 /// Unit: points. At this many the library's memory peaks at 60 MB.
 pub(crate) const LIKELY_POINTS: usize = 256;

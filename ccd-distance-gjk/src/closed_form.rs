@@ -17,8 +17,8 @@ use nearest::{Corners, Nearest, nearest};
 
 /// The distance of two points, segments or triangles in closed form, degenerate ones included.
 ///
-/// Compares edges with edges and corners with faces, all at once. Whether the pieces intersect is
-/// tested only when the axis found does not separate them. Nothing is kept between calls.
+/// Compares edges with edges and corners with faces, all at once. Intersection is tested only if the axis found does
+/// not separate the pieces. Nothing is stored between calls.
 ///
 /// # Guarantee
 /// For separated pieces of size s, both moved near the origin, the witnesses are within about 1e-15
@@ -27,7 +27,7 @@ use nearest::{Corners, Nearest, nearest};
 /// larger than that.
 ///
 /// # Errors
-/// [`GiveUp::TooManyPoints`] for pieces that do not have one, two or three points.
+/// [`GiveUp::TooManyPoints`] for pieces of more than three points, or none.
 ///
 /// # Complexity
 /// Constant, without allocation.
@@ -88,8 +88,7 @@ impl DistanceOracle for ClosedForm {
     }
 }
 
-/// Returns the best axis of all for pieces that nearly touch or intersect, and a common point if
-/// there is one.
+/// Returns the best axis for pieces that nearly touch or intersect, and a common point if there is one.
 #[cold]
 #[inline(never)]
 fn examine(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {

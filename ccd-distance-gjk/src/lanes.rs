@@ -1,4 +1,4 @@
-//! Four vectors at once, coordinate by coordinate.
+//! Four vectors in SIMD lanes.
 
 use ccd_core::fearless_simd::{ExtractToken, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
@@ -37,7 +37,7 @@ impl<L: Simd> Lanes3<L> {
         self.x.token()
     }
 
-    /// The vector in one lane.
+    /// Returns the vector in one lane.
     pub(crate) fn lane(self, k: usize) -> DVec3 {
         DVec3::new(self.x[k], self.y[k], self.z[k])
     }
@@ -72,13 +72,13 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Scalar products.
+    /// Returns the scalar products.
     #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> f64x4<L> {
         self.x * other.x + (self.y * other.y + self.z * other.z)
     }
 
-    /// Cross products.
+    /// Returns the cross products.
     #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
         Lanes3 {

@@ -10,7 +10,7 @@ use ccd_core::{DistanceOracle, Frame, Piece, PiecePair};
 use rstest::rstest;
 use scene::{Meeting, Pcg64, Scene, SeedableRng};
 
-/// The number of scenes that each law sees; `CCD_CASES` in the environment sets another number.
+/// The number of scenes per law; the environment variable `CCD_CASES` overrides it.
 fn cases() -> u64 {
     let given = std::env::var("CCD_CASES").ok();
     given.and_then(|text| text.parse().ok()).unwrap_or(2000)
@@ -151,7 +151,7 @@ fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
 }
 
 fn near_contact<O: DistanceOracle + Default>(meeting: Meeting, gap: f64) {
-    // Tilted faces are nearest at a corner, which may be outside of the other face's prism.
+    // Tilted faces are nearest at a corner, which may be outside the other face's prism.
     let slack = match meeting {
         Meeting::ParallelFaces => 1e-8,
         _ => 0.0,

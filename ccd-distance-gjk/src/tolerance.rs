@@ -1,7 +1,6 @@
-//! Every numeric tolerance of this crate: its unit, the reason for its value, and what breaks
-//! without it.
+//! Every numeric tolerance of this crate, with unit, derivation, and purpose.
 
-/// The share of the witnesses' distance that an axis has to certify to be claimed as it is.
+/// The share of the witnesses' distance that an axis must certify to be claimed without further search.
 ///
 /// Witnesses of pieces of size s carry rounding of about u·s. Their difference, of length d, is
 /// therefore tilted by u·s/d, and loses u·s²/d of the support gap: a share u·(s/d)² of d. Above d =
@@ -14,14 +13,13 @@ pub(crate) const KEEP: f64 = 63.0 / 64.0;
 /// nearest features' own axes keep [`KEEP`]; a half is far from it and from 0.
 pub(crate) const SUSPECT: f64 = 0.5;
 
-/// The cap of a GJK search's steps.
+/// The maximum number of steps of a GJK search.
 ///
-/// Hulls take 3 to 10 steps, finely tessellated spheres up to about 30; beyond, a search only
-/// shuffles rounding. The claim at the cap is valid, only less sharp.
+/// Hulls take 3 to 10 steps, finely tessellated spheres up to about 30; beyond, steps only change rounding. The claim
+/// at the cap is valid, but less tight.
 pub(crate) const STEP_CAP: u32 = 64;
 
-/// The number of times that a GJK search continues from the features' axis after its own axis was
-/// too poor.
+/// The number of times that a GJK search continues from the axes of features if its own axis is too poor.
 pub(crate) const ROUND_CAP: u32 = 4;
 
 /// The difference of support gap and distance at which GJK stops, in units in the last place of the
@@ -33,9 +31,8 @@ pub(crate) const CONVERGED_ULPS: f64 = 16.0;
 /// digits.
 pub(crate) const CERTIFIED_ULPS: f64 = 4096.0;
 
-/// The distance at which GJK calls pieces touching, in units in the last place of the coordinates'
-/// difference: a vertex b − a and a combination of four are rounded by about
-/// 2 units each.
+/// The distance below which pieces count as touching, in units in the last place of the coordinates' difference: a
+/// vertex b − a and a combination of four are rounded by about 2 units each.
 pub(crate) const TOUCHING_ULPS: f64 = 4.0;
 
 /// The rounding of a signed volume of a tetrahedron, in units in the last place of the product of
@@ -44,9 +41,8 @@ pub(crate) const TOUCHING_ULPS: f64 = 4.0;
 /// around it.
 pub(crate) const VOLUME_ULPS: f64 = 8.0;
 
-/// The number of vertices of the difference that are combined when an axis is computed from
-/// features. Three contain the nearest point, the others are those that earlier axes met. Corners
-/// of meshes join 3 to 10 edges.
+/// The number of vertices of the difference that are combined when an axis is computed from features. Three contain the
+/// nearest point; the others were support vertices of earlier axes. Corners of meshes join 3 to 10 edges.
 pub(crate) const SHARPEN_CAP: usize = 12;
 
 /// The number of times that the weights of a point inside a tetrahedron are corrected by their
@@ -54,6 +50,6 @@ pub(crate) const SHARPEN_CAP: usize = 12;
 /// 1e10.
 pub(crate) const INSIDE_ROUNDS: u32 = 2;
 
-/// The number of points up to which all are scanned for the farthest one. A piece with more is
-/// asked, which need not scan all of them.
+/// The maximum number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal`] is used,
+/// which need not scan all.
 pub(crate) const SCANNED_POINTS: usize = ccd_core::tolerance::CLIMBED_POINTS;

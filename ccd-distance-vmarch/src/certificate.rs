@@ -1,8 +1,8 @@
-//! Axes that certify a stop at a tie: the support gap along them against the distance.
+//! Axes that certify a tied stop by their support gap.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
-use crate::polytope::{NO_FACE, Polytope, unit};
+use crate::polytope::{Polytope, unit};
 use crate::tolerance::{AXIS_EDGES, CERTIFIED, CERTIFIED_SHARE};
 use crate::witness::{Witness, across};
 use ccd_core::glam::DVec3;
@@ -30,7 +30,7 @@ impl Axis {
         }
     }
 
-    /// Returns whether the distance is certified along it, up to rounding.
+    /// Returns whether the axis certifies the distance, up to rounding.
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
@@ -39,7 +39,7 @@ impl Axis {
     }
 }
 
-/// The support gap `min_B n·y − max_A n·x` along a unit vector.
+/// Returns the support gap `min_B n·y − max_A n·x` along a unit vector.
 pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
     let highest = placed.a.0.vertices.iter().map(|v| n.dot(v.point));
     let own = placed.b.own_vector(n);
@@ -48,8 +48,8 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// Bounds the gap along a direction of any length from above: by the gap between two corners, found
-/// by climbing if there are many.
+/// Returns an upper bound of the gap along a direction: the gap between two corners, found by hill climbing if there
+/// are many.
 fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
@@ -65,13 +65,13 @@ fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     }
 }
 
-/// Returns the best axis for nearest features whose difference is tied, or is rounding.
+/// Returns the best axis for nearest features with a tied or tiny difference.
 ///
-/// The directions along which features are extremal form a cone; a rounded vector may fall out of
-/// it. Its borders are tried too: the normals of the faces around, the cross products of edges, the
-/// vector across each edge; and for features in one plane or on one line, directions within.
+/// The directions along which features are extremal form a cone; a rounded vector may fall out of it. Its borders are
+/// also tried: the normals of adjacent faces, cross products of edges, the vector across each edge; and for coplanar or
+/// collinear features, directions within the plane or line.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
-    let (distance, way) = (witness.distance(), witness.way());
+    let (distance, offset) = (witness.distance(), witness.offset());
     let mut best = Axis::along(placed, witness.axis);
     if best.certifies(distance, placed) {
         return best;
@@ -88,13 +88,13 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
             }
         }
     };
-    let around_a = Around::new(&placed.a, pair.a, way);
-    let around_b = Around::new(&placed.b, pair.b, way);
+    let around_a = Around::new(&placed.a, pair.a, offset);
+    let around_b = Around::new(&placed.b, pair.b, offset);
     for around in [&around_a, &around_b] {
         around.normals.iter().copied().for_each(&mut offer);
         around.within.iter().copied().for_each(&mut offer);
         for &edge in &around.edges {
-            offer(across(way, edge));
+            offer(across(offset, edge));
             offer(edge);
         }
     }
@@ -106,7 +106,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
     best
 }
 
-/// The directions of the edges and faces that meet in a feature, in A's frame.
+/// The directions of the edges and faces at a feature, in A's frame.
 struct Around {
     edges: Vec<DVec3>,
     normals: Vec<DVec3>,
@@ -115,23 +115,13 @@ struct Around {
 }
 
 impl Around {
-    fn new<P: Placed>(polytope: &P, feature: Feature, way: DVec3) -> Self {
+    fn new<P: Placed>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
         let shape: &Polytope = polytope.shape();
-        let mut edges: Vec<u32> = match feature {
-            Feature::Vertex(v) => shape.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
-            Feature::Edge(e) => vec![e],
-            Feature::Face(_) => Vec::new(),
-        };
-        let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(way).abs();
+        let mut edges = shape.edges_at(feature);
+        let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(offset).abs();
         edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
         edges.truncate(AXIS_EDGES);
-        let mut faces: Vec<u32> = match feature {
-            Feature::Face(f) => vec![f],
-            _ => edges.iter().flat_map(|&e| shape.edge(e).faces).collect(),
-        };
-        faces.sort_unstable();
-        faces.dedup();
-        faces.retain(|&f| f != NO_FACE);
+        let faces = shape.faces_at(feature, &edges);
         let within = edges.iter().flat_map(|&e| shape.edge(e).inward);
         Around {
             within: within.map(|inward| polytope.vector(inward)).collect(),

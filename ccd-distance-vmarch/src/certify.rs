@@ -1,8 +1,8 @@
-//! Certifies the end of a march: ties, cycles, and marches restarted from elsewhere.
+//! Certifies the end of a march: ties, cycles, restarts.
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
-use crate::feature::{Certainty, Next, Pair, Whose};
+use crate::feature::{Certainty, Next, Pair, Which};
 use crate::march::{march, step};
 use crate::neighbourhood;
 use crate::penetration;
@@ -22,11 +22,11 @@ pub(crate) struct Certified {
     pub(crate) claim: Claim,
 }
 
-/// Certifies, or proves, an answer from the end of a march that is not certain by itself.
+/// Certifies the result of a march that ended in a tie, a cycle or a common point.
 ///
 /// # Errors
-/// If no start succeeds: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] if a march ended so,
-/// [`GiveUp::Uncertified`] otherwise.
+/// If no restart succeeds: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] if the last march ended so, else
+/// [`GiveUp::Uncertified`].
 #[cold]
 #[inline(never)]
 pub(crate) fn certify(
@@ -61,18 +61,18 @@ pub(crate) fn certify(
 /// The assessment of an end.
 enum Finding {
     Certified(Certified),
-    /// A pair around it is nearer.
+    /// A neighbouring pair is nearer.
     Nearer(Pair),
-    /// It is not certified; with the best axis so far.
+    /// The end is not certified; with the best axis so far.
     Doubtful(DVec3),
 }
 
 fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Finding {
     match end {
         End::Nearest(pair, certainty) => examine_stop(placed, pair, certainty),
-        End::Common(pair, whose, crossing) => {
+        End::Common(pair, which, crossing) => {
             counters.penetrations += 1;
-            let claim = touching::common(placed, whose, &crossing);
+            let claim = touching::common(placed, which, &crossing);
             Finding::Certified(Certified { pair, claim })
         }
         End::Unclear(pair) => match search_common_point(placed, pair, counters) {
@@ -85,7 +85,7 @@ fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Findin
 
 /// Certifies a stop if necessary.
 fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
-    let witness = Witness::of(placed, pair);
+    let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
         return certified(placed, pair, &witness, witness.axis);
     }
@@ -95,13 +95,13 @@ fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Fi
 /// Certifies the best pair of a cycle.
 fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let (mut pair, mut nearest) = (start, start);
-    let mut least = Witness::of(placed, start).distance();
+    let mut least = Witness::new(placed, start).distance();
     for _ in 0..CYCLE_LOOK {
         match step(placed, pair) {
             Next::To(a, b) => pair = Pair { a, b },
             _ => break,
         }
-        let distance = Witness::of(placed, pair).distance();
+        let distance = Witness::new(placed, pair).distance();
         if distance < least {
             (nearest, least) = (pair, distance);
         }
@@ -112,11 +112,11 @@ fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     certify_tie(placed, nearest)
 }
 
-/// Certifies a pair, or a nearer one around it: a march back from there might end at the same tie.
+/// Certifies a pair or a nearer neighbouring one, because a new march might end at the same tie.
 fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let mut pair = start;
     for _ in 0..ROUNDS {
-        let witness = Witness::of(placed, pair);
+        let witness = Witness::new(placed, pair);
         let distance = witness.distance();
         let axis = best_axis(placed, pair, &witness);
         if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
@@ -124,7 +124,7 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
         }
         match neighbourhood::nearer(placed, pair, distance) {
             Some(nearer) => pair = nearer,
-            // The pair is as near as possible: the remaining doubt is about the axis.
+            // No pair is nearer: only the axis is uncertain.
             None if axis.gap >= 0.5 * distance => {
                 return certified(placed, pair, &witness, axis.direction);
             }
@@ -142,19 +142,19 @@ fn certified(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3
     Finding::Certified(Certified { pair, claim })
 }
 
-/// Searches for a common point among all edges and faces.
+/// Searches all edges and faces for a common point.
 fn search_common_point(
     placed: &PlacedPair<'_>,
     pair: Pair,
     counters: &mut Counters,
 ) -> Option<Certified> {
     let PlacedPair { a, b, scale } = placed;
-    let of = |whose| move |crossing| (whose, crossing);
-    let found = penetration::searched(a, b, *scale).map(of(Whose::X));
-    let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Whose::Y)));
-    let (whose, crossing) = found?;
+    let of = |which| move |crossing| (which, crossing);
+    let found = penetration::searched(a, b, *scale).map(of(Which::X));
+    let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Which::Y)));
+    let (which, crossing) = found?;
     counters.penetrations += 1;
-    let claim = touching::common(placed, whose, &crossing);
+    let claim = touching::common(placed, which, &crossing);
     Some(Certified { pair, claim })
 }
 

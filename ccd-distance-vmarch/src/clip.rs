@@ -1,4 +1,4 @@
-//! Edges cut by the planes of another feature `[VCLIP98 §3.2]`.
+//! Clips edges by the planes of another feature `[VCLIP98 §3.2]`.
 
 use crate::placed::{Line, Placed, clamped};
 use ccd_core::glam::DVec3;
@@ -10,15 +10,15 @@ pub(crate) struct Clipped {
     pub(crate) to: Cut,
 }
 
-/// An end of that part.
+/// An end of a clipped edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
     pub(crate) parameter: f64,
-    /// The edge of the face whose plane made the cut; none at the edge's own end.
+    /// The edge of the face whose plane made the cut; `None` at the edge's own end.
     pub(crate) by: Option<u32>,
 }
 
-/// Cuts an edge by the face-edge planes of a face; none if no part is left.
+/// Clips an edge by the face-edge planes of a face; `None` if nothing is left.
 #[inline]
 pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> Option<Clipped> {
     let mut out = Clipped {

@@ -1,13 +1,13 @@
-//! Counts of an oracle's work.
+//! Counters of an oracle's work.
 
 /// The work of an oracle over all calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// The calls.
+    /// Calls.
     pub calls: u64,
     /// Pairs of features that were tested.
     pub steps: u64,
-    /// Pairs that occurred again.
+    /// Cycles that were detected.
     pub cycles: u64,
     /// Features found behind a face, for which all faces were examined.
     pub local_minima: u64,

@@ -28,7 +28,7 @@ impl DoubleDouble {
         self.high + self.low
     }
 
-    /// The sum of two numbers, the larger one first.
+    /// Returns the sum of two numbers, the larger one first.
     fn renormalised(high: f64, low: f64) -> Self {
         let sum = high + low;
         DoubleDouble {
@@ -69,7 +69,7 @@ impl Mul for DoubleDouble {
     }
 }
 
-/// A vector of such numbers.
+/// A vector in double-double.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DoubleDoubleVector([DoubleDouble; 3]);
 

@@ -2,10 +2,11 @@
 
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Behind, Feature, Next, Whose};
+use crate::feature::{Behind, Feature, Next, Which};
 use crate::placed::{Line, Placed, Scale, clamped};
 use crate::polytope::Edge;
 use crate::tolerance::{LEVEL, PARALLEL};
+use crate::vertex_edge::side_faced;
 use ccd_core::glam::DVec3;
 
 /// Tests the nearest points of both edges against the other edge's planes, vertex-edge planes first.
@@ -28,11 +29,11 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
         [None, None] => {}
     }
     let points = [one.at(near.parameters[0]), other.at(near.parameters[1])];
-    let way = points[1] - points[0];
-    if way.length() <= scale.rounding() {
+    let offset = points[1] - points[0];
+    if offset.length() <= scale.rounding() {
         return Next::Stop(Tied);
     }
-    let facing = Facing::new(&near, way, scale);
+    let facing = Facing::new(&near, offset, scale);
     let slope_x = x.inward(edge_x, facing.axis);
     if let Some(side) = facing.side(x, edge_x, slope_x) {
         return side.reached_by(Feature::Edge(f), points[1]);
@@ -49,13 +50,28 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
 /// The nearest points of two segments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near {
-    /// Their parameters along either.
+    /// The parameters along both segments.
     pub(crate) parameters: [f64; 2],
     /// The cross product of the directions; its length is the sine of their angle.
     pub(crate) across: DVec3,
 }
 
-/// Returns the nearest points, with an end exactly where it is nearest.
+impl Near {
+    /// Returns the cross product, towards `offset`, if rounding turns it less than `offset`: by its own rounding over the
+    /// sine, against that of the positions over the distance.
+    #[inline(always)]
+    pub(crate) fn axis(&self, offset: DVec3, scale: Scale) -> Option<DVec3> {
+        // Written so that NaN does not turn it.
+        let turned = if self.across.dot(offset) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        (self.across.length() * scale.size > offset.length()).then_some(self.across * turned)
+    }
+}
+
+/// Returns the nearest points of two segments. An end that is nearest is returned exactly.
 ///
 /// If the segments are nearly parallel, the first parameter is off by rounding over the sine. The
 /// second one is computed from it, so the distance of the points is off by rounding only.
@@ -71,7 +87,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     };
     let free = (one.at(s) - other.start).dot(other.along);
     let t = clamped(free, other.length);
-    // If the line's point is beyond the segment's end, that end's foot is nearest.
+    // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {
         s
     } else {
@@ -83,9 +99,9 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     }
 }
 
-/// Returns the end at a parameter.
+/// Returns the end of an edge at a parameter; `None` between the ends.
 #[inline(always)]
-fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
+pub(crate) fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
     if !(parameter > 0.0) {
         Some(edge.ends[0])
     } else if !(parameter < edge.length) {
@@ -98,8 +114,8 @@ fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
 /// The vector from one edge's nearest point to the other's, and the axis between the edges.
 #[derive(Clone, Copy)]
 struct Facing {
-    way: DVec3,
-    /// That vector, or the direction across both edges: the one that rounding turns less.
+    offset: DVec3,
+    /// That vector, or the direction across both edges: whichever rounding tilts less.
     axis: DVec3,
     /// The rounding of a product with the axis.
     slack: f64,
@@ -107,54 +123,37 @@ struct Facing {
 
 impl Facing {
     #[inline(always)]
-    fn new(near: &Near, way: DVec3, scale: Scale) -> Self {
-        let across = near.across;
-        let turned = if across.dot(way) < 0.0 { -1.0 } else { 1.0 };
-        if across.length() * scale.size > way.length() {
-            Facing {
-                way,
-                axis: across * turned,
-                slack: LEVEL,
-            }
-        } else {
-            Facing {
-                way,
-                axis: way,
-                slack: scale.rounding(),
-            }
+    fn new(near: &Near, offset: DVec3, scale: Scale) -> Self {
+        let across = near.axis(offset, scale);
+        Facing {
+            offset,
+            axis: across.unwrap_or(offset),
+            slack: across.map_or(scale.rounding(), |_| LEVEL),
         }
     }
 
     #[inline(always)]
     fn reversed(self) -> Self {
         Facing {
-            way: -self.way,
+            offset: -self.offset,
             axis: -self.axis,
             ..self
         }
     }
 
-    /// Returns the face of an edge on the side of the other point; of two, the one with the larger
-    /// height of the point.
+    /// Returns the face of an edge on the side of the other point; of two, the face with the larger height of the
+    /// point.
     #[inline(always)]
     fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
-        let one = |face| Some(Side::Before(face));
-        match slopes.map(|slope| slope > self.slack) {
-            [false, false] => None,
-            [true, false] => one(edge.faces[0]),
-            [false, true] => one(edge.faces[1]),
-            [true, true] => {
-                let normal = |f| p.vector(p.shape().face(f).normal);
-                let height = edge.faces.map(|f| normal(f).dot(self.way));
-                let higher = usize::from(height[1] > height[0]);
-                let face = edge.faces[higher];
-                if height[higher] > 0.0 {
-                    one(face)
-                } else {
-                    Some(Side::Behind(face))
-                }
-            }
-        }
+        let inward = slopes.map(|slope| slope - self.slack);
+        let face = side_faced(p, edge.faces, inward, self.offset)?;
+        let is_above = || p.vector(p.shape().face(face).normal).dot(self.offset) > 0.0;
+        let beyond_both = inward.iter().all(|&into| into > 0.0);
+        Some(if beyond_both && !is_above() {
+            Side::Behind(face)
+        } else {
+            Side::Before(face)
+        })
     }
 }
 
@@ -167,12 +166,12 @@ enum Side {
 }
 
 impl Side {
-    /// Returns X's face, and Y's feature with the point.
+    /// Returns the next pair: X's face, and Y's feature with the point.
     fn reached_by(&self, feature: Feature, point: DVec3) -> Next {
         match *self {
             Side::Before(face) => Next::To(Feature::Face(face), feature),
             Side::Behind(face) => Next::Behind(
-                Whose::Y,
+                Which::Y,
                 Behind {
                     feature,
                     point,

@@ -2,7 +2,7 @@
 
 use crate::clip::{self, Clipped};
 use crate::edge_edge;
-use crate::feature::{Behind, Feature, Next, Whose};
+use crate::feature::{Behind, Feature, Next, Which};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
@@ -24,8 +24,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let Some(side) = y.shape().sides_of(f).first() else {
         return to_nearest_side(e, &line, y, f);
     };
-    // The product by which `vertex_face` computes the fall of the corner's edges towards a face, to
-    // the bit.
+    // The same product, to the bit, as the slope of the corner's edges in `vertex_face`.
     let slope = line.along.dot(normal);
     let base = normal.dot(line.start - y.point(side.start));
     let rounding = scale.rounding();
@@ -34,7 +33,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let height = |parameter: f64| base + slope * parameter;
     if height(high.parameter) < -rounding {
         return Next::Behind(
-            Whose::X,
+            Which::X,
             Behind {
                 feature: Feature::Edge(e),
                 point: line.at(high.parameter),
@@ -44,7 +43,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     }
     if height(low.parameter) < rounding {
         if let Some(crossing) = penetration::pierced(x, e, y, f) {
-            return Next::Pierced(Whose::X, crossing);
+            return Next::Pierced(Which::X, crossing);
         }
         if height(low.parameter) < -rounding {
             return to_nearest_side(e, &line, y, f);

@@ -1,19 +1,18 @@
-//! The way out of local minima: behind one face, but not behind all of them `[VCLIP98 §3.3]`.
+//! Escape from local minima: features behind one face, but not behind all `[VCLIP98 §3.3]`.
 
 use crate::feature::{Behind, Crossing, Feature};
 use crate::penetration;
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// The continuation from behind a face.
+/// The continuation from a local minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Escape {
-    /// The feature is in front of that face, farther than of any other one.
+    /// The feature is in front of this face, farther than of any other.
     Face(Feature, u32),
-    /// It is behind all faces, and contains a point of the other polytope.
+    /// The feature is behind all faces, and contains a point of the other polytope.
     Inside(Crossing),
-    /// It is behind all faces, or so near to them that rounding decides, and exact signs prove no
-    /// common point.
+    /// The feature is behind all faces up to rounding, and exact signs prove no common point.
     Unclear,
 }
 

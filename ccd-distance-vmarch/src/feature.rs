@@ -1,4 +1,4 @@
-//! Corners, edges and faces of a polytope, by their numbers, and pairs of them.
+//! Features of polytopes: vertices, edges and faces, by number, and pairs of them.
 
 use ccd_core::glam::DVec3;
 
@@ -10,53 +10,53 @@ pub(crate) enum Feature {
     Face(u32),
 }
 
-/// A feature of each polytope: the state of a march.
+/// A feature of each polytope, which is the state of a march.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Pair {
     pub(crate) a: Feature,
     pub(crate) b: Feature,
 }
 
-/// The result of a test of one pair: of features of polytopes X and Y, in that order.
+/// The result of testing a pair of features of polytopes X and Y, in that order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
     /// A nearer pair, or one as near and of lower dimension.
     To(Feature, Feature),
-    /// Each feature's nearest point is in the Voronoi region of the other: no pair is nearer.
+    /// Each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
     Stop(Certainty),
     /// A feature of one polytope is behind a face of the other: a local minimum, which needs an
     /// [escape](crate::escape) over all faces.
-    Behind(Whose, Behind),
+    Behind(Which, Behind),
     /// An edge of one polytope goes through a face of the other.
-    Pierced(Whose, Crossing),
+    Pierced(Which, Crossing),
 }
 
 /// One of the two polytopes X and Y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Whose {
+pub(crate) enum Which {
     X,
     Y,
 }
 
 impl Next {
-    /// Returns the same result for Y and X.
+    /// Returns the result with X and Y swapped.
     #[inline(always)]
     pub(crate) fn swapped(self) -> Next {
         match self {
             Next::To(x, y) => Next::To(y, x),
             Next::Stop(certainty) => Next::Stop(certainty),
-            Next::Behind(whose, behind) => Next::Behind(whose.other(), behind),
-            Next::Pierced(whose, crossing) => Next::Pierced(whose.other(), crossing),
+            Next::Behind(which, behind) => Next::Behind(which.other(), behind),
+            Next::Pierced(which, crossing) => Next::Pierced(which.other(), crossing),
         }
     }
 }
 
-impl Whose {
+impl Which {
     #[inline(always)]
-    fn other(self) -> Whose {
+    fn other(self) -> Which {
         match self {
-            Whose::X => Whose::Y,
-            Whose::Y => Whose::X,
+            Which::X => Which::Y,
+            Which::Y => Which::X,
         }
     }
 }
@@ -76,7 +76,7 @@ pub(crate) enum Certainty {
 pub(crate) struct Behind {
     /// A corner or an edge.
     pub(crate) feature: Feature,
-    /// Its point that is least far behind.
+    /// Its point that is least deep behind.
     pub(crate) point: DVec3,
     /// The face that it is behind.
     pub(crate) face: u32,
@@ -87,7 +87,7 @@ pub(crate) struct Behind {
 pub(crate) struct Crossing {
     /// The edge's two ends; a corner has no other end.
     pub(crate) on_edge: Corners<2>,
-    /// Three of the face's corners, and one more if the point is inside.
+    /// Three corners of the face, and a fourth corner if the point is inside.
     pub(crate) on_face: Corners<4>,
     /// The face that is crossed, or one with the point behind it.
     pub(crate) face: u32,

@@ -88,9 +88,9 @@
 //!
 //! # The effect of rounding
 //! In exact arithmetic no pair occurs twice. In floating point:
-//! - A plane's side is the same product of the same numbers from either feature, so that two states
-//!   never both refuse a point. Only edges against edges differ. There a point within rounding of a
-//!   plane stays, where rounding is measured by the possible gain of a step along both edges.
+//! - A plane's side is the same product of the same numbers from either feature, so that two states never both refuse a
+//!   point. Only edges against edges differ. There a point within rounding of a plane stays; rounding is measured by
+//!   the possible gain of a step along both edges.
 //! - A stop within rounding of a plane is certified by a support gap, with the best axis of the
 //!   features around. If that fails, all features around are compared by their distance, which is
 //!   accurate up to rounding, not by its direction of decrease, which is not.
@@ -99,7 +99,7 @@
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,
-    reason = "comparisons are written so that NaN takes the way out"
+    reason = "comparisons are written so that NaN takes the offset out"
 )]
 
 mod certificate;

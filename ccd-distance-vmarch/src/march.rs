@@ -2,7 +2,7 @@
 
 use crate::counters::Counters;
 use crate::escape::{self, Escape};
-use crate::feature::{Behind, Feature, Next, Pair, Whose};
+use crate::feature::{Behind, Feature, Next, Pair, Which};
 use crate::placed::{Placed, PlacedPair};
 use crate::termination::{Brent, End};
 use crate::tolerance::STEPS_PER_FEATURE;
@@ -10,8 +10,8 @@ use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
 /// Marches from a pair of features to the nearest one.
 ///
-/// In exact arithmetic every step leads to features that are nearer, or as near and of a lower
-/// dimension, so that no pair occurs twice. In floating point one may: [`Brent`] notices.
+/// In exact arithmetic every step leads to features that are nearer, or as near and of a lower dimension, so that no
+/// pair occurs twice. In floating point one may, which [`Brent`] detects.
 pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counters) -> End {
     let features = placed.a.shape().features() + placed.b.shape().features();
     let mut pair = start;
@@ -21,12 +21,12 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
         pair = match step(placed, pair) {
             Next::To(a, b) => Pair { a, b },
             Next::Stop(certainty) => return End::Nearest(pair, certainty),
-            Next::Pierced(whose, crossing) => return End::Common(pair, whose, crossing),
-            Next::Behind(whose, behind) => {
+            Next::Pierced(which, crossing) => return End::Common(pair, which, crossing),
+            Next::Behind(which, behind) => {
                 counters.local_minima += 1;
-                match escaped(placed, whose, behind) {
-                    Escape::Face(feature, face) => facing(whose, feature, Feature::Face(face)),
-                    Escape::Inside(crossing) => return End::Common(pair, whose, crossing),
+                match escape_from(placed, which, behind) {
+                    Escape::Face(feature, face) => ordered(which, feature, Feature::Face(face)),
+                    Escape::Inside(crossing) => return End::Common(pair, which, crossing),
                     Escape::Unclear => return End::Unclear(pair),
                 }
             }
@@ -40,11 +40,11 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
 }
 
 #[cold]
-fn escaped(placed: &PlacedPair<'_>, whose: Whose, behind: Behind) -> Escape {
+fn escape_from(placed: &PlacedPair<'_>, which: Which, behind: Behind) -> Escape {
     let PlacedPair { a, b, scale } = placed;
-    match whose {
-        Whose::X => escape::escape(a, behind, b, *scale),
-        Whose::Y => escape::escape(b, behind, a, *scale),
+    match which {
+        Which::X => escape::escape(a, behind, b, *scale),
+        Which::Y => escape::escape(b, behind, a, *scale),
     }
 }
 
@@ -68,14 +68,14 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
     }
 }
 
-/// A feature of one polytope and one of the other, in the order A, B.
-fn facing(whose: Whose, of_it: Feature, of_other: Feature) -> Pair {
-    match whose {
-        Whose::X => Pair {
+/// Returns a pair of features in the order A, B.
+fn ordered(which: Which, of_it: Feature, of_other: Feature) -> Pair {
+    match which {
+        Which::X => Pair {
             a: of_it,
             b: of_other,
         },
-        Whose::Y => Pair {
+        Which::Y => Pair {
             a: of_other,
             b: of_it,
         },

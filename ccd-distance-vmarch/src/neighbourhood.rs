@@ -1,19 +1,17 @@
-//! Compares all features around a tie, pair by pair: rounding may have hidden a nearer pair from
-//! the march.
+//! Compares all pairs of features near a tie: rounding may have hidden a nearer pair from the march.
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
-use crate::polytope::NO_FACE;
 use crate::tolerance::AROUND;
 use ccd_core::glam::DVec3;
 
 /// Returns the nearest pair of features of the faces around a pair, if it is nearer than that by
 /// more than `rounding`.
 ///
-/// The distance of convex sets has no local minimum that is not global: if nothing around is
-/// nearer, nothing is. Unlike a march, this does not compare directions of decreasing distance,
-/// which are rounding at a tie, but distances, which are accurate.
+/// Every local minimum of the distance of convex sets is global: if no neighbouring pair is nearer, no pair is. Unlike
+/// a march, this does not compare directions of decreasing distance, which are rounding at a tie, but distances, which
+/// are accurate.
 pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
     let (a, b) = (Star::new(&placed.a, pair.a), Star::new(&placed.b, pair.b));
     if a.edges.len() * b.edges.len() > AROUND {
@@ -75,7 +73,7 @@ impl Best {
     }
 }
 
-/// The features of the faces that meet in a feature.
+/// The features of all faces that meet in a feature.
 struct Star {
     vertices: Vec<u32>,
     edges: Vec<u32>,
@@ -85,23 +83,15 @@ struct Star {
 impl Star {
     fn new<P: Placed>(polytope: &P, feature: Feature) -> Self {
         let shape = polytope.shape();
-        let own: Vec<u32> = match feature {
-            Feature::Vertex(v) => shape.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
-            Feature::Edge(e) => vec![e],
-            Feature::Face(f) => shape.sides_of(f).iter().map(|side| side.edge).collect(),
-        };
-        let mut faces: Vec<u32> = match feature {
-            Feature::Face(f) => vec![f],
-            _ => own.iter().flat_map(|&e| shape.edge(e).faces).collect(),
-        };
-        faces.retain(|&f| f != NO_FACE);
+        let own = shape.edges_at(feature);
+        let faces = shape.faces_at(feature, &own);
         let sides = faces.iter().flat_map(|&f| shape.sides_of(f));
         let mut edges: Vec<u32> = sides.map(|side| side.edge).chain(own).collect();
         let mut vertices: Vec<u32> = edges.iter().flat_map(|&e| shape.edge(e).ends).collect();
         if let Feature::Vertex(v) = feature {
             vertices.push(v);
         }
-        for list in [&mut vertices, &mut edges, &mut faces] {
+        for list in [&mut vertices, &mut edges] {
             list.sort_unstable();
             list.dedup();
         }
@@ -115,14 +105,8 @@ impl Star {
 
 /// Returns the end of an edge at a parameter, or the edge.
 fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
-    let edge = polytope.shape().edge(e);
-    if !(parameter > 0.0) {
-        Feature::Vertex(edge.ends[0])
-    } else if !(parameter < edge.length) {
-        Feature::Vertex(edge.ends[1])
-    } else {
-        Feature::Edge(e)
-    }
+    let end = edge_edge::end_of(polytope.shape().edge(e), parameter);
+    end.map_or(Feature::Edge(e), Feature::Vertex)
 }
 
 /// Returns the height of a point above a face, infinite outside of its prism and behind its plane.

@@ -14,17 +14,16 @@ use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
 /// The distance of two convex polytopes with known facets, by Voronoi marching
 /// `[LINCANNY91, VCLIP98]`.
 ///
-/// A piece of a list ([`ccd_core::Pieces`]) is prepared at its first query, and kept with the list;
-/// [`Vmarch::prepare`](DistanceOracle::prepare) prepares all pieces of a body ahead.
-/// A loose one ([`Piece::from_points`]) is prepared anew for every call. Pieces of up to three
-/// points, and those on one line, need no facets.
+/// A piece of a list ([`ccd_core::Pieces`]) is prepared at its first query, and stored with the list;
+/// [`Vmarch::prepare`](DistanceOracle::prepare) prepares all pieces of a body ahead. A piece outside a list
+/// ([`Piece::from_points`]) is prepared at every call. Pieces of up to three points, and those on one line, need no
+/// facets.
 ///
 /// # Guarantee
-/// That of the crate. It gives up with [`GiveUp::BadFacets`] on pieces whose facets are missing, or
-/// are not those of a convex polytope. In rare cases, rounding leads it in circles from several
-/// starts ([`GiveUp::Cycle`], [`GiveUp::StepCap`]), or leaves nothing that can be certified
-/// ([`GiveUp::Uncertified`]): never in a million pairs of this crate's own tests, but in 4 of
-/// 38,334 others. Combine it with [another oracle](DistanceOracle::or_else).
+/// The guarantee of the crate. It gives up with [`GiveUp::BadFacets`] on pieces whose facets are missing, or are not
+/// those of a convex polytope. In rare cases, rounding leads it in circles from several starts ([`GiveUp::Cycle`],
+/// [`GiveUp::StepCap`]), or prevents certification ([`GiveUp::Uncertified`]): never in a million pairs of this crate's
+/// own tests, but in 4 of 38,334 others. Combine it with [another oracle](DistanceOracle::or_else).
 ///
 /// # Complexity
 /// From a warm [`Cache`] a step or two, each linear in the edges that meet in a corner, or around a
@@ -61,7 +60,7 @@ pub struct Vmarch {
 }
 
 impl Vmarch {
-    /// The work so far.
+    /// Returns the work so far.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -79,7 +78,7 @@ impl DistanceOracle for Vmarch {
         let placed = PlacedPair::new(a, b, &pair.b_to_a);
         let end = march(&placed, cache.start(&placed), &mut self.counters);
         if let End::Nearest(nearest, Certainty::Sure) = end {
-            let claim = Witness::of(&placed, nearest).claim(&placed);
+            let claim = Witness::new(&placed, nearest).claim(&placed);
             cache.keep(&placed, nearest, claim.axis);
             return Ok(claim);
         }
@@ -88,20 +87,20 @@ impl DistanceOracle for Vmarch {
         Ok(certified.claim)
     }
 
-    /// Prepares ahead what the first query of each piece would prepare: the pieces of a body, the hulls
-    /// of its hull tree and the triangles of its surface, on all cores.
+    /// Prepares in advance what the first query of each piece would prepare: the pieces of a body, the hulls of its
+    /// hull tree and the triangles of its surface, on all cores.
     ///
     /// # Guarantee
-    /// Answers are the same bits with and without it. A piece that cannot be prepared is given up at
-    /// each query, as without it.
+    /// Answers are the same bits with and without it. A piece that cannot be prepared is given up at each query, as
+    /// without preparation.
     ///
     /// # Complexity
     /// n log n of the corners of all facets. Measured on a mesh of 26,000 triangles in 6,459 patches: 0.08 s
     /// and 26 MB for the patches; 0.7 s and 130 MB with the 12,917 hulls of their tree, whose file of
     /// 4.8 MB loads in 0.15 s.
     ///
-    /// Files do not hold what is prepared: they would be more than twenty times as long. Reading and
-    /// decoding that many bytes alone takes 0.16 s, before anything is checked.
+    /// Files do not store prepared pieces: they would be more than twenty times as long. Reading and decoding that many
+    /// bytes alone takes 0.16 s, before anything is checked.
     ///
     /// ```
     /// use ccd_core::{glam::DVec3, Body, DistanceOracle, Frame, PiecePair};
@@ -129,14 +128,14 @@ impl DistanceOracle for Vmarch {
     }
 }
 
-/// A prepared piece, or the reason why there is none.
+/// A prepared piece, or the reason why preparation failed.
 type Prepared = Box<Result<Polytope, GiveUp>>;
 
 fn prepare(piece: &Piece<'_>) -> Prepared {
     Box::new(Polytope::new(piece))
 }
 
-/// Returns the prepared piece; a piece of no list is prepared now, and kept by the caller.
+/// Returns the prepared piece. A piece outside a list is prepared now, and stored in `own`.
 #[inline]
 fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
     let prepared = match piece.kept(prepare) {

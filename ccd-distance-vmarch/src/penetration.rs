@@ -8,11 +8,11 @@ use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Finds the point where an edge goes through a face, or ends on it.
+/// Returns the point where an edge passes through a face, or ends on it.
 ///
 /// # Guarantee
-/// The signs are those of the placed points, which are rounded. A crossing is returned only if the
-/// edge and one of the triangles spanned by the face's corners do have a common point.
+/// Signs are exact for the placed points, which are rounded. A crossing is returned only if the edge and one of the
+/// triangles spanned by the face's corners do have a common point.
 pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Option<Crossing> {
     let ends = x.shape().edge(e).ends;
     let edge = ends.map(|v| x.vertex(v));
@@ -38,8 +38,8 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
     None
 }
 
-/// Finds a corner inside the other polytope: within a tetrahedron of one of its corners and a
-/// triangle of one of its faces.
+/// Tests whether a corner is inside the other polytope, in a tetrahedron of one of its corners and a triangle of a
+/// face.
 ///
 /// # Guarantee
 /// Like [`pierced`].
@@ -76,8 +76,8 @@ pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Cr
     None
 }
 
-/// Searches for an edge of X that goes through a face of Y, or a corner of X inside Y, unless the
-/// polytopes are too large for that.
+/// Searches for an edge of X that passes through a face of Y, or a corner of X inside Y, unless the polytopes are too
+/// large.
 pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
     if edges as usize * faces as usize > PIERCED_PAIRS {
@@ -88,7 +88,7 @@ pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Opti
     through.or_else(|| contained(x, 0, y))
 }
 
-/// Does the same as [`pierced`] for edges that are not clearly on one side of the face's plane.
+/// Like [`pierced`], but skips edges that are clearly on one side of the face's plane.
 fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Option<Crossing> {
     let base = y.point(y.shape().sides_of(f).first()?.start);
     let normal = y.vector(y.shape().face(f).normal);
@@ -101,7 +101,7 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     pierced(x, e, y, f)
 }
 
-/// Returns whether a segment and a triangle that is not in one plane with it have a common point.
+/// Returns whether a segment and a triangle that are not coplanar have a common point.
 fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let (first, last) = (side(triangle, start), side(triangle, end));
     let beside = first == last && first.is_ne();
@@ -113,7 +113,7 @@ fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     turns.iter().all(|&turn| turn.is_ge()) || turns.iter().all(|&turn| turn.is_le())
 }
 
-/// The weights of a segment's ends and of a triangle's corners in the point where they meet.
+/// Returns the weights of a segment's ends and of a triangle's corners at their intersection.
 fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 3]) {
     let (first, last) = (volume([a, b, c], start).abs(), volume([a, b, c], end).abs());
     let parts = [[b, c], [c, a], [a, b]].map(|[p, q]| volume([start, p, q], end).abs());
@@ -124,8 +124,7 @@ fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 
     )
 }
 
-/// Returns the weights of a triangle's corners and an apex behind its plane in a point of the
-/// tetrahedron.
+/// Returns the barycentric coordinates of `point` in the tetrahedron `(a, b, c, apex)`; `None` if it is outside.
 fn enclosed(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
     // Every face of the tetrahedron, seen from outside.
     let faces = [[apex, c, b], [apex, a, c], [apex, b, a], [a, b, c]];

@@ -1,4 +1,4 @@
-//! Two polytopes in one frame: A unchanged, B mapped feature by feature.
+//! Two polytopes in A's frame: A unchanged, B transformed on demand.
 
 use crate::polytope::{Edge, Polytope};
 use crate::tolerance::PLACING;
@@ -6,23 +6,23 @@ use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::{greater, lesser};
 
-/// A polytope that is placed in the frame of A's polytope.
+/// A polytope placed in A's frame.
 ///
-/// A test of two features is written once, for both orders of the polytopes.
+/// Tests of features are generic, to serve both orders of the polytopes.
 pub(crate) trait Placed {
     fn shape(&self) -> &Polytope;
-    /// Places a point.
+    /// Transforms a point.
     fn point(&self, local: DVec3) -> DVec3;
-    /// Turns a direction.
+    /// Rotates a direction.
     fn vector(&self, local: DVec3) -> DVec3;
 
-    /// A corner.
+    /// Returns a vertex.
     #[inline(always)]
     fn vertex(&self, v: u32) -> DVec3 {
         self.point(self.shape().vertex(v).point)
     }
 
-    /// An edge.
+    /// Returns an edge.
     #[inline(always)]
     fn line(&self, e: u32) -> Line {
         let edge = self.shape().edge(e);
@@ -35,8 +35,8 @@ pub(crate) trait Placed {
 
     /// Returns the components of a vector into either of the faces that meet in an edge.
     #[inline(always)]
-    fn inward(&self, edge: &Edge, way: DVec3) -> [f64; 2] {
-        edge.inward.map(|inward| self.vector(inward).dot(way))
+    fn inward(&self, edge: &Edge, offset: DVec3) -> [f64; 2] {
+        edge.inward.map(|inward| self.vector(inward).dot(offset))
     }
 }
 
@@ -60,7 +60,7 @@ pub(crate) struct PlacedPair<'a> {
     pub(crate) scale: Scale,
 }
 
-/// The size of a pair of polytopes, and the rounding it brings.
+/// The size of a pair of polytopes, which determines rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
     /// The sum of both reaches and of the distance of the origins.
@@ -93,12 +93,12 @@ impl<'a> PlacedPair<'a> {
 }
 
 impl PlacedB<'_> {
-    /// The position of the origin.
+    /// Returns the position of the origin.
     pub(crate) fn origin(&self) -> DVec3 {
         self.translation
     }
 
-    /// Turns a direction of A's frame to the polytope's own.
+    /// Rotates a direction from A's frame to the polytope's own.
     pub(crate) fn own_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
             self.rotation.x_axis.dot(vector),
@@ -109,7 +109,7 @@ impl PlacedB<'_> {
 }
 
 impl Scale {
-    /// The largest error of a difference of two placed points.
+    /// Returns the largest error of a difference of two placed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
         PLACING * self.size
@@ -122,7 +122,7 @@ impl Line {
         self.start + self.along * parameter
     }
 
-    /// The parameter of the point of it that is nearest to a point.
+    /// Returns the parameter of the nearest point to a given point.
     #[inline(always)]
     pub(crate) fn nearest(&self, point: DVec3) -> f64 {
         clamped((point - self.start).dot(self.along), self.length)

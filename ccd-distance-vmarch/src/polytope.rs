@@ -54,7 +54,7 @@ pub(crate) struct Vertex {
     end_spoke: u32,
 }
 
-/// An edge as seen from its corner: the normal of a vertex-edge plane.
+/// An edge at one of its vertices: the normal of a vertex-edge plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spoke {
     /// The direction away from the corner, of length one.
@@ -79,7 +79,7 @@ pub(crate) struct Edge {
     pub(crate) faces: [u32; 2],
 }
 
-/// The number of the faces that an edge of a piece of two points lacks.
+/// The face number of a missing face.
 pub(crate) const NO_FACE: u32 = u32::MAX;
 
 /// A convex polygon.
@@ -96,8 +96,7 @@ pub(crate) struct Face {
 pub(crate) struct Side {
     /// The same as [`Edge::inward`] for this face.
     pub(crate) inward: DVec3,
-    /// The same as [`Edge::start`]: a plane's side is computed from the same point everywhere, so that a
-    /// point is on the same side for the edge and for the face, to the bit.
+    /// The same as [`Edge::start`], so that edge and face compute a point's side of the plane with the same bits.
     pub(crate) start: DVec3,
     pub(crate) edge: u32,
     /// The corner that the side starts from in the face's order.
@@ -105,8 +104,7 @@ pub(crate) struct Side {
 }
 
 impl Edge {
-    /// Returns whether a point with these components into either face is certainly in the edge's
-    /// region.
+    /// Returns whether a point with these components into the faces is certainly in the edge's Voronoi region.
     #[inline(always)]
     pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];
@@ -130,18 +128,39 @@ impl Polytope {
         &self.faces[f as usize]
     }
 
-    /// The edges that meet in a corner.
+    /// Returns the edges at a vertex.
     #[inline]
     pub(crate) fn spokes_of(&self, v: u32) -> &[Spoke] {
         let vertex = self.vertex(v);
         &self.spokes[vertex.first_spoke as usize..vertex.end_spoke as usize]
     }
 
-    /// The sides of a face.
+    /// Returns the sides of a face.
     #[inline]
     pub(crate) fn sides_of(&self, f: u32) -> &[Side] {
         let face = self.face(f);
         &self.sides[face.first_side as usize..face.end_side as usize]
+    }
+
+    /// Returns the edges that end in a vertex, or the edge; none for a face.
+    pub(crate) fn edges_at(&self, feature: Feature) -> Vec<u32> {
+        match feature {
+            Feature::Vertex(v) => self.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
+            Feature::Edge(e) => vec![e],
+            Feature::Face(_) => Vec::new(),
+        }
+    }
+
+    /// Returns the face, or the faces of some edges, in ascending order.
+    pub(crate) fn faces_at(&self, feature: Feature, edges: &[u32]) -> Vec<u32> {
+        let mut faces: Vec<u32> = match feature {
+            Feature::Face(f) => vec![f],
+            _ => edges.iter().flat_map(|&e| self.edge(e).faces).collect(),
+        };
+        faces.sort_unstable();
+        faces.dedup();
+        faces.retain(|&f| f != NO_FACE);
+        faces
     }
 
     /// Returns whether the polytope has such a feature.
@@ -155,7 +174,7 @@ impl Polytope {
         (number as usize) < count
     }
 
-    /// The number of features.
+    /// Returns the number of features.
     pub(crate) fn features(&self) -> usize {
         self.vertices.len() + self.edges.len() + self.faces.len()
     }

@@ -1,11 +1,11 @@
-//! The start of a march: the last pair of features, or corners that face each other `[SWIFT01]`.
+//! The start of a march: the last pair of features, or extremal vertices `[SWIFT01]`.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 
-/// The nearest features and their axis, as a start for the next call.
+/// The nearest features and their axis, as a warm start for the next call.
 ///
 /// Features are valid for their own polytope only. For any other one, such as a part of it, the
 /// axis determines the start. A cache only affects the start of a march.
@@ -16,66 +16,66 @@ pub struct Cache(Option<Last>);
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Last {
     pair: Pair,
-    /// The identifiers of both polytopes.
-    names: [u64; 2],
+    /// Fingerprints of both polytopes.
+    fingerprints: [u64; 2],
     axis: DVec3,
 }
 
 impl Cache {
-    /// Keeps a pair, with the axis from A to B.
+    /// Stores a pair, with the axis from A to B.
     #[inline]
     pub(crate) fn keep(&mut self, placed: &PlacedPair<'_>, pair: Pair, axis: DVec3) {
         self.0 = Some(Last {
             pair,
-            names: names(placed),
+            fingerprints: fingerprints(placed),
             axis,
         });
     }
 
-    /// Returns the start pair: the last one, or else corners that are extremal along the last axis,
-    /// or, without an axis, along the vector between the middles.
+    /// Returns the start pair: the last one, or vertices that are extremal along the last axis or, without one, along
+    /// the vector between the origins.
     #[inline]
     pub(crate) fn start(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {
             return extremal(placed, placed.b.origin());
         };
-        let names = names(placed);
-        if names == last.names && is_state(placed, last.pair) {
+        let fingerprints = fingerprints(placed);
+        if fingerprints == last.fingerprints && is_state(placed, last.pair) {
             return last.pair;
         }
         let corners = extremal(placed, last.axis);
-        // A feature that one polytope has kept is nearer than a corner.
-        let kept = Pair {
-            a: if names[0] == last.names[0] {
+        // The last feature of an unchanged polytope is nearer than an extremal vertex.
+        let reused = Pair {
+            a: if fingerprints[0] == last.fingerprints[0] {
                 last.pair.a
             } else {
                 corners.a
             },
-            b: if names[1] == last.names[1] {
+            b: if fingerprints[1] == last.fingerprints[1] {
                 last.pair.b
             } else {
                 corners.b
             },
         };
-        if is_state(placed, kept) {
-            kept
+        if is_state(placed, reused) {
+            reused
         } else {
             corners
         }
     }
 }
 
-/// Returns numbers that are almost certainly different for any two polytopes.
+/// Returns fingerprints of both polytopes.
 #[inline]
-fn names(placed: &PlacedPair<'_>) -> [u64; 2] {
-    let name = |polytope: &Polytope| {
+fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
+    let fingerprint = |polytope: &Polytope| {
         let DVec3 { x, y, z } = polytope.origin;
         let coordinates = [polytope.reach, x, y, z].map(f64::to_bits);
-        coordinates
-            .into_iter()
-            .fold(0, |name: u64, bits| name.rotate_left(16) ^ bits)
+        coordinates.into_iter().fold(0, |fingerprint: u64, bits| {
+            fingerprint.rotate_left(16) ^ bits
+        })
     };
-    [name(placed.a.shape()), name(placed.b.shape())]
+    [fingerprint(placed.a.shape()), fingerprint(placed.b.shape())]
 }
 
 /// Returns whether a march can begin at a pair: never at two faces.
@@ -85,7 +85,7 @@ fn is_state(placed: &PlacedPair<'_>, pair: Pair) -> bool {
     !two_faces && placed.a.shape().has(pair.a) && placed.b.shape().has(pair.b)
 }
 
-/// Returns the corners that face each other along an axis from A to B.
+/// Returns the extremal vertices along an axis from A to B.
 pub(crate) fn extremal(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
     let a = placed.a.shape().extremal(axis);
     let b = placed.b.shape().extremal(-placed.b.own_vector(axis));

@@ -1,6 +1,6 @@
-//! The ends of a march, and the detection of cycles.
+//! Termination of a march, and cycle detection.
 
-use crate::feature::{Certainty, Crossing, Pair, Whose};
+use crate::feature::{Certainty, Crossing, Pair, Which};
 
 /// The end of a march.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +8,7 @@ pub(crate) enum End {
     /// Nearest features.
     Nearest(Pair, Certainty),
     /// A common point of A's and B's features, with the polytope of the edge.
-    Common(Pair, Whose, Crossing),
+    Common(Pair, Which, Crossing),
     /// A pair that occurred before.
     Cycle(Pair),
     /// A pair behind all faces, without a proven common point.
@@ -17,9 +17,8 @@ pub(crate) enum End {
     Cap(Pair),
 }
 
-/// Brent's detection of cycles.
-/// Each state is compared with a remembered one, which is replaced after 1, 2, 4, … steps. A cycle
-/// is noticed within three times the sum of its length and of the steps before it.
+/// Brent's detection of cycles. Each state is compared with a remembered one, which is replaced after 1, 2, 4, … steps.
+/// A cycle is detected within three times the sum of its length and of the steps before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Brent {
     left: Pair,

@@ -1,9 +1,7 @@
-//! Every numeric tolerance of this crate: its unit, the reason for its value, and what breaks
-//! without it.
+//! Every numeric tolerance of this crate, with unit, derivation, and purpose.
 //!
-//! `u` is half a unit in the last place of 1. Lengths are in the unit of the pieces' coordinates. A
-//! pair's *size* is the sum of both pieces' reaches about their own origins, and of the distance of
-//! those origins.
+//! `u` is half a unit in the last place of 1. Lengths are in the unit of the pieces' coordinates. A pair's *size* is
+//! the sum of both pieces' radii about their own origins, and of the distance of those origins.
 
 /// Half a unit in the last place of 1.
 const U: f64 = f64::EPSILON / 2.0;
@@ -50,21 +48,20 @@ pub(crate) const COPLANAR: f64 = 16.0 * U;
 /// Without it no sliver would be accepted; a larger value would accept facets that enclose nothing.
 pub(crate) const CONVEX: f64 = 64.0 * U;
 
-/// The number of tried lines from inside a polytope until one meets no edge, to check that its
-/// faces go around once. The first line hardly ever meets one.
+/// The maximum number of rays from inside a polytope until one meets no edge, to check that its faces wind once. The
+/// first line hardly ever meets one.
 pub(crate) const LINES: usize = 8;
 
-/// The cap of a march's steps for each feature of both polytopes. In exact arithmetic a march
-/// visits every pair at most once, and one per feature in practice; Lloyd's port of V-Clip stops at
-/// two.
+/// The maximum number of steps of a march, per feature of both polytopes. In exact arithmetic a march visits every pair
+/// at most once, and one per feature in practice; Lloyd's port of V-Clip stops at two.
 pub(crate) const STEPS_PER_FEATURE: usize = 4;
 
 /// The number of pairs of a cycle that are examined for the best one. Cycles are two to six pairs
 /// long.
 pub(crate) const CYCLE_LOOK: usize = 64;
 
-/// The number of moves to nearer features around a tie before the march takes over again. Each move
-/// gets nearer by more than rounding; one or two were enough in a million pairs.
+/// The number of moves to nearer features around a tie before the march resumes. Each move gets nearer by more than
+/// rounding; one or two were enough in a million pairs.
 pub(crate) const ROUNDS: usize = 8;
 
 /// The number of restarts of a march from the corners that are extremal along the best axis, after
@@ -83,6 +80,6 @@ pub(crate) const PIERCED_PAIRS: usize = 1 << 17;
 /// The cap of pairs of edges compared around a tie: those around a corner of 30 edges.
 pub(crate) const AROUND: usize = 1 << 13;
 
-/// The number of corners above which a polytope has a table of directions; fewer are scanned. A
-/// look takes one or two nanoseconds, a climb from the table's start about thirty.
+/// The number of corners above which a polytope has a table of directions; fewer are scanned. Scanning takes one or two
+/// nanoseconds per vertex, a climb from the table about thirty.
 pub(crate) const TABLED: usize = 32;

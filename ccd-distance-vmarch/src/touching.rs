@@ -1,23 +1,23 @@
-//! Axes for pieces with a common point that may only touch.
+//! Axes for pieces with a common point, which may only touch.
 
 use crate::certificate::{Axis, best_axis};
-use crate::feature::{Crossing, Feature, Pair, Whose};
+use crate::feature::{Crossing, Feature, Pair, Which};
 use crate::placed::{Placed, PlacedPair, Scale};
 use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
 use ccd_core::Claim;
 
-/// Makes the claim of a proven common point.
+/// Returns the claim of a proven common point.
 ///
-/// Its axis is the normal of the face that shows it. If the point is on the border of its feature,
-/// the axis is the one around that separates the pieces best: they may only touch.
-pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Claim {
-    let claim = witness::common(placed, whose, crossing);
-    let Some(pair) = border(placed, whose, crossing) else {
+/// Its axis is the normal of the crossed face or, if the point is on the border of its features, the best separating
+/// axis nearby: the pieces may only touch.
+pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
+    let claim = witness::common(placed, which, crossing);
+    let Some(pair) = border(placed, which, crossing) else {
         return claim;
     };
     let normal = Axis::along(placed, claim.axis);
-    let best = best_axis(placed, pair, &Witness::of(placed, pair));
+    let best = best_axis(placed, pair, &Witness::new(placed, pair));
     // Written so that NaN changes nothing.
     if best.gap > normal.gap {
         return Claim {
@@ -28,13 +28,13 @@ pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing)
     claim
 }
 
-/// Returns the features that contain a common point, unless the insides certainly meet: where an
-/// edge goes through the inside of a face, and where a point is inside a polytope.
-fn border(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Option<Pair> {
+/// Returns the features that contain a common point; `None` if the interiors certainly meet: an edge passes through the
+/// interior of a face, or a point is inside a polytope.
+fn border(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
-    let found = match whose {
-        Whose::X => features(a, b, crossing, *scale),
-        Whose::Y => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),
+    let found = match which {
+        Which::X => features(a, b, crossing, *scale),
+        Which::Y => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),
     };
     found.map(|(a, b)| Pair { a, b })
 }
@@ -76,7 +76,7 @@ fn features<X: Placed, Y: Placed>(
     Some((of_x, of_y))
 }
 
-/// The edge between two corners.
+/// Returns the edge between two vertices.
 fn joining(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
     let mut spokes = shape.spokes_of(v).iter();
     let spoke = spokes.find(|spoke| spoke.to == w)?;

@@ -27,25 +27,24 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     if (corner - y.vertex(edge.ends[1])).dot(line.along) > 0.0 {
         return Next::To(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
     }
-    let way = line.at(parameter) - corner;
+    let offset = line.at(parameter) - corner;
     let rounding = scale.rounding();
-    if way.length_squared() <= rounding * rounding {
+    if offset.length_squared() <= rounding * rounding {
         return Next::Stop(Tied);
     }
     let inward = y.inward(edge, from_start);
     if let Some(face) = side_faced(y, edge.faces, inward, from_start) {
         return Next::To(Feature::Vertex(v), Feature::Face(face));
     }
-    let bent = bent_towards(x, v, &line, way, scale);
-    if bent.by > 0.0 {
-        return Next::To(Feature::Edge(bent.edge), Feature::Edge(e));
+    let approach = steepest_towards(x, v, &line, offset, scale);
+    if approach.gain > 0.0 {
+        return Next::To(Feature::Edge(approach.edge), Feature::Edge(e));
     }
-    let clear = edge.is_clear(inward, rounding) && !bent.tied;
+    let clear = edge.is_clear(inward, rounding) && !approach.tied;
     Next::Stop(if clear { Sure } else { Tied })
 }
 
-/// Returns the face of an edge on the side of a point, if any; of two, the one with the larger
-/// height of the point.
+/// Returns the face of an edge on the side of a point, if any; of two, the face with the larger height of the point.
 #[inline(always)]
 pub(crate) fn side_faced<Y: Placed>(
     y: &Y,
@@ -64,41 +63,47 @@ pub(crate) fn side_faced<Y: Placed>(
     }
 }
 
-/// The edge of a corner along which another edge's line comes nearer.
-struct Bent {
+/// The edge of a corner that leads nearest to another edge's line.
+struct Approach {
     edge: u32,
     /// The gain in distance, beyond rounding.
-    by: f64,
-    /// True if the sign of some edge's bend towards the line is unclear.
+    gain: f64,
+    /// Whether rounding hides the sign for some edge.
     tied: bool,
 }
 
-/// Finds the corner's edge that leads nearest to the line; `way` leads to the line.
+/// Finds the corner's edge that leads nearest to the line; `offset` leads to the line.
 ///
 /// A step along the corner's edge is matched by one along the line, so only the edge's part across
 /// the line counts. It is small for nearly parallel edges, and the allowance for rounding has to be
 /// small as well; otherwise their slow approach would be missed.
 #[inline(always)]
-fn bent_towards<X: Placed>(x: &X, v: u32, line: &Line, way: DVec3, scale: Scale) -> Bent {
-    let mut out = Bent {
+fn steepest_towards<X: Placed>(
+    x: &X,
+    v: u32,
+    line: &Line,
+    offset: DVec3,
+    scale: Scale,
+) -> Approach {
+    let mut out = Approach {
         edge: 0,
-        by: 0.0,
+        gain: 0.0,
         tied: false,
     };
     let rounding = scale.rounding();
     for spoke in x.shape().spokes_of(v) {
         let along = x.vector(spoke.along);
-        let slope = along.dot(way);
+        let slope = along.dot(offset);
         // Written so that NaN is a tie.
         if slope < -rounding {
             continue;
         }
-        let across = slope - along.dot(line.along) * way.dot(line.along);
+        let across = slope - along.dot(line.along) * offset.dot(line.along);
         let sine = along.cross(line.along).length();
-        let slack = rounding * sine + LEVEL * way.length();
-        if across - slack > out.by {
+        let slack = rounding * sine + LEVEL * offset.length();
+        if across - slack > out.gain {
             out.edge = spoke.edge;
-            out.by = across - slack;
+            out.gain = across - slack;
         }
         out.tied |= !(across < -slack);
     }

@@ -1,7 +1,7 @@
 //! A corner against a face `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Behind, Feature, Next, Whose};
+use crate::feature::{Behind, Feature, Next, Which};
 use crate::placed::{Placed, Scale};
 use crate::tolerance::LEVEL;
 
@@ -30,7 +30,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
     let rounding = scale.rounding();
     if height < -rounding {
         return Next::Behind(
-            Whose::X,
+            Which::X,
             Behind {
                 feature: Feature::Vertex(v),
                 point: corner,

@@ -12,16 +12,16 @@ use ccd_core::glam::DVec3;
 /// of the same numbers, so that no pair returns from there.
 #[inline]
 pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Scale) -> Next {
-    let way = y.vertex(w) - x.vertex(v);
+    let offset = y.vertex(w) - x.vertex(v);
     let rounding = scale.rounding();
-    if way.length_squared() <= rounding * rounding {
+    if offset.length_squared() <= rounding * rounding {
         return Next::Stop(Tied);
     }
-    let from_x = steepest(x, v, way);
+    let from_x = steepest(x, v, offset);
     if from_x.slope > 0.0 {
         return Next::To(Feature::Edge(from_x.edge), Feature::Vertex(w));
     }
-    let from_y = steepest(y, w, -way);
+    let from_y = steepest(y, w, -offset);
     if from_y.slope > 0.0 {
         return Next::To(Feature::Vertex(v), Feature::Edge(from_y.edge));
     }
@@ -36,13 +36,13 @@ struct Steepest {
 
 /// Returns the edge of a corner that leads farthest along a vector, for the same length of edge.
 #[inline(always)]
-fn steepest<P: Placed>(polytope: &P, v: u32, way: DVec3) -> Steepest {
+fn steepest<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> Steepest {
     let mut best = Steepest {
         edge: 0,
         slope: f64::NEG_INFINITY,
     };
     for spoke in polytope.shape().spokes_of(v) {
-        let slope = polytope.vector(spoke.along).dot(way);
+        let slope = polytope.vector(spoke.along).dot(offset);
         if slope > best.slope {
             best = Steepest {
                 edge: spoke.edge,

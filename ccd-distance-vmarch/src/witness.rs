@@ -1,27 +1,27 @@
-//! The nearest points of a stop, clamped into their features, and the axis between them.
+//! The nearest points of a pair of features, clamped to the features, and the axis between them.
 
 use crate::edge_edge;
-use crate::feature::{Corners, Crossing, Feature, Pair, Whose};
+use crate::feature::{Corners, Crossing, Feature, Pair, Which};
 use crate::placed::{Line, Placed, PlacedPair, Scale, clamped};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination};
 
-/// A point of either polytope, and the direction from A's to B's by their features.
+/// Nearest points of both polytopes, and the axis of their features.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
-    /// The corners that they combine.
+    /// The points as combinations of vertices.
     spots: [Corners<3>; 2],
     /// The direction from A to B, of any length.
     pub(crate) axis: DVec3,
 }
 
 impl Witness {
-    /// Computes the nearest points of a pair at which a march may stop. A march never stops at a
-    /// face and an edge or face; for these, two corners are used.
+    /// Computes the nearest points of a pair at which a march may stop. A march never stops at a face with an edge or a
+    /// face; for these, two vertices are used.
     #[inline]
-    pub(crate) fn of(placed: &PlacedPair<'_>, pair: Pair) -> Self {
+    pub(crate) fn new(placed: &PlacedPair<'_>, pair: Pair) -> Self {
         let PlacedPair { a, b, scale } = placed;
         match (pair.a, pair.b) {
             (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex(a, v, b, w),
@@ -34,12 +34,12 @@ impl Witness {
         }
     }
 
-    pub(crate) fn way(&self) -> DVec3 {
+    pub(crate) fn offset(&self) -> DVec3 {
         self.points[1] - self.points[0]
     }
 
     pub(crate) fn distance(&self) -> f64 {
-        self.way().length()
+        self.offset().length()
     }
 
     #[inline]
@@ -62,18 +62,18 @@ impl Witness {
     }
 }
 
-/// The claim of a proven common point, along the normal of the face that shows it.
-pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Claim {
+/// Returns the claim of a proven common point, along the normal of the crossed face.
+pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
     let on_edge = |shape| named(shape, &crossing.on_edge);
     let on_face = |shape| named(shape, &crossing.on_face);
-    match whose {
-        Whose::X => Claim {
+    match which {
+        Which::X => Claim {
             axis: -b.vector(b.shape().face(crossing.face).normal),
             a: on_edge(a.shape()),
             b: on_face(b.shape()),
         },
-        Whose::Y => Claim {
+        Which::Y => Claim {
             axis: a.shape().face(crossing.face).normal,
             a: on_face(a.shape()),
             b: on_edge(b.shape()),
@@ -96,11 +96,11 @@ fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
     let (point, line) = (x.vertex(v), y.line(e));
     let parameter = line.nearest(point);
     let foot = line.at(parameter);
-    let way = foot - point;
+    let offset = foot - point;
     Witness {
         points: [point, foot],
         spots: [corner(v), on_edge(y, e, parameter)],
-        axis: across(way, line.along),
+        axis: across(offset, line.along),
     }
 }
 
@@ -110,22 +110,9 @@ fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     let near = edge_edge::nearest(&one, &other);
     let [s, t] = near.parameters;
     let points = [one.at(s), other.at(t)];
-    let way = points[1] - points[0];
-    // Rounding turns the cross product by its own rounding over the sine, and the difference vector
-    // by that of the positions over the distance. The part of it along the edges, where it would
-    // cost their length, is removed.
-    let sine = near.across.length();
-    let axis = if sine * scale.size > way.length() {
-        // Written so that NaN does not turn it.
-        let turned = if near.across.dot(way) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        near.across * turned
-    } else {
-        way
-    };
+    let offset = points[1] - points[0];
+    let axis = near.axis(offset, scale).unwrap_or(offset);
+    // The part along the edges, which would cost their length, is removed.
     let axis = across(across(axis, one.along), other.along);
     Witness {
         points,
@@ -146,10 +133,10 @@ fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
     }
 }
 
-/// The part of a vector across a direction.
+/// Returns the component of a vector perpendicular to a direction.
 #[inline]
-pub(crate) fn across(way: DVec3, along: DVec3) -> DVec3 {
-    way - along * way.dot(along)
+pub(crate) fn across(offset: DVec3, along: DVec3) -> DVec3 {
+    offset - along * offset.dot(along)
 }
 
 #[inline]
@@ -161,7 +148,7 @@ fn first_corner(shape: &Polytope, feature: Feature) -> u32 {
     }
 }
 
-/// Converts corners to the numbers of the piece's points.
+/// Converts vertices to the indices of the piece's points.
 #[inline]
 fn named<const N: usize>(shape: &Polytope, corners: &Corners<N>) -> Combination {
     let mut out = Combination::EMPTY;
@@ -190,14 +177,14 @@ fn on_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Corners<3> {
     }
 }
 
-/// The foot of a point on a face, clamped into one of the triangles of the fan about its first corner.
+/// Returns the foot of a point on a face, clamped to a triangle of the fan about its first corner.
 #[inline]
 fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Corners<3>) {
     let sides = y.shape().sides_of(f);
     let at = |k: usize| y.vertex(sides[k].vertex);
     let first = at(0);
     let to_point = point - first;
-    // The fan's triangle that has the point on the inner side of all diagonals before it.
+    // Finds the triangle of the fan by the diagonals that the point is to the left of.
     let left_of = |k: usize| normal.cross(at(k) - first).dot(to_point) >= 0.0;
     let past = (2..sides.len().saturating_sub(1)).take_while(|&k| left_of(k));
     let k = 1 + past.count();
@@ -215,7 +202,7 @@ fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Cor
     )
 }
 
-/// The weights of a triangle's corners in the foot of a point that is above it.
+/// Returns the weights of a triangle's corners for the foot of a point above it.
 ///
 /// The weights are computed across the longest side first, then along it with the residual
 /// corrected. For a needle, the first is as accurate as rounding permits, and the second as the

@@ -1,25 +1,24 @@
-//! Files that one process writes at a time.
+//! Files that only one process writes at a time.
 
-use crate::beside::{buffered, naming, place, sibling};
+use crate::temp_file::{buffered, naming, place, sibling};
 use same_file::Handle;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// The ending of the name of a claimed file.
+/// The name ending of a claimed file.
 pub const PARTIAL: &str = ".partial";
 
-/// A file that this process alone writes, under a temporary name beside its final one.
+/// A file that only this process writes, under a temporary name beside its target.
 ///
 /// # Guarantee
-/// Of all that claim the same file at the same time, by whatever name, one gets it. The operating system gives it free
-/// when the process ends, however it ends. A file system that knows no locks is an exception: there all get it.
+/// Of several claims of one file, under any path, only one succeeds. The operating system releases it when the process
+/// ends, however it ends. On a file system without locks all succeed.
 ///
-/// A claim that is dropped removes its file, unless that held something when it was claimed, or is
-/// [kept](Claim::keep).
+/// A dropped claim removes its file, unless the file was not empty when claimed, or is [kept](Claim::keep).
 #[derive(Debug)]
 pub struct Claim {
-    /// Locked as long as it is open.
+    /// The file, locked while it is open.
     file: File,
     partial: PathBuf,
     target: PathBuf,
@@ -28,21 +27,21 @@ pub struct Claim {
     end: End,
 }
 
-/// What becomes of a file that is dropped without its final name.
+/// The fate of a file that is dropped before it is placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
     Removed,
     Kept,
 }
 
-/// The most times that others may finish between opening a file and locking it.
+/// The maximum number of attempts, if other processes finish between opening and locking.
 const TRIES: usize = 100;
 
 impl Claim {
-    /// Claims the file at the end of a path, as [`Destination`](crate::Destination) has it.
+    /// Claims the file that a path leads to, as [`Destination`](crate::Destination) resolves it.
     ///
     /// # Errors
-    /// [`io::ErrorKind::ResourceBusy`] when another process has it, and whatever the operating system refuses.
+    /// [`io::ErrorKind::ResourceBusy`] if another process has it, and errors of the operating system.
     pub fn new(target: PathBuf) -> io::Result<Self> {
         let partial = sibling(&target, PARTIAL);
         for _ in 0..TRIES {
@@ -61,7 +60,7 @@ impl Claim {
                 Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
                 Err(TryLockError::Error(error)) => return Err(naming(&partial, &error)),
             }
-            // Before it was locked, whoever had it may have given it its final name.
+            // Another process may have renamed the file before it was locked.
             if is_at(&file, &partial)? {
                 let about = file.metadata()?;
                 if !about.is_file() {
@@ -82,45 +81,45 @@ impl Claim {
         Err(busy())
     }
 
-    /// The number of bytes that an earlier process left in the file.
+    /// Returns the number of bytes that an earlier process left in the file.
     pub fn left(&self) -> u64 {
         self.left
     }
 
-    /// The temporary name.
+    /// Returns the temporary path.
     pub fn partial(&self) -> &Path {
         &self.partial
     }
 
-    /// The final name.
+    /// Returns the target path.
     pub fn target(&self) -> &Path {
         &self.target
     }
 
-    /// Returns the path of a file beside the final one, whose name has one more ending.
+    /// Returns the target path with an ending appended to the file name.
     pub fn sibling(&self, ending: &str) -> PathBuf {
         sibling(&self.target, ending)
     }
 
-    /// The file; it is empty or has what an earlier process left.
+    /// Returns the file: empty, or with the content that an earlier process left.
     pub fn file(&mut self) -> &mut File {
         &mut self.file
     }
 
-    /// Writes the whole file in one go, and gives it its final name.
+    /// Writes the whole file, and renames it to its target.
     ///
     /// # Errors
-    /// What `fill` returns, and those of [`Claim::place`].
+    /// Errors of `fill` and of [`Claim::place`].
     pub fn write(mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         self.cut(0)?;
         buffered(&mut self.file, fill)?;
         self.place()
     }
 
-    /// Drops all but the first bytes of the file, and goes on behind them.
+    /// Truncates the file, and continues at its end.
     ///
     /// # Errors
-    /// The operating system refuses.
+    /// Errors of the operating system.
     pub fn cut(&mut self, bytes: u64) -> io::Result<()> {
         self.file.set_len(bytes)?;
         self.file.seek(SeekFrom::Start(bytes))?;
@@ -130,15 +129,15 @@ impl Claim {
         Ok(())
     }
 
-    /// Keeps the file under its temporary name if it never gets its final one.
+    /// Keeps the file under its temporary name if the claim is dropped.
     pub fn keep(&mut self) {
         self.end = End::Kept;
     }
 
-    /// Gives the complete file its final name.
+    /// Renames the complete file to its target.
     ///
     /// # Errors
-    /// Someone has removed or replaced the file, or the operating system refuses.
+    /// The file was removed or replaced, or the operating system fails.
     pub fn place(mut self) -> io::Result<()> {
         if !is_at(&self.file, &self.partial)? {
             self.end = End::Kept;
@@ -166,7 +165,7 @@ fn busy() -> io::Error {
     io::Error::new(io::ErrorKind::ResourceBusy, problem)
 }
 
-/// Returns whether a path still leads to a file.
+/// Returns whether a path still leads to an open file.
 fn is_at(file: &File, path: &Path) -> io::Result<bool> {
     match Handle::from_path(path) {
         Ok(there) => Ok(there == Handle::from_file(file.try_clone()?)?),

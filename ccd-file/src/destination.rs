@@ -1,27 +1,27 @@
-//! Where output goes: to a file, which can be replaced, or to a stream.
+//! Destinations of output: files, which can be replaced, or streams.
 
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What an output path leads to.
+/// The destination of an output path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Destination {
-    /// A regular file, or none yet: its path without links at its end.
+    /// A regular file, existing or not: its path after following links.
     File(PathBuf),
     /// A pipe, a terminal, a device, or an open file of this process such as `/dev/stdout`.
     Stream,
 }
 
-/// The most links that are followed, as on Linux.
+/// The maximum number of links followed, as on Linux.
 const MOST_LINKS: usize = 40;
 
 impl Destination {
-    /// Finds out where a path leads to, and whether a file may be written there.
+    /// Resolves a path, and checks that a file may be written there.
     ///
     /// # Errors
-    /// The path is that of a folder, of a file that must not be written, or of one in a folder that does not exist.
-    pub fn of(path: &Path) -> io::Result<Self> {
+    /// The path is a folder, a read-only file, or in a folder that does not exist.
+    pub fn resolve(path: &Path) -> io::Result<Self> {
         match fs::metadata(path) {
             Ok(there) if there.is_dir() => {
                 let problem = "it is a folder; give a file name";
@@ -49,7 +49,7 @@ impl Destination {
 /// Checks that the folder of a new file exists.
 ///
 /// # Errors
-/// It does not, or is no folder.
+/// The folder does not exist, or is not a folder.
 pub fn check_folder(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| *folder != "");
     let Some(folder) = folder else {
@@ -70,22 +70,22 @@ pub fn check_folder(path: &Path) -> io::Result<()> {
     ))
 }
 
-/// Opens a stream. What an open file of this process holds already stays.
+/// Opens a stream for appending, so that the content of an open file is kept.
 pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
     File::options().append(true).open(path)
 }
 
-/// Returns whether a path is a name of an open file: replacing the file would not reach who has it open.
+/// Returns whether a path names an open file of a process, for which a replaced file would have no effect.
 fn is_open_file(path: &Path) -> bool {
     let named = ["/dev/stdout", "/dev/stderr"];
     let in_proc = || path.starts_with("/proc") && path.parent().is_some_and(|p| p.ends_with("fd"));
     named.iter().any(|name| path == Path::new(name)) || path.starts_with("/dev/fd") || in_proc()
 }
 
-/// Follows the links at the end of a path, also where no file is there yet.
+/// Follows the links at the end of a path, even if the target does not exist.
 ///
 /// # Errors
-/// The links lead to each other.
+/// The links form a cycle.
 pub fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {

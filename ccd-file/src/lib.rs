@@ -1,4 +1,4 @@
-//! Output files that are written whole, by one process at a time.
+//! Atomic writes of output files, by one process at a time.
 //!
 //! | to … | see |
 //! |---|---|
@@ -7,28 +7,28 @@
 //! | tell files from pipes and devices | [`Destination`] |
 //!
 //! # Guarantee
-//! A file has its final name only when it is complete and on the disk. Until then an older file of that name is as it
-//! was: an error, a full disk or a killed process loses nothing. A new file has the permissions of the one that it
-//! replaces. Links are followed: what they lead to is replaced, not they themselves.
+//! A file has its final name only when it is complete and on the disk. Until then an older file of that name is
+//! unchanged: an error, a full disk or a killed process loses nothing. A new file has the permissions of the file that
+//! it replaces. Links are followed: their targets are replaced.
 
-mod beside;
 mod claim;
 mod destination;
+mod temp_file;
 
 pub use claim::{Claim, PARTIAL};
 pub use destination::{Destination, check_folder, end_of_links};
 
-use beside::{Beside, buffered};
 use std::io::{self, Write};
 use std::path::Path;
+use temp_file::{TempFile, buffered};
 
-/// Writes a file in one go: beside its name, and then in its place.
+/// Writes a file atomically: to a temporary file, which is then renamed.
 ///
-/// Threads and processes may write the same file at the same time: the last one that is complete stays. A pipe or a
-/// device is written directly.
+/// Threads and processes may write the same file at the same time: the last complete one stays. Pipes and devices are
+/// written directly.
 ///
 /// # Errors
-/// What `fill` returns, and what the operating system refuses. The older file, if any, is as it was then.
+/// Errors of `fill` and of the operating system. An older file is then unchanged.
 ///
 /// ```
 /// let file = std::env::temp_dir().join(format!("ccd-file-{}", std::process::id()));
@@ -44,11 +44,11 @@ pub fn write(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let path = path.as_ref();
-    match Destination::of(path)? {
+    match Destination::resolve(path)? {
         Destination::File(target) => {
-            let mut beside = Beside::new(target)?;
-            buffered(&mut beside.file, fill)?;
-            beside.place()
+            let mut temporary = TempFile::new(target)?;
+            buffered(&mut temporary.file, fill)?;
+            temporary.place()
         }
         Destination::Stream => buffered(destination::open_stream(path)?, fill),
     }

@@ -66,7 +66,7 @@ fn a_write_that_fails_leaves_the_older_file() {
 fn a_claimed_file_is_given_to_one() {
     let folder = Folder::new("claimed");
     let target = folder.path("table");
-    let claim = |path: PathBuf| match Destination::of(&path)? {
+    let claim = |path: PathBuf| match Destination::resolve(&path)? {
         Destination::File(target) => Claim::new(target),
         Destination::Stream => panic!("it is a file"),
     };
@@ -125,7 +125,7 @@ fn a_replaced_file_is_not_placed() {
     assert_eq!(folder.names(), ["table.partial"]);
 }
 
-/// Threads claim, write and place one file. Each of them has it alone while it has it.
+/// Threads claim, write and place one file, one at a time.
 #[test]
 fn threads_have_a_claimed_file_one_after_the_other() {
     let folder = Folder::new("in-turn");
@@ -202,7 +202,7 @@ mod unix {
         assert!(fs::metadata(&device).unwrap().file_type().is_char_device());
         let full = write("/dev/full", |out| out.write_all(b"nothing"));
         assert_eq!(full.unwrap_err().kind(), io::ErrorKind::StorageFull);
-        // The open file of a shell's redirection, of which it sees the end.
+        // The open file of a shell's redirection, with its write position.
         let file = folder.path("open");
         let mut open = fs::File::create(&file).unwrap();
         open.write_all(b"begun, ").unwrap();

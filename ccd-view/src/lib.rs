@@ -1,4 +1,4 @@
-//! Offline pages that show bodies in motion, where they touch, and the proven gap between them.
+//! Offline pages that show moving bodies, their contacts, and the proven gap between them.
 //!
 //! | to … | use |
 //! |---|---|
@@ -6,8 +6,8 @@
 //! | put the views on another page | [`HTML`], [`STYLE`], [`scripts`] and [`data`] |
 //! | say what is shown | [`Group`] of [`View`]s: [`ShownBody`], [`ShownContact`], [`Gap`] |
 //!
-//! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL. What
-//! it draws is in single precision, about the middle of each mesh. What it says is as it is given.
+//! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL.
+//! Meshes are drawn in single precision, relative to their centres. Texts and numbers are shown as given.
 //!
 //! # Example
 //! ```
@@ -21,19 +21,19 @@
 //! let slides = Motion::STILL;
 //! let view = View {
 //!     bodies: vec![ShownBody::new("A", triangle, "#3a9d6e", &slides)],
-//!     ..View::of("at rest", "Nothing moves.", 1.0)
+//!     ..View::new("at rest", "Nothing moves.", 1.0)
 //! };
 //! let page = Page { title: "A triangle", meshes, groups: vec![Group { name: String::new(), views: vec![view] }] };
 //! assert!(page.html()?.contains("Nothing moves."));
 //! # Ok::<(), ccd_view::PageError>(())
 //! ```
 
-mod course;
 mod mesh;
 mod page;
+mod shown_motion;
 mod view;
 
-pub use course::{Course, Key};
 pub use mesh::{DrawnMesh, Meshes};
 pub use page::{HTML, Page, PageError, STYLE, data, escape, filled, json, scripts, stage_scripts};
+pub use shown_motion::{Key, ShownMotion};
 pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};

@@ -1,4 +1,4 @@
-//! Meshes to draw: in single precision, about their middle, each stored once.
+//! Meshes to draw, in single precision relative to their centres, each stored once.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -10,7 +10,7 @@ use serde::Serialize;
 pub struct DrawnMesh {
     /// The vertices, in the body's frame.
     pub vertices: Vec<DVec3>,
-    /// The numbers of three vertices for each face.
+    /// Three vertex numbers for each face.
     pub faces: Vec<[u32; 3]>,
 }
 
@@ -21,9 +21,9 @@ pub struct Meshes(Vec<Stored>);
 /// A mesh as little-endian numbers in base64.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Stored {
-    /// The middle of its box.
+    /// The centre of the bounding box.
     middle: [f64; 3],
-    /// Three `f32` per vertex, from the middle.
+    /// Three `f32` per vertex, relative to the centre.
     vertices: String,
     /// Three `u32` per face.
     faces: String,
@@ -32,7 +32,7 @@ struct Stored {
 impl Meshes {
     /// Adds a mesh, and returns its number.
     pub fn add(&mut self, mesh: &DrawnMesh) -> usize {
-        let stored = Stored::of(mesh);
+        let stored = Stored::new(mesh);
         let known = self.0.iter().position(|known| *known == stored);
         known.unwrap_or_else(|| {
             self.0.push(stored);
@@ -40,7 +40,7 @@ impl Meshes {
         })
     }
 
-    /// Returns the middle of the box about a mesh.
+    /// Returns the centre of a mesh's bounding box.
     pub fn middle(&self, number: usize) -> DVec3 {
         self.0
             .get(number)
@@ -53,12 +53,12 @@ impl Meshes {
 }
 
 impl Stored {
-    fn of(mesh: &DrawnMesh) -> Self {
+    fn new(mesh: &DrawnMesh) -> Self {
         let mut vertices = mesh.vertices.iter();
         let first = vertices.next().copied().unwrap_or(DVec3::ZERO);
         let (low, high) =
             vertices.fold((first, first), |(low, high), v| (low.min(*v), high.max(*v)));
-        // Halves first: the sum of two large numbers may not be one.
+        // Halved first, to avoid overflow.
         let middle = 0.5 * low + 0.5 * high;
         let places = (mesh.vertices.iter()).flat_map(|v| (v - middle).as_vec3().to_array());
         let places: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();

@@ -1,4 +1,4 @@
-//! The page: one file, or parts of another page.
+//! Pages of views, as one file or as parts of another page.
 
 use crate::{Group, Meshes};
 use serde::Serialize;
@@ -7,9 +7,9 @@ use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The place of the views on a page.
+/// The HTML element for the views.
 pub const HTML: &str = include_str!("page/view.html");
-/// The style of that place.
+/// The style of the views.
 pub const STYLE: &str = include_str!("page/view.css");
 
 /// A page of views.
@@ -19,11 +19,11 @@ pub struct Page<'a> {
     pub title: &'a str,
     /// The meshes of all bodies.
     pub meshes: Meshes,
-    /// The views. Groups have a list of their own if there are several.
+    /// The views. Several groups get a list to choose from.
     pub groups: Vec<Group>,
 }
 
-/// A page cannot be made.
+/// An error of creating a page.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
@@ -71,7 +71,7 @@ impl Page<'_> {
     }
 }
 
-/// Returns the scripts that fill [`HTML`] with the [`data`] of an element with the id `views`, which stands before them.
+/// Returns the scripts that fill [`HTML`] from the [`data`] in an earlier element with the id `views`.
 pub fn scripts() -> String {
     let views = [
         include_str!("page/coarse.js"),
@@ -102,7 +102,7 @@ fn elements(scripts: &[&str]) -> String {
 /// Returns views as JSON for an element `<script type="application/json" id="views">`.
 ///
 /// # Errors
-/// If it cannot be serialised.
+/// The value cannot be serialised.
 pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Error> {
     #[derive(Serialize)]
     struct Data<'a, M> {
@@ -113,18 +113,18 @@ pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Err
     json(&Data { meshes, groups })
 }
 
-/// Returns a value as JSON for an element `script`: nothing in it ends the element, and no text of it has characters
-/// that control a terminal or end a string, but for line ends and tabs.
+/// Returns a value as JSON that is safe in an element `script`: it does not end the element, and strings have no
+/// control characters except line ends and tabs.
 ///
 /// # Errors
-/// If it cannot be serialised.
+/// The value cannot be serialised.
 pub fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     let mut text = Vec::new();
     value.serialize(&mut Serializer::with_formatter(&mut text, Plain))?;
     Ok(String::from_utf8_lossy(&text).replace('<', "\\u003c"))
 }
 
-/// Writes JSON with the mark of a missing character in the place of control characters.
+/// A JSON formatter that replaces control characters by U+FFFD.
 struct Plain;
 
 impl Formatter for Plain {
@@ -142,8 +142,7 @@ impl Formatter for Plain {
     }
 }
 
-/// Returns a text for an element or an attribute in double quotes, with the mark of a missing character in the place of
-/// control characters.
+/// Escapes a text for an element or an attribute in double quotes, and replaces control characters by U+FFFD.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

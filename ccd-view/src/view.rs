@@ -1,15 +1,15 @@
-//! What a page shows.
+//! The content of a page.
 
-use crate::Course;
+use crate::ShownMotion;
 use ccd_core::glam::DVec3;
 use serde::Serialize;
 
-/// Views under one name.
+/// A named group of views.
 #[derive(Clone, Debug, Serialize)]
 pub struct Group {
     /// The name in the list of groups.
     pub name: String,
-    /// The views, of which one is shown at a time.
+    /// The views, shown one at a time.
     pub views: Vec<View>,
 }
 
@@ -18,23 +18,23 @@ pub struct Group {
 pub struct View {
     /// The name in the list of views.
     pub name: String,
-    /// What was found, in words.
+    /// The result, in words.
     pub verdict: String,
-    /// The end of the motions, from time 0 on.
+    /// The duration of the motions, from time 0.
     pub duration: f64,
-    /// What time 0 is called.
+    /// The displayed value of time 0.
     pub start: f64,
-    /// The time that is shown first.
+    /// The initially displayed time.
     pub time: f64,
-    /// The point of the world about which pictures are drawn.
+    /// The world point at the centre of the drawing.
     pub origin: [f64; 3],
     /// The bodies.
     pub bodies: Vec<ShownBody>,
-    /// The times at which bodies that move leave a ghost.
+    /// The times at which moving bodies are drawn as ghosts.
     pub ghosts: Vec<f64>,
     /// The gap between two bodies, if it is known.
     pub gap: Option<Gap>,
-    /// What touches, by time.
+    /// The contacts, by time.
     pub contacts: Vec<ShownContact>,
 }
 
@@ -47,8 +47,8 @@ pub struct ShownBody {
     pub mesh: usize,
     /// The colour, in CSS.
     pub color: String,
-    /// How it moves.
-    pub motion: Course,
+    /// The motion.
+    pub motion: ShownMotion,
     moves: bool,
 }
 
@@ -57,7 +57,7 @@ pub struct ShownBody {
 pub struct Gap {
     /// The gap at some times, in their order.
     pub points: Vec<GapPoint>,
-    /// The line under it: at every time the gap is at least that. Times and gaps, by time.
+    /// A proven lower bound of the gap over time: pairs of time and gap, by time.
     pub proven: Vec<[f64; 2]>,
 }
 
@@ -66,18 +66,18 @@ pub struct Gap {
 pub struct GapPoint {
     /// The time.
     pub time: f64,
-    /// A bound from below.
+    /// The lower bound.
     pub lower: f64,
-    /// A bound from above.
+    /// The upper bound.
     pub upper: f64,
 }
 
-/// A contact, in the world at its time.
+/// A contact, in world coordinates at its time.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShownContact {
     /// The time.
     pub time: f64,
-    /// What touches, in words.
+    /// The touching features, in words.
     pub words: String,
     /// The nearest points of both bodies.
     pub witnesses: Option<[DVec3; 2]>,
@@ -91,7 +91,7 @@ pub struct ShownContact {
 
 impl View {
     /// Creates a view without bodies.
-    pub fn of(name: &str, verdict: &str, duration: f64) -> Self {
+    pub fn new(name: &str, verdict: &str, duration: f64) -> Self {
         View {
             name: name.to_owned(),
             verdict: verdict.to_owned(),
@@ -109,7 +109,7 @@ impl View {
 
 impl ShownBody {
     /// Creates a body.
-    pub fn new(name: &str, mesh: usize, color: &str, motion: impl Into<Course>) -> Self {
+    pub fn new(name: &str, mesh: usize, color: &str, motion: impl Into<ShownMotion>) -> Self {
         let motion = motion.into();
         ShownBody {
             name: name.to_owned(),

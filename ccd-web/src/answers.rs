@@ -1,4 +1,4 @@
-//! Answers of this machine, for the page to compare its own with.
+//! Native answers, with which the page compares its own.
 
 use ccd_web::{Part, Throw, WebError};
 use rand::{RngExt, SeedableRng};
@@ -8,10 +8,10 @@ use std::f64::consts::TAU;
 
 /// The number of throws.
 const THROWS: u32 = 400;
-/// The steps that look at each.
+/// The number of steps for each throw.
 const STEPS: u32 = 60;
 
-/// Returns throws at random, with what is found and seen.
+/// Returns random throws, with certified and stepped results.
 pub(crate) fn answers() -> Result<Value, WebError> {
     let mut random = Pcg64Mcg::seed_from_u64(7);
     let (parts, targets) = Part::NAMES.split_at(5);

@@ -1,7 +1,7 @@
-//! What the page calls.
+//! The interface that the page calls.
 #![allow(unreachable_pub, reason = "JavaScript reaches it")]
 
-use crate::{Found, Part, Throw};
+use crate::{Part, Throw, Thrown};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// A part.
@@ -9,10 +9,10 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 #[derive(Debug)]
 pub struct BrowserPart(Part);
 
-/// What is proven of a throw.
-#[wasm_bindgen(js_name = Found)]
+/// The certified result of a throw.
+#[wasm_bindgen(js_name = Thrown)]
 #[derive(Debug)]
-pub struct BrowserFound(Found);
+pub struct BrowserOutcome(Thrown);
 
 #[wasm_bindgen(js_class = Part)]
 impl BrowserPart {
@@ -26,42 +26,42 @@ impl BrowserPart {
         Ok(BrowserPart(Part::from_file(name, bytes, size)?))
     }
 
-    /// The vertices that are drawn.
+    /// Returns the drawn vertices.
     pub fn vertices(&self) -> Vec<f32> {
         self.0.vertices()
     }
 
-    /// The faces that are drawn.
+    /// Returns the drawn faces.
     pub fn faces(&self) -> Vec<u32> {
         self.0.faces()
     }
 
-    /// The greatest distance from the part's origin.
+    /// Returns the greatest distance of the drawing from the part's origin.
     pub fn reach(&self) -> f64 {
         self.0.reach()
     }
 }
 
-#[wasm_bindgen(js_class = Found)]
-impl BrowserFound {
-    /// The verdict's name.
+#[wasm_bindgen(js_class = Thrown)]
+impl BrowserOutcome {
+    /// Returns the verdict's name.
     #[wasm_bindgen(getter)]
     pub fn verdict(&self) -> String {
         self.0.verdict.name().to_owned()
     }
 
-    /// Nothing touches before this time.
+    /// Returns the time before which nothing touches.
     #[wasm_bindgen(getter)]
     pub fn time(&self) -> f64 {
         self.0.time
     }
 
-    /// The nearest points of both parts, and the normal; nothing without a contact.
+    /// Returns the nearest points of both parts and the normal; empty without a contact.
     pub fn points(&self) -> Vec<f64> {
         let Some(hit) = self.0.hit else {
             return Vec::new();
         };
-        let mut points = [hit.witness_a, hit.witness_b]
+        let mut points = [hit.witness_a(), hit.witness_b()]
             .map(|p| p.to_array())
             .concat();
         points.extend(
@@ -79,13 +79,13 @@ pub fn first_contact(
     part: &BrowserPart,
     target: &BrowserPart,
     throw: &[f64],
-) -> Result<BrowserFound, JsError> {
-    Ok(BrowserFound(
+) -> Result<BrowserOutcome, JsError> {
+    Ok(BrowserOutcome(
         thrown(throw)?.first_contact(&part.0, &target.0)?,
     ))
 }
 
-/// Looks at evenly spaced instants of a throw: 1 where the parts touch.
+/// Tests evenly spaced instants of a throw: 1 if the parts touch.
 #[wasm_bindgen]
 pub fn steps(
     part: &BrowserPart,

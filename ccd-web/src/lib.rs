@@ -1,4 +1,4 @@
-//! Parts that are thrown at each other, in a browser or anywhere: the certified first contact, and what stepping sees.
+//! Parts thrown at each other, in a browser or natively: the certified first contact beside discrete stepping.
 //!
 //! | to … | use |
 //! |---|---|
@@ -6,8 +6,8 @@
 //! | throw it at another one | [`Throw`], then [`Throw::first_contact`] |
 //! | look at some instants of the same throw | [`Throw::steps`] |
 //!
-//! In a browser the same is called as `Part`, `first_contact` and `steps` of the module `wasm_bindgen`. The command
-//! `ccd-web` writes it into a page of one file.
+//! In a browser the same functions are `Part`, `first_contact` and `steps` of the module `wasm_bindgen`. The command
+//! `ccd-web` writes a self-contained page.
 //!
 //! # Example
 //! ```
@@ -28,4 +28,4 @@ mod shapes;
 mod throw;
 
 pub use part::{Part, WebError};
-pub use throw::{Found, Throw, Verdict};
+pub use throw::{Throw, Thrown, Verdict};

@@ -5,11 +5,11 @@ mod answers;
 #[cfg(not(target_family = "wasm"))]
 mod page;
 
-/// Writes the page on which a visitor throws parts: one file that works from disk.
+/// Write the page on which a visitor throws parts: one file that works from disk.
 #[cfg(not(target_family = "wasm"))]
 #[derive(clap::Parser)]
 struct Args {
-    /// The page.
+    /// The file to write.
     #[arg(default_value = "throw.html")]
     out: std::path::PathBuf,
     /// Let the page check itself when it is opened: its answers against this machine's, and a throw by pointer. What is

@@ -1,4 +1,4 @@
-//! The page: the module for WebAssembly, the scripts and the style in one file.
+//! Writes the page: WebAssembly module, scripts and style in one file.
 
 use crate::answers::answers;
 use anyhow::{Context, Result, ensure};
@@ -87,7 +87,7 @@ fn build() -> Result<PathBuf> {
         ])
         .arg(folder)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        // Every browser that has WebAssembly at all computes with vectors of 128 bits since 2023.
+        // All browsers with WebAssembly have supported 128-bit vectors since 2023.
         .env("CARGO_ENCODED_RUSTFLAGS", "-Ctarget-feature=+simd128")
         .status()
         .context("cannot start cargo")?;

@@ -1,4 +1,4 @@
-//! Parts: bodies with the mesh that is drawn.
+//! Parts: bodies with their drawings.
 
 use crate::shapes::{self, Surface};
 use rigid_ccd::mesh::{
@@ -7,14 +7,14 @@ use rigid_ccd::mesh::{
 };
 use rigid_ccd::{Body, InputError, Pose};
 
-/// A body with its drawing, both about the same origin.
+/// A body with its drawing, relative to the same origin.
 #[derive(Debug)]
 pub struct Part {
     pub(crate) body: Body,
     surface: Surface,
 }
 
-/// A part or a throw is refused.
+/// An error of creating a part or asking about a throw.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WebError {
@@ -39,12 +39,12 @@ pub enum WebError {
 }
 
 impl Part {
-    /// The names of the parts that need no file.
+    /// The names of the built-in parts.
     pub const NAMES: [&str; 8] = [
         "bullet", "coin", "rod", "ball", "knot", "sheet", "slot", "post",
     ];
 
-    /// Makes a part by its name, with lengths in metres.
+    /// Creates a built-in part by its name, with lengths in metres.
     ///
     /// # Errors
     /// [`WebError::UnknownPart`].
@@ -62,10 +62,10 @@ impl Part {
         }
     }
 
-    /// Reads a mesh, in the format of its file's name, and brings it to a size about its middle.
+    /// Reads a mesh, in the format of its file name, and scales it to a size around its centre.
     ///
     /// # Errors
-    /// [`WebError`] when the file is no mesh.
+    /// [`WebError`] if the file is no mesh.
     pub fn from_file(name: &str, bytes: &[u8], size: f64) -> Result<Self, WebError> {
         let mesh = MeshFile::from_reader(Format::from_path(name)?, bytes)?.into_mesh()?;
         let [low, high] = mesh.bounding_box();
@@ -75,13 +75,13 @@ impl Part {
         Part::of_mesh(&mesh)
     }
 
-    /// The vertices that are drawn, three numbers each.
+    /// Returns the drawn vertices, three numbers each.
     pub fn vertices(&self) -> Vec<f32> {
         let vertices = self.surface.vertices.iter();
         vertices.flat_map(|v| v.as_vec3().to_array()).collect()
     }
 
-    /// The faces that are drawn, the numbers of three vertices each.
+    /// Returns the drawn faces, three vertex numbers each.
     pub fn faces(&self) -> Vec<u32> {
         self.surface.faces.concat()
     }
@@ -115,7 +115,7 @@ impl Part {
         Ok(Part { body, surface })
     }
 
-    /// The greatest distance of what is drawn from the part's origin.
+    /// Returns the greatest distance of the drawing from the part's origin.
     pub fn reach(&self) -> f64 {
         let lengths = self.surface.vertices.iter().map(|v| v.length());
         lengths.max_by(f64::total_cmp).unwrap_or(0.0)

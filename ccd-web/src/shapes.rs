@@ -11,7 +11,7 @@ pub(crate) struct Surface {
     pub(crate) faces: Vec<[u32; 3]>,
 }
 
-/// The faces of a body without rounded pieces.
+/// Returns the faces of a body without rounded pieces.
 pub(crate) fn faces(body: &Body) -> Surface {
     let pieces = body.pieces().iter();
     let corners = pieces.flat_map(|piece| {
@@ -26,7 +26,8 @@ pub(crate) fn faces(body: &Body) -> Surface {
     }
 }
 
-/// The surface of a capsule along z; half its height is from its middle to the centre of either cap. A ball for 0.
+/// Returns the surface of a capsule along z, or a ball if `half` is 0. `half` is from its centre to the centre of
+/// either cap.
 pub(crate) fn capsule(radius: f64, half: f64) -> Surface {
     const AROUND: u32 = 32;
     const ALONG: u32 = 17;
@@ -39,7 +40,7 @@ pub(crate) fn capsule(radius: f64, half: f64) -> Surface {
     })
 }
 
-/// A trefoil of a tube.
+/// Returns a tubular trefoil knot.
 pub(crate) fn knot(size: f64, radius: f64) -> Surface {
     let curve = |t: f64| {
         let ring = 2.0 + (3.0 * t).cos();
@@ -59,7 +60,7 @@ pub(crate) fn knot(size: f64, radius: f64) -> Surface {
     })
 }
 
-/// A plate across x with a slot through it; the slot's half extents are along y and z.
+/// Returns a plate across x with a slot, whose half extents are along y and z.
 pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Surface {
     let ring =
         |x: f64, y: f64, z: f64| [(-y, -z), (y, -z), (y, z), (-y, z)].map(|(y, z)| dvec3(x, y, z));
@@ -93,7 +94,7 @@ enum Ends {
     Open,
 }
 
-/// A grid of quadrilaterals, closed around; its point is a function of the shares around and along.
+/// Returns a tubular grid of quadrilaterals. `point` maps the fractions around and along to a point.
 fn sheet([around, along]: [u32; 2], ends: Ends, point: impl Fn([f64; 2]) -> DVec3) -> Surface {
     let rows = match ends {
         Ends::Joined => along,

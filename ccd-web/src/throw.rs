@@ -1,13 +1,13 @@
-//! A throw: what is proven of it, and what steps see.
+//! Throws: certified and stepped results.
 
 use crate::{Part, WebError};
-use rigid_ccd::{Config, Error, Hit, HitKind, Motion, Pose, Solver};
+use rigid_ccd::{Hit, HitKind, Motion, Pose, Settings, Solver};
 
-/// A part at a place, with its velocity and its spin about its origin, for one second. The other part rests at the
+/// A throw of one second: the start position, velocity and angular velocity of a part. The other part rests at the
 /// world's origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Throw {
-    /// The place at the start.
+    /// The position at the start.
     pub place: [f64; 3],
     /// The velocity, per second.
     pub velocity: [f64; 3],
@@ -15,50 +15,50 @@ pub struct Throw {
     pub spin: [f64; 3],
 }
 
-/// What is proven of a throw.
+/// The certified result of a throw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
-    /// What happens.
+pub struct Thrown {
+    /// The verdict.
     pub verdict: Verdict,
-    /// Nothing touches before this time.
+    /// The time before which nothing touches.
     pub time: f64,
-    /// The contact.
+    /// The contact, if there is one.
     pub hit: Option<Hit>,
 }
 
-/// What happens to a part that is thrown.
+/// The verdict of a throw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It touches the other one.
+    /// The parts touch.
     Contact,
-    /// It touches nothing.
+    /// The parts never touch.
     Free,
-    /// It touches the other one at the start.
+    /// The parts touch at the start.
     Touching,
-    /// It is in the other one at the start.
+    /// The parts overlap at the start.
     Overlapping,
     /// A limit was reached.
     Unresolved,
 }
 
 impl Throw {
-    /// How long it lasts, in seconds.
+    /// The duration, in seconds.
     pub const DURATION: f64 = 1.0;
-    /// What is no farther apart than this, in metres, touches.
+    /// The distance, in metres, at which parts count as touching.
     pub const TOLERANCE: f64 = 1e-6;
 
     /// Finds the first contact.
     ///
     /// # Guarantee
-    /// Nothing touches before the time that is found, in floating point.
+    /// Nothing touches before the returned time.
     ///
     /// # Errors
     /// [`WebError`] for numbers out of range.
-    pub fn first_contact(&self, part: &Part, target: &Part) -> Result<Found, WebError> {
+    pub fn first_contact(&self, part: &Part, target: &Part) -> Result<Thrown, WebError> {
         ask(part, self.motion()?, target, Throw::DURATION)
     }
 
-    /// Looks at evenly spaced instants, from the start to the end: whether the parts touch at each.
+    /// Tests whether the parts touch at evenly spaced instants, from the start to the end.
     ///
     /// # Errors
     /// [`WebError`] for numbers out of range.
@@ -81,42 +81,41 @@ impl Throw {
     }
 }
 
-fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Found, WebError> {
-    let mut solver = Solver::new().with_config(Config {
+fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Thrown, WebError> {
+    let mut solver = Solver::new().with_settings(Settings {
         tolerance: Throw::TOLERANCE,
-        ..Config::default()
+        ..Settings::DEFAULT
     });
     let answer = solver.first_contact(
         (&part.body, motion),
         (&target.body, Motion::STILL),
         duration,
     );
-    Ok(match answer {
-        Ok(None) => Found {
+    Ok(match answer?.hit() {
+        Ok(None) => Thrown {
             verdict: Verdict::Free,
             time: duration,
             hit: None,
         },
-        Ok(Some(hit)) => Found {
+        Ok(Some(hit)) => Thrown {
             verdict: match hit.kind {
-                HitKind::Contact => Verdict::Contact,
-                HitKind::Touching => Verdict::Touching,
+                HitKind::Contact(_) => Verdict::Contact,
+                HitKind::Touching(_) => Verdict::Touching,
                 HitKind::Overlapping(_) => Verdict::Overlapping,
             },
             time: hit.time,
             hit: Some(hit),
         },
-        Err(Error::Unresolved { safe_until, .. }) => Found {
+        Err(known) => Thrown {
             verdict: Verdict::Unresolved,
-            time: safe_until,
+            time: known.safe_until,
             hit: None,
         },
-        Err(error) => return Err(error.into()),
     })
 }
 
 impl Verdict {
-    /// The name.
+    /// Returns the name.
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Contact => "contact",

@@ -6,7 +6,7 @@ use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
 use rigid_ccd::trajectory::{Link, Poses, Trajectory};
-use rigid_ccd::{Body, Motion, Moving, Remark, Travelling};
+use rigid_ccd::{Body, Motion, Moving, Remark};
 
 /// How a body moves.
 pub(crate) enum Course<'c> {
@@ -61,14 +61,6 @@ pub(crate) struct Pair<'c> {
     pub(crate) b: (&'c Body, Course<'c>),
 }
 
-/// Two bodies as the solver takes them.
-#[allow(clippy::large_enum_variant, reason = "one at a time, on the stack")]
-pub(crate) enum Moved<'c> {
-    /// At constant velocities: the faster way.
-    Steadily(Moving<'c>, Moving<'c>),
-    Along(Travelling<'c>, Travelling<'c>),
-}
-
 impl Pair<'_> {
     /// Returns the duration of a query: by default that of links and paths, which is the same for both, or 1.
     pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
@@ -109,12 +101,7 @@ impl Pair<'_> {
         })
     }
 
-    pub(crate) fn moved(&self) -> Moved<'_> {
-        let (a, b) = (&self.a, &self.b);
-        if let (Course::Motion(motion_a), Course::Motion(motion_b)) = (&a.1, &b.1) {
-            return Moved::Steadily((a.0, *motion_a).into(), (b.0, *motion_b).into());
-        }
-        let along = |body, trajectory| Travelling { body, trajectory };
-        Moved::Along(along(a.0, a.1.trajectory()), along(b.0, b.1.trajectory()))
+    pub(crate) fn moving(&self) -> [Moving<'_>; 2] {
+        [&self.a, &self.b].map(|(body, course)| (*body, course.trajectory()).into())
     }
 }

@@ -5,7 +5,7 @@ use pyo3::exceptions::{
     PyValueError,
 };
 use pyo3::prelude::*;
-use rigid_ccd::{Limit, Remark, advice};
+use rigid_ccd::Remark;
 use std::any::Any;
 use std::ffi::CString;
 use std::fmt::Display;
@@ -121,31 +121,17 @@ pub(crate) fn of_file(error: &std::io::Error, path: &std::path::Path) -> PyErr {
     }
 }
 
-/// Turns an error of a query into an exception.
-pub(crate) fn query(py: Python<'_>, error: rigid_ccd::Error) -> PyErr {
-    match error {
-        rigid_ccd::Error::Unresolved { safe_until, reason } => unresolved(py, safe_until, reason),
-        other => input(other),
-    }
-}
-
-/// Makes an `Unresolved`.
-pub(crate) fn unresolved(py: Python<'_>, safe_until: f64, reason: Limit) -> PyErr {
-    let error = Unresolved::new_err(format!(
-        "{}; no contact happens before {safe_until}",
-        advice(reason)
-    ));
+/// Makes an `Unresolved` of a question about contacts.
+pub(crate) fn unresolved(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
+    let (advice, safe_until) = (known.limit.advice(), known.safe_until);
+    let error = Unresolved::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
-/// Makes an `Unresolved` of a distance with these bounds.
-pub(crate) fn unresolved_distance(
-    py: Python<'_>,
-    [lower, upper]: [f64; 2],
-    reason: Limit,
-) -> PyErr {
-    let reason = advice(reason);
-    let error = Unresolved::new_err(format!("{reason}; the distance is from {lower} to {upper}"));
+/// Makes an `Unresolved` of a question about a distance.
+pub(crate) fn unresolved_distance(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
+    let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
+    let error = Unresolved::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
     let error = with_attribute(py, error, "lower", lower);
     with_attribute(py, error, "upper", upper)
 }

@@ -3,7 +3,7 @@
 use crate::body::body_of;
 use crate::errors::{input as refuse, of_file};
 use crate::polled::polled;
-use crate::settings::{OF_CONTACTS, config};
+use crate::settings::{OF_CONTACTS, read};
 use crate::table::answering::{Asked, Micros, each};
 use crate::table::input::{self, Reader};
 use pyo3::prelude::*;
@@ -28,13 +28,14 @@ pub(crate) fn write_pages(
     folder: PathBuf,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<PathBuf>> {
+    let settings = read(settings, OF_CONTACTS)?;
     let asked = Asked {
         bodies: Bodies {
             a: body_of(a, "a")?,
             b: body_of(b, "b")?,
         },
         question: Question::FirstContact,
-        config: config(settings, OF_CONTACTS)?,
+        settings: &settings,
         threads: Some(1),
         micros: Micros::LeftOut,
     };
@@ -62,7 +63,7 @@ fn write(
 ) -> Result<Vec<PathBuf>, Fault> {
     let shown = picture::Asked {
         claim: Claim::First,
-        margin: asked.config.margin,
+        margin: asked.settings.margin,
         clearance: None,
     };
     let title = "Body A and body B".to_owned();

@@ -2,17 +2,17 @@
 
 use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
-use crate::course::{Course, Moved, Pair};
-use crate::errors::{fault, input, query, unresolved_distance, warn};
+use crate::course::{Course, Pair};
+use crate::errors::{fault, input, unresolved, unresolved_distance, warn};
 use crate::motion::pose_of;
 use crate::polled::polled;
-use crate::settings::{OF_APPROACHES, OF_CONTACTS, OF_DISTANCES, config};
+use crate::settings::{OF_APPROACHES, OF_CONTACTS, OF_DISTANCES, read};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::schedule::{ClosestApproach, GreatestDistance};
-use rigid_ccd::{Answer, Config, Error, Limit, Solver};
+use rigid_ccd::{Answer, Hit, InputError, Limit, Outcome, Settings, Solver, Unresolved};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The work of about a tenth of a second. A query with more to do is asked again on a thread of its own, while this one
@@ -27,70 +27,73 @@ thread_local! {
     static SOLVER: Cell<Solver> = Cell::new(Solver::new());
 }
 
-/// What ended a query, and how far it had come: until what time, or to what distance, nothing touches.
-type Reached = Option<(Limit, f64)>;
-
 /// Asks a solver, without the GIL. Ctrl-C ends it.
-fn ask<T: Send>(
+///
+/// `farther` compares what two answers without a result prove: the larger number is the better bound.
+fn ask(
     py: Python<'_>,
-    config: Config,
-    reached: impl Fn(&T) -> Reached,
-    question: impl Fn(&mut Solver) -> T + Send + Sync,
-) -> PyResult<T> {
+    settings: Settings,
+    farther: impl Fn(&Unresolved) -> f64,
+    question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
+) -> PyResult<Answer> {
     let begin = Instant::now();
-    let short = Config {
-        budget: config.budget.min(SHORT),
-        deadline: Some(
-            config
-                .deadline
-                .map_or(MOMENT, |deadline| deadline.min(MOMENT)),
-        ),
-        ..config
+    let deadline = settings.deadline;
+    let short = Settings {
+        budget: settings.budget.min(SHORT),
+        deadline: Some(deadline.map_or(MOMENT, |deadline| deadline.min(MOMENT))),
+        ..settings.clone()
     };
     let first = py.detach(|| {
         catch_unwind(AssertUnwindSafe(|| {
             let mut solver = SOLVER.take();
-            solver.set_config(short);
+            solver.set_settings(short);
             let found = question(&mut solver);
             SOLVER.set(solver);
             found
         }))
     });
-    let first = first.map_err(|panic| fault(panic.as_ref()))?;
-    let until = match reached(&first) {
-        Some((Limit::Budget, until)) if config.budget > SHORT => until,
-        Some((Limit::Deadline, until))
-            if config.deadline.is_none_or(|deadline| deadline > MOMENT) =>
+    let first = first
+        .map_err(|panic| fault(panic.as_ref()))?
+        .map_err(input)?;
+    let until = match &first.outcome {
+        Outcome::Unresolved(known)
+            if known.limit == Limit::Budget && settings.budget > SHORT
+                || known.limit == Limit::Deadline
+                    && deadline.is_none_or(|deadline| deadline > MOMENT) =>
         {
-            until
+            farther(known)
         }
         _ => return Ok(first),
     };
-    let left = config
-        .deadline
-        .map(|deadline| deadline.saturating_sub(begin.elapsed()));
-    let whole = Config {
-        deadline: left,
-        ..config
-    };
+    let left = deadline.map(|deadline| deadline.saturating_sub(begin.elapsed()));
     let (found, seen) = polled(
         py,
-        |stop| question(&mut Solver::new().with_config(whole).with_stop(stop)),
+        |stop| {
+            question(&mut Solver::new().with_settings(Settings {
+                deadline: left,
+                stop: Some(Arc::clone(stop)),
+                ..settings
+            }))
+        },
         |_| Ok(()),
     )?;
     seen?;
+    let found = found.map_err(input)?;
     // With little time left, the first answer may have come farther.
-    Ok(match reached(&found) {
-        Some((_, farther)) if until > farther => first,
+    Ok(match &found.outcome {
+        Outcome::Unresolved(known) if until > farther(known) => first,
         _ => found,
     })
 }
 
-fn safe_until<T>(found: &Result<T, Error>) -> Reached {
-    match found {
-        Err(Error::Unresolved { reason, safe_until }) => Some((*reason, *safe_until)),
-        _ => None,
-    }
+/// Asks a question about contacts.
+fn contact(
+    py: Python<'_>,
+    settings: Settings,
+    question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
+) -> PyResult<Option<Hit>> {
+    let answer = ask(py, settings, |known| known.safe_until, question)?;
+    answer.hit().map_err(|known| unresolved(py, &known))
 }
 
 fn pair<'c>(
@@ -138,19 +141,14 @@ pub(crate) fn first_contact<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let config = config(settings, OF_CONTACTS)?;
+    let settings = read(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
     warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], config.tolerance, 1)?;
-    let found = ask(py, config, safe_until, |solver| match pair.moved() {
-        Moved::Steadily(a, b) => solver.first_contact(a, b, duration),
-        Moved::Along(a, b) => solver.first_contact_along(a, b, duration),
-    })?;
-    match found {
-        Ok(hit) => hit.map(|hit| answers::contact(py, &hit)).transpose(),
-        Err(error) => Err(query(py, error)),
-    }
+    warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    let [a, b] = pair.moving();
+    let hit = contact(py, settings, |solver| solver.first_contact(a, b, duration))?;
+    hit.map(|hit| answers::contact(py, &hit)).transpose()
 }
 
 /// Returns whether two moving bodies stay apart, by more than the margin.
@@ -168,16 +166,14 @@ pub(crate) fn is_free(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
-    let config = config(settings, OF_CONTACTS)?;
+    let settings = read(settings, OF_CONTACTS)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
     warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], config.tolerance, 1)?;
-    let found = ask(py, config, safe_until, |solver| match pair.moved() {
-        Moved::Steadily(a, b) => solver.is_free(a, b, duration),
-        Moved::Along(a, b) => solver.is_free_along(a, b, duration),
-    })?;
-    found.map_err(|error| query(py, error))
+    warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    let [a, b] = pair.moving();
+    let hit = contact(py, settings, |solver| solver.any_contact(a, b, duration))?;
+    Ok(hit.is_none())
 }
 
 /// Brackets the least distance of two moving bodies, to within the tolerance.
@@ -205,18 +201,18 @@ pub(crate) fn closest_approach<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let config = config(settings, OF_APPROACHES)?;
+    let settings = read(settings, OF_APPROACHES)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
     warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], config.tolerance, 1)?;
-    measure(py, config, |solver| {
-        let found = match pair.moved() {
-            Moved::Steadily(a, b) => solver.closest_approach(a, b, duration),
-            Moved::Along(a, b) => solver.closest_approach_along(a, b, duration),
-        };
-        Ok(found?.outcome)
-    })
+    warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    let [a, b] = pair.moving();
+    measure(
+        py,
+        settings,
+        |known| known.lower,
+        |solver| solver.closest_approach(a, b, duration),
+    )
 }
 
 /// Brackets the greatest distance of two moving bodies, to within the tolerance: that of their nearest points at each time.
@@ -239,29 +235,16 @@ pub(crate) fn greatest_distance<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let config = config(settings, OF_DISTANCES)?;
+    let settings = read(settings, OF_DISTANCES)?;
     let pair = pair((a, motion_a), (b, motion_b))?;
     let duration = pair.duration(duration)?;
-    let reached = |found: &Result<Answer<GreatestDistance>, rigid_ccd::InputError>| {
-        let known = found.as_ref().ok()?.outcome;
-        match known {
-            GreatestDistance::Unresolved { reason, .. } => Some((reason, -known.upper())),
-            GreatestDistance::Farthest { .. } => None,
-        }
-    };
-    let found = ask(py, config, reached, |solver| match pair.moved() {
-        Moved::Steadily(a, b) => solver.greatest_distance(a, b, duration),
-        Moved::Along(a, b) => solver.greatest_distance_along(a, b, duration),
-    })?;
-    let found = found.map_err(input)?.outcome;
-    match found {
-        GreatestDistance::Unresolved { reason, .. } => Err(unresolved_distance(
-            py,
-            [found.lower(), found.upper()],
-            reason,
-        )),
-        _ => answers::greatest(py, &found),
-    }
+    let [a, b] = pair.moving();
+    measure(
+        py,
+        settings,
+        |known| -known.upper,
+        |solver| solver.greatest_distance(a, b, duration),
+    )
 }
 
 /// Brackets the distance of two bodies at rest, each at a pose as of `Motion.between`; None is the world's origin.
@@ -285,28 +268,27 @@ pub(crate) fn distance<'py>(
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
-    let config = config(settings, OF_DISTANCES)?;
-    warn_of_tolerance([a, b], config.tolerance, 1)?;
+    let settings = read(settings, OF_DISTANCES)?;
+    warn_of_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (body_of(a, "a")?, body_of(b, "b")?);
-    measure(py, config, |solver| {
-        Ok(solver.distance((a, pose_a), (b, pose_b))?.outcome)
-    })
+    measure(
+        py,
+        settings,
+        |known| known.lower,
+        |solver| solver.distance((a, pose_a), (b, pose_b)),
+    )
 }
 
-/// Asks for a bracket of a distance.
+/// Asks for bounds of a distance.
 fn measure<'py>(
     py: Python<'py>,
-    config: Config,
-    question: impl Fn(&mut Solver) -> Result<ClosestApproach, rigid_ccd::InputError> + Send + Sync,
+    settings: Settings,
+    farther: impl Fn(&Unresolved) -> f64,
+    question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let reached = |found: &Result<ClosestApproach, _>| match found {
-        Ok(known @ ClosestApproach::Unresolved { reason, .. }) => Some((*reason, known.lower())),
-        _ => None,
-    };
-    let found = ask(py, config, reached, question)?.map_err(input)?;
-    let bounds = [found.lower(), found.upper()];
-    match found {
-        ClosestApproach::Unresolved { reason, .. } => Err(unresolved_distance(py, bounds, reason)),
-        _ => answers::distance(py, &found, config.clearance),
+    let clearance = settings.clearance;
+    match ask(py, settings, farther, question)?.outcome {
+        Outcome::Unresolved(known) => Err(unresolved_distance(py, &known)),
+        outcome => answers::distance(py, &outcome, clearance),
     }
 }

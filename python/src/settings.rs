@@ -4,7 +4,7 @@ use crate::errors::{caused, input};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::Config;
+use rigid_ccd::Settings;
 use std::time::Duration;
 
 /// The settings of a query that looks for contacts.
@@ -42,26 +42,27 @@ pub(crate) const DISTANCES_OF_TABLES: &[&str] = &[
 const MOST_THREADS: u16 = 1024;
 
 /// Reads the settings of a query, which may have those that are `known`.
-pub(crate) fn config(
-    settings: Option<&Bound<'_, PyDict>>,
+pub(crate) fn read(
+    given: Option<&Bound<'_, PyDict>>,
     known: &[&'static str],
-) -> PyResult<Config> {
-    let mut config = Config::default();
-    for (name, value) in settings.into_iter().flatten() {
+) -> PyResult<Settings> {
+    let mut settings = Settings::DEFAULT;
+    for (name, value) in given.into_iter().flatten() {
         let name: String = name.extract()?;
         match name.as_str() {
             _ if !known.contains(&name.as_str()) => return Err(unknown(&name, known)),
-            "tolerance" => config.tolerance = read(&name, &value)?,
-            "margin" => config.margin = read(&name, &value)?,
-            "clearance" => config.clearance = read(&name, &value)?,
+            "tolerance" => settings.tolerance = value_of(&name, &value)?,
+            "margin" => settings.margin = value_of(&name, &value)?,
+            "clearance" => settings.clearance = value_of(&name, &value)?,
             "budget" => {
-                config.budget = read::<Option<u64>>(&name, &value)?.unwrap_or(config.budget);
+                settings.budget =
+                    value_of::<Option<u64>>(&name, &value)?.unwrap_or(settings.budget);
             }
-            "deadline" => config.deadline = deadline(read(&name, &value)?)?,
+            "deadline" => settings.deadline = deadline(value_of(&name, &value)?)?,
             _ => return Err(unknown(&name, known)),
         }
     }
-    Ok(config)
+    Ok(settings)
 }
 
 /// Reads a number of threads; none for one on each core.
@@ -74,7 +75,7 @@ pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<u16>> {
     given.map(threads).transpose()
 }
 
-fn read<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
+fn value_of<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py, Error = PyErr>,
 {

@@ -3,13 +3,13 @@
 use crate::body::{body_of, warn_of_tolerance};
 use crate::errors::{input as refuse, interrupted, of_table, warn, with_attribute, wrong_type};
 use crate::polled::polled;
-use crate::settings::{self, CONTACTS_OF_TABLES, DISTANCES_OF_TABLES, config};
+use crate::settings::{self, CONTACTS_OF_TABLES, DISTANCES_OF_TABLES};
 use crate::table::answering::{Answered, Asked, Micros, answer};
 use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::Config;
+use rigid_ccd::Settings;
 use rigid_ccd::batch::{Bodies, Question};
 use rigid_ccd::table::motions::TableError;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -31,16 +31,16 @@ pub(crate) fn answer_table(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyTable> {
     let question = self::question(question)?;
-    let config = Config {
+    let settings = Settings {
         clearance,
-        ..config(settings, known(question))?
+        ..settings::read(settings, known(question))?
     };
     let asked = Asked {
         bodies: Bodies {
             a: body_of(a, "a")?,
             b: body_of(b, "b")?,
         },
-        config,
+        settings: &settings,
         question,
         threads: settings::threads(threads)?,
         micros: if micros {
@@ -49,7 +49,6 @@ pub(crate) fn answer_table(
             Micros::LeftOut
         },
     };
-    let config = asked.config;
     // One query shows whether the settings can be used: an error of each row would only repeat it.
     check(asked)?;
     if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
@@ -87,7 +86,7 @@ pub(crate) fn answer_table(
         }),
         (Ok(()), None) => {
             warn(py, remarks, CALLS_UP)?;
-            warn_of_tolerance([a, b], config.tolerance, CALLS_UP)?;
+            warn_of_tolerance([a, b], settings.tolerance, CALLS_UP)?;
             Ok(table)
         }
     }
@@ -119,7 +118,7 @@ fn known(question: Question) -> &'static [&'static str] {
 
 /// Refuses settings that no query can have.
 fn check(asked: Asked<'_>) -> PyResult<()> {
-    match asked.config.clearance {
+    match asked.settings.clearance {
         Some(_) if !asked.question.is_for_a_clearance() => {
             return Err(refuse(
                 "clearance: only the least distance is compared with one; use margin, or distance_upper",
@@ -132,9 +131,9 @@ fn check(asked: Asked<'_>) -> PyResult<()> {
         _ => {}
     }
     let Bodies { a, b } = asked.bodies;
-    let still = rigid_ccd::Motion::STILL;
-    let problem = rigid_ccd::Problem::new((a, still), (b, still), 1.0, &asked.config);
-    problem.map(drop).map_err(refuse)
+    let still = rigid_ccd::Pose::IDENTITY;
+    let query = rigid_ccd::Query::new((a, still), (b, still), 1.0, asked.settings);
+    query.map(drop).map_err(refuse)
 }
 
 fn table_error(error: &TableError) -> PyErr {

@@ -7,7 +7,7 @@ use anyhow::Result;
 use parry3d::math::{Pose, Vector};
 use parry3d::query::{self, NonlinearRigidMotion};
 use parry3d::shape::{SharedShape, TriMesh};
-use rigid_ccd_parry::Settings;
+use rigid_ccd_parry::Options;
 use rigid_ccd_parry::f32::{Caster, body, cast_shapes_nonlinear};
 use std::f32::consts::TAU;
 use std::hint::black_box;
@@ -60,7 +60,7 @@ fn main() -> Result<()> {
         }
     }
     for (name, shape) in small.iter().chain(&large) {
-        let made = micros(|| drop(black_box(body(&**shape, &Settings::default()))));
+        let made = micros(|| drop(black_box(body(&**shape, &Options::default()))));
         writeln!(out, "to make {name}: {made:.1} us")?;
     }
     Ok(())

@@ -7,10 +7,10 @@ use crate::leaving::parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{Ending, Found, Scene};
 use crate::tolerance::{BEYOND, RELATIVE, SHARE_OF_SIZE};
-use crate::{CastError, Prepared, Settings};
+use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
-use ccd_core::{Config, InputError, Motion, StartPolicy, Stray, Stretch, Trajectory};
+use ccd_core::{InputError, Motion, Settings, StartPolicy, Stray, Stretch, Trajectory};
 use rigid_ccd::Solver;
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub(crate) struct Cast<'a> {
     /// The distance at which they are in contact.
     pub(crate) target: f64,
     pub(crate) start: StartPolicy,
-    pub(crate) settings: Settings,
+    pub(crate) options: Options,
     /// The tolerance by default.
     pub(crate) contact: f64,
 }
@@ -93,8 +93,8 @@ impl Cast<'_> {
         let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
         let slack = |k: usize| bodies[k].slack() + slack(started[k].stray, &sides[k]);
         let rounded = self.rounded(way(&sides, self.target + self.tolerance(&bodies)));
-        let config = self.config(&bodies, slack(0) + slack(1) + rounded)?;
-        let within = config.margin + config.tolerance;
+        let settings = self.settings(&bodies, slack(0) + slack(1) + rounded)?;
+        let within = settings.margin + settings.tolerance;
         Ok(Scene {
             bodies,
             motions: sides.map(|side| side.motion),
@@ -102,7 +102,7 @@ impl Cast<'_> {
             horizon: Horizon::of(sides, within, self.interval.length()),
             interval: self.interval,
             target: self.target,
-            config,
+            settings,
         })
     }
 
@@ -120,7 +120,7 @@ impl Cast<'_> {
         let stray = side.stray;
         let side = side.reaching(body);
         let of_plane = started[index].reaching_plane(&side);
-        let within = self.config(&[body], body.slack())?;
+        let within = self.settings(&[body], body.slack())?;
         let within = within.margin + within.tolerance;
         let wanted = self.interval.length();
         let reach = |horizon: Horizon| plane.reach(of_plane, side, within, horizon.duration());
@@ -130,7 +130,7 @@ impl Cast<'_> {
         let away = length(of_plane.about - of_plane.motion.centre());
         let off = started[index].stray.at(4.0 * reach + away);
         let slack = body.slack() + slack(stray, &side) + off + self.rounded(reach);
-        let config = self.config(&[body], slack)?;
+        let settings = self.settings(&[body], slack)?;
         let stand_in = plane.stand_in(of_plane, 2.0 * reach).map_err(|error| {
             let which = index as u8 + 1;
             CastError::Shape { which, error }
@@ -147,7 +147,7 @@ impl Cast<'_> {
             horizon,
             interval: self.interval,
             target: self.target,
-            config,
+            settings,
         })
     }
 
@@ -196,12 +196,12 @@ impl Cast<'_> {
         let by_default = sizes.fold(self.contact, |least, size| {
             lesser(least, SHARE_OF_SIZE * size)
         });
-        let asked = self.settings.tolerance;
+        let asked = self.options.tolerance;
         asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
     }
 
     /// Returns the engine's settings for bodies that may be off by the slack.
-    fn config(&self, bodies: &[&Prepared], slack: f64) -> Result<Config, CastError> {
+    fn settings(&self, bodies: &[&Prepared], slack: f64) -> Result<Settings, CastError> {
         let margin = self.target + slack;
         if !(self.target >= 0.0 && margin.is_finite()) {
             return Err(CastError::Number {
@@ -210,13 +210,13 @@ impl Cast<'_> {
                 allowed: "at least 0 and finite",
             });
         }
-        Ok(Config {
+        Ok(Settings {
             tolerance: self.tolerance(bodies),
             margin,
             start: self.start,
-            budget: self.settings.budget,
-            deadline: self.settings.deadline,
-            ..Config::default()
+            budget: self.options.budget,
+            deadline: self.options.deadline,
+            ..Settings::DEFAULT
         })
     }
 }

@@ -75,8 +75,8 @@ pub enum ShapeError {
         /// The least excess that can be had for this shape.
         least: f64,
     },
-    /// Cylinders and cones are refused by the [settings](crate::Excess::Refuse).
-    #[error("it is a cylinder or a cone, for which the settings allow no polytope about it")]
+    /// Cylinders and cones are refused by the [options](crate::Excess::Refuse).
+    #[error("it is a cylinder or a cone, for which the options allow no polytope about it")]
     Round,
     /// An oriented mesh that is to be a solid is not closed.
     #[error(

@@ -88,7 +88,7 @@ fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, Cas
     let (a, b) = (some(0)?, some(1)?);
     let part = Scene {
         bodies: [&a, &b],
-        ..*scene
+        ..scene.clone()
     };
     let Some(found) = part.first_contact(solver)? else {
         return Ok(Asked::Found(None));
@@ -122,7 +122,7 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let (middle, radius) = other.0.ball();
     // In the world at the start.
     let from = other.1.start().transform_point(middle);
-    let within = scene.config.margin + scene.config.tolerance + radius;
+    let within = scene.settings.margin + scene.settings.tolerance + radius;
     let comes_near = |piece: &Piece<'_>| {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);

@@ -24,7 +24,7 @@
 //! | replace parry's functions | [`cast_shapes_nonlinear`], [`cast_shapes`] |
 //! | learn why there is no answer | [`try_cast_shapes_nonlinear`], [`try_cast_shapes`], which return a [`CastError`] |
 //! | cast large shapes each frame | [`Caster`], which keeps the bodies of shared shapes |
-//! | set a tolerance or a budget, or fill meshes | [`Caster::new`] with [`Settings`] |
+//! | set a tolerance or a budget, or fill meshes | [`Caster::new`] with [`Options`] |
 //! | ask all else that [`rigid_ccd::Solver`] answers | [`body`] and [`motion`] |
 //! | hand a cast to the command `ccd` | [`Caster::record`], with the feature `record` |
 //!
@@ -74,7 +74,7 @@
 //! # What comes out
 //! | field | here |
 //! |---|---|
-//! | `time_of_impact` | rounded down. At it the shapes are within the target distance + the tolerance ([`Settings::tolerance`], or the least that can be proven at such coordinates) + what polytopes exceed their shapes by ([`Prepared::excess`]) + rounding ([`Prepared::slack`], twice) |
+//! | `time_of_impact` | rounded down. At it the shapes are within the target distance + the tolerance ([`Options::tolerance`], or the least that can be proven at such coordinates) + what polytopes exceed their shapes by ([`Prepared::excess`]) + rounding ([`Prepared::slack`], twice) |
 //! | `witness1`, `witness2` | the nearest points, each in its shape's frame. Of shapes that overlap at the start they are one common point |
 //! | `normal1`, `normal2` | the directions to the other shape, each in its shape's frame. Of shapes that overlap at the start they are some direction |
 //! | `status: Converged` | a contact. Also at the start, of shapes that touch and do not overlap |
@@ -119,20 +119,20 @@ mod horizon;
 mod interval;
 mod leaving;
 pub mod limits;
+mod options;
 mod order;
 mod prepared;
 #[cfg(feature = "record")]
 mod recording;
 mod scene;
-mod settings;
 mod shelf;
 mod tolerance;
 
 pub use error::{CastError, ShapeError};
+pub use options::{Excess, Meshes, Options};
 pub use prepared::Prepared;
 #[cfg(feature = "record")]
 pub use recording::{RecordError, Recording};
-pub use settings::{Excess, Meshes, Settings};
 
 /// For `parry3d`, in single precision.
 #[cfg(feature = "f32")]

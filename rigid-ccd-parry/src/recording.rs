@@ -1,7 +1,7 @@
 //! Casts as files for the command `ccd`.
 
 use crate::scene::Scene;
-use ccd_core::{Body, Config, Motion, StartPolicy};
+use ccd_core::{Body, Motion, Settings, StartPolicy};
 use rigid_ccd::mesh::{Model, PrepareError, StoreError};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub struct Recording {
     bodies: [Body; 2],
     motions: [Motion; 2],
     duration: f64,
-    config: Config,
+    settings: Settings,
 }
 
 /// A recording cannot be saved.
@@ -47,7 +47,7 @@ impl Recording {
             bodies: scene.bodies.map(|body| body.body().clone()),
             motions: scene.motions,
             duration: scene.horizon.duration(),
-            config: scene.config,
+            settings: scene.settings.clone(),
         }
     }
 
@@ -70,10 +70,10 @@ impl Recording {
         let table = self.table();
         ccd_file::write(&motions, |out| out.write_all(table.as_bytes()))
             .map_err(failed(&motions))?;
-        let Config {
+        let Settings {
             tolerance, margin, ..
-        } = self.config;
-        let start = match self.config.start {
+        } = self.settings;
+        let start = match self.settings.start {
             StartPolicy::Leave => " --start leave",
             _ => "",
         };

@@ -6,23 +6,22 @@ use crate::order::lesser;
 use crate::tolerance::LOOK;
 use crate::{CastError, Prepared};
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Config, Contact, Motion, Outcome, Overlap, Pose, Volume};
+use ccd_core::{Answer, Contact, Motion, Outcome, Overlap, Pose, Settings, Volume};
 use rigid_ccd::Solver;
-use rigid_ccd::schedule::ClosestApproach;
 
 /// Two moving bodies.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) bodies: [&'a Prepared; 2],
     /// From the start of the interval on, as far as they matter.
     pub(crate) motions: [Motion; 2],
-    /// With all turns: hits are told in their frames.
+    /// The full motions, rotation included. Hits are reported in these frames.
     pub(crate) frames: [Motion; 2],
     pub(crate) horizon: Horizon,
     pub(crate) interval: Interval,
     /// The distance at which they count as in contact.
     pub(crate) target: f64,
-    pub(crate) config: Config,
+    pub(crate) settings: Settings,
 }
 
 /// What a cast found.
@@ -56,8 +55,8 @@ impl Scene<'_> {
     /// Finds the first contact.
     pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), self.motions[k]));
-        solver.set_config(self.config);
-        let answer = solver.answer(a, b, self.horizon.duration())?;
+        solver.set_settings(self.settings.clone());
+        let answer = solver.first_contact(a, b, self.horizon.duration())?;
         Ok(self.found(&answer, solver))
     }
 
@@ -84,15 +83,18 @@ impl Scene<'_> {
                 };
                 Some(self.shown(0.0, &contact, ending))
             }
-            Outcome::Overlapping { overlap } => Some(match overlap {
+            Outcome::Overlapping { overlap, .. } => Some(match overlap {
                 Overlap::Pieces(contact) => self.shown(0.0, &contact, Ending::Overlap),
                 Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
             }),
-            Outcome::Unresolved { safe_until, .. } => Some(self.seen(safe_until, solver)),
-            Outcome::Free { .. } => match self.horizon {
-                Horizon::Whole(_) => None,
-                Horizon::Part(duration) => Some(self.seen(duration, solver)),
-            },
+            Outcome::Unresolved(known) => Some(self.seen(known.safe_until, solver)),
+            // A first contact has no other outcomes.
+            Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::Measured { .. } => {
+                match self.horizon {
+                    Horizon::Whole(_) => None,
+                    Horizon::Part(duration) => Some(self.seen(duration, solver)),
+                }
+            }
         }
     }
 
@@ -127,15 +129,15 @@ impl Scene<'_> {
 
     /// Returns the hit for a time at which a limit was reached, with the nearest points if they can be had.
     fn seen(&self, after: f64, solver: &mut Solver) -> Found {
-        solver.set_config(Config {
-            budget: lesser(self.config.budget, LOOK),
-            deadline: self.config.deadline,
-            ..Config::default()
+        solver.set_settings(Settings {
+            budget: lesser(self.settings.budget, LOOK),
+            deadline: self.settings.deadline,
+            ..Settings::DEFAULT
         });
         let poses = self.poses(after);
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), poses[k]));
         let contact = match solver.distance(a, b).map(|answer| answer.outcome) {
-            Ok(ClosestApproach::Overlapping {
+            Ok(Outcome::Overlapping {
                 overlap: Overlap::Pieces(contact),
                 ..
             }) => Some(contact),

@@ -1,6 +1,6 @@
 //! A thousand queries on all cores, answered in order.
 
-use rigid_ccd::{Body, Error, Hit, Motion, Pose, QueryError, first_contacts};
+use rigid_ccd::{Body, Error, Motion, Pose, first_contacts};
 
 /// Returns the motion of a capsule that flies past a box or into it, from another side for each `k`.
 fn motion(k: u32) -> Result<Motion, Error> {
@@ -19,16 +19,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for k in 0..1000 {
         queries.push(((&capsule, motion(k)?), (&wall, Motion::STILL), 1.0));
     }
-    // The error of a query has its index.
-    let hits: Result<Vec<Option<Hit>>, QueryError> = first_contacts(&queries).into_iter().collect();
-    let hits = hits?;
-
-    let times: Vec<f64> = hits.iter().flatten().map(|hit| hit.time).collect();
+    let mut times = Vec::new();
+    for answer in first_contacts(&queries) {
+        // The error of a query has its index.
+        times.extend(answer?.hit()?.map(|hit| hit.time));
+    }
     let mean = times.iter().sum::<f64>() / times.len() as f64;
     println!(
         "{} of {} touch, at {mean:.4} on average",
         times.len(),
-        hits.len()
+        queries.len()
     );
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! A cube falls flat onto a slab: all features in contact when it lands.
 
-use rigid_ccd::{Body, Config, Motion, Pose, Problem, first_contact};
+use rigid_ccd::{Body, Motion, Pose, Query, Settings, first_contact};
 use std::error::Error;
 
 #[allow(clippy::print_stdout, reason = "an example shows what comes out")]
@@ -9,16 +9,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let slab = Body::cuboid([2.0, 2.0, 0.1])?;
     let falls = Motion::new(Pose::at([0.3, 0.2, 2.0])?, [0.0, 0.0, -3.0], [0.0; 3])?;
 
-    let hit = first_contact((&cube, falls), (&slab, Motion::STILL), 1.0)?.ok_or("no contact")?;
+    let (a, b) = ((&cube, falls), (&slab, Motion::STILL));
+    let hit = first_contact(a, b, 1.0)?.hit()?.ok_or("no contact")?;
     println!("lands at {:.4}", hit.time);
 
-    let problem = Problem::new(
-        (&cube, falls),
-        (&slab, Motion::STILL),
-        1.0,
-        &Config::default(),
-    )?;
-    for pair in problem.contacts_at(hit.time)? {
+    let query = Query::new(a, b, 1.0, &Settings::DEFAULT)?;
+    for pair in query.contacts_at(hit.time)? {
         let (a, b) = (pair.feature_a, pair.feature_b);
         println!(
             "{a} of the cube, {b} of the slab, in {:.3}",

@@ -9,7 +9,7 @@
 use plotters::prelude::*;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
-use rigid_ccd::{Body, Config, Motion, Pose, Solver};
+use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
 use std::f64::consts::PI;
 use std::io::Write;
 use std::path::PathBuf;
@@ -103,9 +103,9 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Erro
     // A little farther apart than the pitch circles say.
     let distance = a.pitch_radius() + b.pitch_radius() + 0.02 * a.module;
     let ratio = f64::from(a.teeth) / f64::from(b.teeth);
-    let mut solver = Solver::new().with_config(Config {
+    let mut solver = Solver::new().with_settings(Settings {
         tolerance: 1e-4,
-        ..Config::default()
+        ..Settings::DEFAULT
     });
     let mut windows = Vec::new();
     for angle in (0..360).step_by(WINDOW as usize) {

@@ -49,9 +49,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let flies = Motion::new(start, [4.0, 0.0, 0.0], [1.0, 2.0, 3.0])?;
     for (name, other) in [("ball", Body::ball(0.5)?), ("box", Body::cuboid([0.5; 3])?)] {
         let (a, b) = ((&capsule, flies), (&other, Motion::STILL));
-        let by_default = Solver::new().first_contact(a, b, 1.0)?.map(|hit| hit.time);
+        let by_default = Solver::new()
+            .first_contact(a, b, 1.0)?
+            .hit()?
+            .map(|hit| hit.time);
         let mut solver = Solver::with_oracle(Segments.or_else(Gjk));
-        let own = solver.first_contact(a, b, 1.0)?.map(|hit| hit.time);
+        let own = solver.first_contact(a, b, 1.0)?.hit()?.map(|hit| hit.time);
         println!("{name}: {own:.4?}, by the default {by_default:.4?}");
     }
     Ok(())

@@ -11,7 +11,7 @@ use plotters::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::glam::{DQuat, DVec3};
-use rigid_ccd::{Body, Config, Error, Motion, Pose, Solver, load};
+use rigid_ccd::{Body, Error, Motion, Pose, Settings, Solver, load};
 use std::collections::VecDeque;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -186,9 +186,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .map_or_else(|| PathBuf::from("target/planner.svg"), PathBuf::from);
     let body = load(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket.obj"))?;
     let room = Room::new()?;
-    let mut solver = Solver::new().with_config(Config {
+    let mut solver = Solver::new().with_settings(Settings {
         tolerance: 1e-4,
-        ..Config::default()
+        ..Settings::DEFAULT
     });
     let places = places(&mut solver, &room, &body)?;
     let edges = edges(&places);

@@ -9,7 +9,7 @@
 
 use anyhow::{Context, Result};
 use rigid_ccd::table::motions::{MotionTable, Query};
-use rigid_ccd::{Body, Motion, Moving, ParallelSolver, Solver, load};
+use rigid_ccd::{Body, ParallelSolver, Solver, load};
 use std::fs::{self, File};
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -33,12 +33,8 @@ fn main() -> Result<()> {
     };
     let queries: Vec<Query> = table.rows.into_iter().map(|(_, query)| query).collect();
     let rows = number(4, queries.len())?;
-    let moving = |body, motion: &Motion| Moving {
-        body,
-        motion: *motion,
-    };
     let queries: Vec<_> = (queries.iter().cycle().take(rows))
-        .map(|query| (moving(&a, &query.a), moving(&b, &query.b), query.duration))
+        .map(|query| ((&a, query.a), (&b, query.b), query.duration))
         .collect();
     let threads = NonZeroUsize::new(number(3, 1)?).context("at least one thread")?;
     let mut solver = ParallelSolver::with_threads(threads, Solver::new);
@@ -48,7 +44,7 @@ fn main() -> Result<()> {
     let seconds = begin.elapsed().as_secs_f64();
     let mut times = Vec::new();
     for (found, query) in found.into_iter().zip(&queries) {
-        let time = found?.map_or(query.2, |hit| hit.time);
+        let time = found?.hit()?.map_or(query.2, |hit| hit.time);
         times.extend(time.to_le_bytes());
     }
     writeln!(

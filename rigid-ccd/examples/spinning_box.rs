@@ -14,8 +14,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let slow = Motion::new(start, [1.0, 0.0, 0.0], [0.0, 0.0, 20.0])?;
 
     for (name, flies) in [("fast", fast), ("slow", slow)] {
-        match first_contact((&body, flies), (&ball, Motion::STILL), 1.0)? {
-            Some(hit) => println!("{name}: contact at {:.4} in {:.4}", hit.time, hit.witness_a),
+        match first_contact((&body, flies), (&ball, Motion::STILL), 1.0)?.hit()? {
+            Some(hit) => {
+                let (time, place) = (hit.time, hit.witness_a());
+                println!("{name}: contact at {time:.4} in {place:.4}");
+            }
             None => println!("{name}: no contact"),
         }
     }

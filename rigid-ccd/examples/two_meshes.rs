@@ -2,7 +2,7 @@
 //!
 //! `cargo run -p rigid-ccd --example two_meshes -- part.stl other.obj`
 
-use rigid_ccd::{Config, Motion, Pose, Solver, load};
+use rigid_ccd::{Motion, Pose, Settings, Solver, load};
 use std::error::Error;
 
 const BRACKET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bracket.obj");
@@ -18,14 +18,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let drops = Motion::new(start, [0.0, 0.0, -2.0], [0.0, 1.5, 0.0])?;
 
     // A contact is a distance of at most a millionth.
-    let mut solver = Solver::new().with_config(Config {
+    let mut solver = Solver::new().with_settings(Settings {
         tolerance: 1e-6,
-        ..Config::default()
+        ..Settings::DEFAULT
     });
-    match solver.first_contact((&moving, drops), (&standing, Motion::STILL), 1.0)? {
+    let answer = solver.first_contact((&moving, drops), (&standing, Motion::STILL), 1.0)?;
+    match answer.hit()? {
         Some(hit) => {
-            println!("contact at {:.6} in {:.6}", hit.time, hit.witness_b);
-            if let Some(contact) = hit.contact {
+            println!("contact at {:.6} in {:.6}", hit.time, hit.witness_b());
+            if let Some(contact) = hit.contact() {
                 let (a, b) = (contact.feature_a, contact.feature_b);
                 println!("{a} of the moving body with {b} of the standing one");
                 println!("normal {:.6}", contact.separation.normal);

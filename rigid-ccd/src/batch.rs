@@ -11,13 +11,11 @@ mod solver_kind;
 mod timed;
 
 pub use batch_size::BatchSize;
-pub use question::{Found, Question, Questions};
+pub use question::Question;
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub use timed::solve;
-#[cfg(feature = "command")]
-pub(crate) use timed::{Settings, Timed, time};
+pub(crate) use timed::{Timed, Timing, time};
 
 use crate::ParallelSolver;
 use ccd_core::Body;

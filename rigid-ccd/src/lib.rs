@@ -9,8 +9,8 @@
 //! let part = load("examples/bracket.obj")?;
 //! let ball = Body::ball(0.5)?;
 //! let falls = Motion::new(Pose::at([0.0, 0.0, 3.0])?, [0.0, 0.0, -2.0], [0.0; 3])?;
-//! if let Some(hit) = first_contact((&ball, falls), (&part, Motion::STILL), 1.0)? {
-//!     println!("contact at {} in {}", hit.time, hit.witness_b);
+//! if let Some(hit) = first_contact((&ball, falls), (&part, Motion::STILL), 1.0)?.hit()? {
+//!     println!("contact at {} in {}", hit.time, hit.witness_b());
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -21,18 +21,17 @@
 //! | ask only whether two bodies stay apart | [`Solver::is_free`] |
 //! | ask how close they come, and when | [`Solver::closest_approach`], [`Solver::distance`] at rest |
 //! | ask how far apart they get, and when | [`Solver::greatest_distance`] |
-//! | ask from when until when they are in contact | [`Solver::contact_interval_along`] |
-//! | follow a spline, a path of poses, a throw, an arm's link | [`trajectory`], [`Solver::first_contact_along`] |
+//! | ask from when until when they are in contact | [`Solver::contact_interval`] |
+//! | follow a spline, a path of poses, a throw, an arm's link | [`trajectory`] |
 //! | answer many on all cores, in order | [`first_contacts`], [`ParallelSolver`] |
 //! | answer many one after another | [`Solver`] |
 //! | move many bodies, and find who touches whom first, or at all | [`Scene`] |
-//! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
+//! | set a tolerance, a margin, a budget or a deadline | [`Settings`], [`Solver::with_settings`] |
 //! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], [`load`] for a file |
 //! | make a body of each part of a file, convert units, scale or mirror it | [`load_parts`], [`load_in`], [`load_adjusted`], [`mesh::MeshFile`] |
 //! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
-//! | list all features in contact | [`Problem::contacts_at`] |
-//! | get proven gaps and statistics | [`Solver::answer`] |
+//! | list all features in contact | [`Query::contacts_at`] |
 //! | choose or write a distance backend | [`Solver::with_oracle`], [`DistanceOracle`] |
 //!
 //! Vectors are arrays, or types that convert into them: those of [`glam`] and `nalgebra`. Lengths are in
@@ -100,7 +99,6 @@ pub mod batch;
 #[cfg(feature = "command")]
 pub mod command;
 mod error;
-mod hit;
 #[cfg(feature = "meshes")]
 mod load;
 mod parallel;
@@ -119,11 +117,11 @@ pub mod trajectory;
 pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
-    Answer, Body, Claim, Combination, Config, Contact, ContactsError, DistanceOracle, Effort,
-    Enclosure, Face, Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode,
-    InputError, Instructions, Journey, Limit, Motion, Moving, OrElse, Origin, Outcome, Overlap,
-    Piece, PiecePair, Pieces, Polytope, Pose, Problem, Round, Schedule, Separation, StartPolicy,
-    Stats, SweptBox, Travelling, Volume,
+    Answer, Body, Claim, Clearance, Combination, Contact, ContactsError, DistanceOracle, Effort,
+    Enclosure, Face, Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode, Hit,
+    HitKind, InputError, Instructions, Limit, Motion, Movement, Moving, OrElse, Origin, Outcome,
+    Overlap, Piece, PiecePair, Pieces, Polytope, Pose, Query, Round, Schedule, Separation,
+    Settings, StartPolicy, Stats, SweptBox, Unresolved, Volume,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]
@@ -133,8 +131,7 @@ pub use ccd_decomp::BodyError;
 pub use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 #[cfg(feature = "vmarch")]
 pub use ccd_distance_vmarch::Vmarch;
-pub use error::{Error, advice};
-pub use hit::{Hit, HitKind};
+pub use error::Error;
 #[cfg(feature = "meshes")]
 pub use load::{load, load_adjusted, load_in, load_parts};
 pub use parallel::{ParallelSolver, QueryError, first_contacts};

@@ -1,7 +1,7 @@
 //! Many queries, side by side on several threads.
 
-use crate::{Error, Hit, Solver};
-use ccd_core::{DistanceOracle, Moving};
+use crate::Solver;
+use ccd_core::{Answer, DistanceOracle, InputError, Moving};
 use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -16,7 +16,7 @@ use std::thread::{self, Builder, available_parallelism};
 /// limit, and keeps its memory from call to call.
 ///
 /// # Errors
-/// Each query has a result of its own; its error is that of [`first_contact`](crate::first_contact), with
+/// Each query has a result of its own. Its error is that of [`first_contact`](crate::first_contact), with
 /// the index of the query.
 ///
 /// ```
@@ -29,11 +29,11 @@ use std::thread::{self, Builder, available_parallelism};
 ///     queries.push(((&ball, flies), (&wall, Motion::STILL), 1.0));
 /// }
 /// for (query, found) in queries.iter().zip(first_contacts(&queries)) {
-///     assert_eq!(found?.is_some(), query.0.1.velocity().x > 2.4);
+///     assert_eq!(found?.hit()?.is_some(), query.0.1.velocity().x > 2.4);
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn first_contacts<'b, A, B>(queries: &[(A, B, f64)]) -> Vec<Result<Option<Hit>, QueryError>>
+pub fn first_contacts<'b, A, B>(queries: &[(A, B, f64)]) -> Vec<Result<Answer, QueryError>>
 where
     A: Into<Moving<'b>> + Copy + Sync,
     B: Into<Moving<'b>> + Copy + Sync,
@@ -49,24 +49,26 @@ pub struct QueryError {
     pub query: usize,
     /// What is wrong with it.
     #[source]
-    pub error: Error,
+    pub error: InputError,
 }
 
 /// Solvers for many queries side by side, one on each thread. Keep it between calls: it reuses its memory.
 ///
 /// Each thread takes the next query when it has answered one, so that a few slow queries do not hold up the
 /// others. Answers are in the order of the queries. They are the same bits on any number of threads, unless a
-/// [deadline](ccd_core::Config::deadline) ends a query.
+/// [deadline](ccd_core::Settings::deadline) ends a query.
 ///
 /// A panic ends a call: the threads take no more queries, and the panic goes on in the caller.
 ///
 /// ```
-/// use rigid_ccd::{Body, Config, Motion, ParallelSolver, Pose, Solver};
+/// use rigid_ccd::{Body, Motion, ParallelSolver, Pose, Settings, Solver};
 /// use std::num::NonZeroUsize;
 ///
-/// let config = Config { tolerance: 1e-6, ..Config::default() };
+/// let settings = Settings { tolerance: 1e-6, ..Settings::DEFAULT };
 /// let threads = NonZeroUsize::new(2).expect("not 0");
-/// let mut solver = ParallelSolver::with_threads(threads, || Solver::new().with_config(config));
+/// let mut solver = ParallelSolver::with_threads(threads, || {
+///     Solver::new().with_settings(settings.clone())
+/// });
 ///
 /// // The edges of a planner, against both links of an arm.
 /// let (gripper, forearm) = (Body::ball(0.2)?, Body::capsule(0.1, 0.6)?);
@@ -78,23 +80,22 @@ pub struct QueryError {
 ///         queries.push(((link, reach), (&shelf, Motion::STILL), 1.0));
 ///     }
 /// }
-/// let hits: Vec<bool> = solver
-///     .first_contacts(&queries)
-///     .into_iter()
-///     .map(|found| found.map(|hit| hit.is_some()))
-///     .collect::<Result<_, _>>()?;
+/// let mut hits = Vec::new();
+/// for answer in solver.first_contacts(&queries) {
+///     hits.push(answer?.hit()?.is_some());
+/// }
 /// assert_eq!(hits, [true, true, true, true, false, true]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct ParallelSolver<S = Solver> {
     /// Not empty.
-    solvers: Vec<Own<S>>,
+    solvers: Vec<CachePadded<S>>,
 }
 
-/// A value on cache lines of its own: a thread that writes to a line slows down all others that use it.
-/// Processors fetch lines of 64 bytes in pairs.
+/// A value on cache lines of its own: threads that write to one line slow each other down. Processors fetch lines of
+/// 64 bytes in pairs. Two lines, where the one of `crossbeam-utils` is a dependency.
 #[repr(align(128))]
-struct Own<S>(S);
+pub(crate) struct CachePadded<S>(pub(crate) S);
 
 impl<S> ParallelSolver<S> {
     /// Creates a solver for each core, such as `ParallelSolver::new(Solver::new)`.
@@ -105,7 +106,7 @@ impl<S> ParallelSolver<S> {
 
     /// Creates a solver for each of that many threads.
     pub fn with_threads(threads: NonZeroUsize, mut solver: impl FnMut() -> S) -> Self {
-        let solvers = (0..threads.get()).map(|_| Own(solver())).collect();
+        let solvers = (0..threads.get()).map(|_| CachePadded(solver())).collect();
         ParallelSolver { solvers }
     }
 
@@ -127,7 +128,7 @@ where
     pub fn first_contacts<'b, A, B>(
         &mut self,
         queries: &[(A, B, f64)],
-    ) -> Vec<Result<Option<Hit>, QueryError>>
+    ) -> Vec<Result<Answer, QueryError>>
     where
         A: Into<Moving<'b>> + Copy + Sync,
         B: Into<Moving<'b>> + Copy + Sync,
@@ -145,8 +146,8 @@ where
 impl<S: Send> ParallelSolver<S> {
     /// Calls a function with a solver and each query, and returns the results in the order of the queries.
     ///
-    /// Queries and results may be of any type: [`Solver::answer`] gives statistics, for instance. All
-    /// results are in memory at one time; pass very many queries in parts.
+    /// Queries and results may be of any type. All results are in memory at one time; pass very many queries in
+    /// parts.
     ///
     /// The caller's thread works as well. The others last for this call, and where one cannot be started,
     /// the rest do its work. No thread waits for a lock.
@@ -160,7 +161,7 @@ impl<S: Send> ParallelSolver<S> {
     /// let flies = |speed| Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3]);
     /// let speeds: Vec<f64> = (1..100).map(f64::from).collect();
     /// let answers = ParallelSolver::new(Solver::new).map(&speeds, |solver, &speed| {
-    ///     solver.answer((&ball, flies(speed)?), (&ball, Motion::STILL), 1.0)
+    ///     solver.first_contact((&ball, flies(speed)?), (&ball, Motion::STILL), 1.0)
     /// });
     /// for (&speed, answer) in speeds.iter().zip(answers) {
     ///     assert_eq!(matches!(answer?.outcome, Outcome::Contact { .. }), speed > 1.0);
@@ -174,7 +175,7 @@ impl<S: Send> ParallelSolver<S> {
     ) -> Vec<R> {
         let results: Vec<OnceLock<R>> = queries.iter().map(|_| OnceLock::new()).collect();
         // The counter only shares out the queries: the end of a thread makes its results visible.
-        let counter = Own(AtomicUsize::new(0));
+        let counter = CachePadded(AtomicUsize::new(0));
         let next = || {
             let index = counter.0.fetch_add(1, Ordering::Relaxed);
             Some((queries.get(index)?, results.get(index)?))
@@ -204,7 +205,7 @@ impl<S: Send> ParallelSolver<S> {
     /// let speeds = std::iter::successors(Some(1.0), |speed| Some(2.0 * speed)).take(10);
     /// let hits = ParallelSolver::new(Solver::new).map_iter(speeds, |solver, speed| {
     ///     let found = solver.first_contact((&ball, flies(speed)?), (&ball, Motion::STILL), 1.0)?;
-    ///     Ok::<bool, rigid_ccd::Error>(found.is_some())
+    ///     Ok::<bool, rigid_ccd::Error>(found.hit()?.is_some())
     /// });
     /// assert_eq!(hits.into_iter().filter(|hit| matches!(hit, Ok(true))).count(), 9);
     /// # Ok::<(), rigid_ccd::Error>(())
@@ -237,8 +238,8 @@ impl<S: Send> ParallelSolver<S> {
         next: impl Fn() -> Option<Q> + Sync,
         work: impl Fn(&mut S, Q) + Sync,
     ) {
-        let panicked = Own(AtomicBool::new(false));
-        let work = |own: &mut Own<S>| {
+        let panicked = CachePadded(AtomicBool::new(false));
+        let work = |own: &mut CachePadded<S>| {
             let _tells = TellsOfPanic(&panicked.0);
             while !panicked.0.load(Ordering::Relaxed)
                 && let Some(query) = next()

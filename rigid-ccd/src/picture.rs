@@ -112,7 +112,7 @@ impl<'a> Painter<'a> {
             }
             _ => format!("{} ({})", row.id, row.status.name()),
         };
-        let mut view = View::of(&name, "", duration);
+        let mut view = View::new(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
             let reached = match (row.status, self.asked.claim) {

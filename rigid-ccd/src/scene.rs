@@ -1,35 +1,34 @@
 //! Many moving bodies: which of them touch, and in which order.
 
+mod clock;
 mod event;
 mod goal;
 mod groups;
 mod pairs;
 mod race;
-mod settings;
+mod rest;
 mod stops;
 
 use crate::ParallelSolver;
 use ccd_core::glam::DVec3;
-use ccd_core::{Body, Config, Motion, Moving, Pose, SweptBox};
+use ccd_core::{Body, InputError, Motion, Movement, Moving, Pose, Query, Settings, SweptBox};
+use clock::Clock;
 use event::Event;
 pub use event::{Impact, PairError};
 use goal::Goal;
 pub use groups::Groups;
 use race::{Race, Worker};
-use settings::{Clock, Settings};
 use std::num::NonZeroUsize;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 pub use stops::Stop;
 
-/// Many bodies, each with its motion: which of them touch first, or at all.
+/// Many bodies, each with its [motion](ccd_core::Motion) or [trajectory](crate::trajectory): which of them touch first, or at all.
 ///
 /// Only bodies whose ways meet are examined, and the pair that is proven least far goes on next: no pair is proven
 /// much further than the answer needs. Keep a scene from step to step: it reuses its memory.
 ///
 /// # Guarantee
 /// That of [`first_contact`](crate::first_contact), for all pairs together. The answers are those of the pairs
-/// asked one by one, the same bits on any number of threads, unless a [deadline](Config::deadline) or a stop flag
+/// asked one by one, the same bits on any number of threads, unless a [deadline](Settings::deadline) or a stop flag
 /// ends a search. Pairs that boxes tell apart are free, also where one by one they would reach a limit, or be refused
 /// for their distance.
 ///
@@ -58,7 +57,7 @@ pub struct Scene<'a> {
 #[derive(Clone, Copy)]
 struct Member<'a> {
     body: &'a Body,
-    motion: Motion,
+    movement: Movement<'a>,
     mobility: Mobility,
     groups: Groups,
 }
@@ -102,16 +101,18 @@ impl<'a> Scene<'a> {
     fn from(workers: ParallelSolver<Worker>) -> Self {
         Scene {
             members: Vec::new(),
-            settings: Settings::default(),
+            settings: Settings::DEFAULT,
             asked: None,
             workers,
         }
     }
 
-    /// Sets tolerance, margin, start policy and the budget of each pair. A deadline is for all pairs together.
+    /// Sets tolerance, margin, start policy, the budget of each pair, and a flag by which other threads stop the
+    /// search: pairs that are under way then are unresolved, with a certified time. A deadline is for all pairs
+    /// together.
     #[must_use]
-    pub fn with_config(mut self, config: Config) -> Self {
-        self.settings.config = config;
+    pub fn with_settings(mut self, settings: Settings) -> Self {
+        self.settings = settings;
         self
     }
 
@@ -126,56 +127,56 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Lets other threads stop the search: pairs that are under way then are unresolved, with a certified time.
-    #[must_use]
-    pub fn with_stop(mut self, stop: &Arc<AtomicBool>) -> Self {
-        self.settings.stop = Some(Arc::clone(stop));
-        self
-    }
-
-    /// Adds a body, and returns its index. Indices count from 0.
-    pub fn add(&mut self, body: &'a Body, motion: Motion) -> usize {
-        self.push(body, motion, Mobility::Moving)
+    /// Adds a body with a motion or a trajectory, and returns its index. Indices count from 0.
+    pub fn add(&mut self, body: &'a Body, movement: impl Into<Movement<'a>>) -> usize {
+        self.push(body, movement.into(), Mobility::Moving)
     }
 
     /// Adds a body that never moves, such as a level or a workpiece. Two fixed bodies are no pair.
     pub fn add_fixed(&mut self, body: &'a Body, pose: Pose) -> usize {
-        self.push(body, Motion::still(pose), Mobility::Fixed)
+        self.push(body, Motion::still(pose).into(), Mobility::Fixed)
     }
 
-    fn push(&mut self, body: &'a Body, motion: Motion, mobility: Mobility) -> usize {
+    fn push(&mut self, body: &'a Body, movement: Movement<'a>, mobility: Mobility) -> usize {
         self.members.push(Member {
             body,
-            motion,
+            movement,
             mobility,
             groups: Groups::ALL,
         });
         self.members.len() - 1
     }
 
-    /// Changes the motion of a body, for the next step. A fixed body takes one at rest: it is put elsewhere.
+    /// Changes what moves a body, for the next step. A fixed body takes a motion at rest: it is put elsewhere.
     ///
     /// # Errors
     /// [`FixedBody`] for a fixed body that would move: pairs of two fixed bodies are not looked at.
     ///
     /// # Panics
     /// No body has the index.
-    pub fn set_motion(&mut self, index: usize, motion: Motion) -> Result<(), FixedBody> {
-        let member = &mut self.members[index];
-        let rests = [motion.velocity(), motion.spin()] == [DVec3::ZERO; 2];
+    pub fn set_movement(
+        &mut self,
+        index: usize,
+        movement: impl Into<Movement<'a>>,
+    ) -> Result<(), FixedBody> {
+        let (member, movement) = (&mut self.members[index], movement.into());
+        let rests = match movement {
+            Movement::Motion(motion) => [motion.velocity(), motion.spin()] == [DVec3::ZERO; 2],
+            Movement::Trajectory(_) => false,
+        };
         if member.mobility == Mobility::Fixed && !rests {
             return Err(FixedBody { index });
         }
-        member.motion = motion;
+        member.movement = movement;
         Ok(())
     }
 
-    /// Returns the motion of a body.
+    /// Returns what moves a body.
     ///
     /// # Panics
     /// No body has the index.
-    pub fn motion(&self, index: usize) -> Motion {
-        self.members[index].motion
+    pub fn movement(&self, index: usize) -> Movement<'a> {
+        self.members[index].movement
     }
 
     /// Changes the groups of a body.
@@ -247,18 +248,18 @@ impl<'a> Scene<'a> {
 
     /// Returns what happens to the pairs, as far as the goal needs it, in any order.
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
-        let clock = self.settings.clock(duration);
+        let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
         self.race(&pairs, &clock, goal)
     }
 
     fn race(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
         let (members, settings) = (&self.members, &self.settings);
-        let problem = |pair: [usize; 2]| {
-            let pair = pair.map(|index| members[index].moving());
-            settings.problem(pair, clock, 0.0)
+        let query = |pair: [usize; 2]| -> Result<Query<'_>, InputError> {
+            let [a, b] = pair.map(|index| members[index].moving());
+            Ok(Query::new(a, b, clock.duration, settings)?.with_deadline(clock.left()))
         };
-        let race = Race::new(pairs, &problem, clock.duration, goal);
+        let race = Race::new(pairs, &query, clock.duration, goal);
         let threads = self
             .workers
             .threads()
@@ -272,7 +273,7 @@ impl<'a> Scene<'a> {
     /// Returns the pairs that are asked for and whose ways meet.
     fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
         let swept = |member: &Member<'_>| {
-            let swept = member.moving().swept_box(duration, &self.settings.config);
+            let swept = member.moving().swept_box(duration, &self.settings);
             // Each of its pairs tells what is wrong.
             swept.unwrap_or(EVERYWHERE)
         };
@@ -295,10 +296,7 @@ impl Default for Scene<'_> {
 
 impl<'a> Member<'a> {
     fn moving(&self) -> Moving<'a> {
-        Moving {
-            body: self.body,
-            motion: self.motion,
-        }
+        (self.body, self.movement).into()
     }
 }
 

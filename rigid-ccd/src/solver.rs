@@ -1,33 +1,29 @@
-//! Queries, one or many.
+//! Queries, one after another.
 
-mod questions;
-mod settings;
-
-use crate::{Error, Hit};
+use crate::Error;
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
-use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving};
+use ccd_core::{Answer, Body, DistanceOracle, InputError, Moving, Pose, Query, Settings};
 use ccd_distance_gjk::Direct;
-use settings::Settings;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
-/// Finds the first contact of two moving bodies, from time 0 to `duration`; none when they stay apart.
+/// Finds the first contact of two moving bodies, from time 0 to `duration`.
 ///
-/// Each body comes with its motion. Lengths are in the scene's unit, times in the motions' unit, angles
-/// in radians. A contact is a distance of at most 0.001; a [`Solver`] takes another tolerance.
+/// Each body comes with its motion, its [trajectory](crate::trajectory), or the pose at which it rests. Lengths are in
+/// the scene's unit, times in the motions' unit, angles in radians. A contact is a distance of at most 0.001; a [`Solver`]
+/// takes other settings.
 ///
 /// # Guarantee
-/// No contact happens before the time of the hit. Without a hit, no contact happens within the duration.
+/// No contact happens before the time of a [hit](Answer::hit). Without a hit, no contact happens within the duration.
 ///
 /// # Errors
-/// [`Error::Input`] for a duration or a motion out of range, [`Error::Unresolved`] when a limit is reached
-/// first.
+/// An [`InputError`] for a duration or a motion out of range. A query that reaches a limit is no error here: its outcome
+/// is [unresolved](crate::Outcome::Unresolved), with a time before which no contact happens. [`Answer::hit`] makes an error
+/// of it.
 ///
 /// ```
 /// use rigid_ccd::{Body, Motion, Pose, first_contact};
 /// let ball = Body::ball(0.5)?;
 /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [4.0, 0.0, 0.0], [0.0; 3])?;
-/// let hit = first_contact((&ball, flies), (&ball, Motion::STILL), 1.0)?.expect("they meet");
+/// let hit = first_contact((&ball, flies), (&ball, Motion::STILL), 1.0)?.hit()?.expect("they meet");
 /// assert!(hit.time <= 0.5 && hit.time > 0.499);
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
@@ -35,20 +31,23 @@ pub fn first_contact<'b>(
     a: impl Into<Moving<'b>>,
     b: impl Into<Moving<'b>>,
     duration: f64,
-) -> Result<Option<Hit>, Error> {
+) -> Result<Answer, InputError> {
     Solver::new().first_contact(a, b, duration)
 }
 
 /// A solver for many queries, which reuses its memory. A [`ParallelSolver`](crate::ParallelSolver) has one
 /// for each thread.
 ///
+/// There is one method for each question. Each takes two bodies with anything that moves them: a
+/// [motion](crate::Motion), a [trajectory](crate::trajectory), or a pose.
+///
 /// ```
-/// use rigid_ccd::{Body, Config, Motion, Pose, Solver};
-/// let mut solver = Solver::new().with_config(Config { tolerance: 1e-6, ..Config::default() });
+/// use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
+/// let mut solver = Solver::new().with_settings(Settings { tolerance: 1e-6, ..Settings::DEFAULT });
 /// let (ball, wall) = (Body::ball(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
 /// for speed in [1.0, 2.0, 4.0] {
 ///     let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3])?;
-///     match solver.first_contact((&ball, flies), (&wall, Motion::STILL), 1.0)? {
+///     match solver.first_contact((&ball, flies), (&wall, Pose::IDENTITY), 1.0)?.hit()? {
 ///         Some(hit) => assert!(hit.time > 0.599 && speed > 2.0),
 ///         None => assert!(speed <= 2.0),
 ///     }
@@ -56,7 +55,7 @@ pub fn first_contact<'b>(
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub struct Solver<O: DistanceOracle = Direct> {
-    schedule: BestFirst<O>,
+    best_first: BestFirst<O>,
     depth_first: DepthFirst<O>,
     oracle: O,
     settings: Settings,
@@ -79,81 +78,241 @@ impl<O: DistanceOracle> Solver<O> {
     /// Creates a solver with another distance backend, such as [`Gjk`](crate::Gjk) or your own.
     pub fn with_oracle(oracle: O) -> Self {
         Solver {
-            schedule: BestFirst::default(),
+            best_first: BestFirst::default(),
             depth_first: DepthFirst::default(),
             oracle,
-            settings: Settings::default(),
+            settings: Settings::DEFAULT,
         }
     }
 
-    /// Sets tolerance, margin, start policy, budget and deadline.
-    pub fn with_config(mut self, config: Config) -> Self {
-        self.set_config(config);
-        self
-    }
-
-    /// Changes tolerance, margin, start policy, budget and deadline of the queries that follow.
-    pub fn set_config(&mut self, config: Config) {
-        self.settings.config = config;
-    }
-
-    /// Lets other threads stop queries: once the flag is set, each ends soon, unresolved, with a certified
-    /// time ([`Limit::Stopped`](crate::Limit::Stopped)).
-    ///
-    /// ```
-    /// use rigid_ccd::Solver;
-    /// use std::sync::{Arc, atomic::AtomicBool};
-    /// let stop = Arc::new(AtomicBool::new(false));
-    /// let solver = Solver::new().with_stop(&stop);
-    /// ```
+    /// Sets tolerance, margin, start policy, budget, deadline, and a flag by which other threads stop queries.
     #[must_use]
-    pub fn with_stop(mut self, stop: &Arc<AtomicBool>) -> Self {
-        self.settings.stop = Some(Arc::clone(stop));
+    pub fn with_settings(mut self, settings: Settings) -> Self {
+        self.settings = settings;
         self
+    }
+
+    /// Changes the settings of the queries that follow.
+    pub fn set_settings(&mut self, settings: Settings) {
+        self.settings = settings;
     }
 
     /// Finds the first contact of two moving bodies, as the function [`first_contact`] does.
     ///
+    /// Along trajectories other than motions, contacts at the start are always reported.
+    ///
     /// # Errors
-    /// The errors of [`first_contact`].
+    /// An [`InputError`] for a duration or a motion out of range, and those of trajectories.
+    ///
+    /// ```
+    /// use rigid_ccd::trajectory::Ballistic;
+    /// use rigid_ccd::{Body, Motion, Pose, Solver};
+    /// let (ball, ground) = (Body::ball(0.5)?, Body::cuboid([9.0, 9.0, 1.0])?);
+    /// let thrown = Motion::new(Pose::at([0.0, 0.0, 3.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
+    /// let falls = Ballistic::new(thrown, [0.0, 0.0, -10.0])?;
+    /// let answer = Solver::new().first_contact((&ball, &falls), (&ground, Motion::STILL), 1.0)?;
+    /// // It falls by 1.5.
+    /// assert!((answer.hit()?.expect("it lands").time - 0.3f64.sqrt()).abs() < 1e-3);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
     pub fn first_contact<'b>(
         &mut self,
         a: impl Into<Moving<'b>>,
         b: impl Into<Moving<'b>>,
         duration: f64,
-    ) -> Result<Option<Hit>, Error> {
-        Hit::from_answer(&self.answer(a, b, duration)?)
+    ) -> Result<Answer, InputError> {
+        let query = posed(a, b, duration, &self.settings)?;
+        self.best_first.first_contact(&query, &mut self.oracle)
     }
 
-    /// Returns the full answer: the outcome, the tolerance and the statistics.
+    /// Returns whether two moving bodies stay apart, by more than the margin.
     ///
-    /// A query that reaches a limit is an outcome here,
-    /// [`Outcome::Unresolved`](crate::Outcome::Unresolved), not an error. The time of every outcome has
-    /// the guarantee of [`first_contact`].
+    /// It costs as much as the first contact for bodies that stay apart, and less for others.
+    ///
+    /// # Guarantee
+    /// Bodies that are free never touch. For others there is a time at which they are within margin +
+    /// tolerance.
     ///
     /// # Errors
-    /// The errors of [`Problem::new`](crate::Problem::new): a duration or a motion out of range.
+    /// Those of [`Solver::first_contact`], and [`Error::Unresolved`] if a limit is reached first.
     ///
     /// ```
-    /// use rigid_ccd::{Body, Motion, Outcome, Pose, Solver};
+    /// use rigid_ccd::{Body, Motion, Pose, Solver};
     /// let ball = Body::ball(0.5)?;
-    /// let apart = Motion::still(Pose::at([3.0, 0.0, 0.0])?);
-    /// let answer = Solver::new().answer((&ball, apart), (&ball, Motion::STILL), 1.0)?;
-    /// assert!(matches!(answer.outcome, Outcome::Free { proven_gap } if proven_gap > 0.0));
+    /// let passes = Motion::new(Pose::at([-3.0, 1.01, 0.0])?, [4.0, 0.0, 0.0], [0.0; 3])?;
+    /// assert!(Solver::new().is_free((&ball, passes), (&ball, Motion::STILL), 1.0)?);
     /// # Ok::<(), rigid_ccd::Error>(())
     /// ```
-    pub fn answer<'b>(
+    pub fn is_free<'b>(
+        &mut self,
+        a: impl Into<Moving<'b>>,
+        b: impl Into<Moving<'b>>,
+        duration: f64,
+    ) -> Result<bool, Error> {
+        Ok(self.any_contact(a, b, duration)?.hit()?.is_none())
+    }
+
+    /// Returns any contact of two moving bodies: perhaps not the first one.
+    ///
+    /// # Errors
+    /// Those of [`Solver::first_contact`].
+    pub fn any_contact<'b>(
         &mut self,
         a: impl Into<Moving<'b>>,
         b: impl Into<Moving<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let problem = self.settings.problem(a, b, duration)?;
-        Ok(self.schedule.solve(&problem, &mut self.oracle))
+        let query = posed(a, b, duration, &self.settings)?;
+        self.depth_first.any_contact(&query, &mut self.oracle)
     }
 
-    #[cfg(feature = "command")]
-    pub(crate) fn solve(&mut self, problem: &ccd_core::Problem<'_>) -> Answer {
-        self.schedule.solve(problem, &mut self.oracle)
+    /// Returns when two moving bodies first and last touch.
+    ///
+    /// # Guarantee
+    /// They do not touch before the first time nor after the last.
+    ///
+    /// # Errors
+    /// Those of [`Solver::first_contact`].
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Outcome, Pose, Solver};
+    /// let ball = Body::ball(0.5)?;
+    /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
+    /// let answer = Solver::new().contact_interval((&ball, flies), (&ball, Motion::STILL), 1.0)?;
+    /// let Outcome::Interval { first, last } = answer.outcome else { panic!("it passes through") };
+    /// assert!((first.time - 2.0 / 6.0).abs() < 1e-3 && (last.time - 4.0 / 6.0).abs() < 1e-3);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn contact_interval<'b>(
+        &mut self,
+        a: impl Into<Moving<'b>>,
+        b: impl Into<Moving<'b>>,
+        duration: f64,
+    ) -> Result<Answer, InputError> {
+        let query = posed(a, b, duration, &self.settings)?;
+        self.best_first.contact_interval(&query, &mut self.oracle)
+    }
+
+    /// Brackets the least distance of two moving bodies, to within the tolerance, with its time and the nearest
+    /// pieces; or answers whether they keep a required [clearance](Settings::clearance), which costs about as much
+    /// as [`Solver::is_free`] with that margin.
+    ///
+    /// The margin and the start policy play no role.
+    ///
+    /// # Guarantee
+    /// The bodies are never nearer than the lower bound, and at that time at most the upper bound apart; so are the shapes
+    /// that they [exceed](Body::with_excess).
+    ///
+    /// # Errors
+    /// Those of [`Solver::first_contact`].
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Clearance, Motion, Pose, Settings, Solver};
+    /// let ball = Body::ball(0.5)?;
+    /// let passes = Motion::new(Pose::at([-3.0, 1.2, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
+    /// let closest = Solver::new().closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
+    /// assert!(closest.outcome.lower() <= 0.2 && closest.outcome.upper() >= 0.2);
+    /// assert_eq!(closest.outcome.clearance(0.19), Clearance::Kept);
+    ///
+    /// let keeping = Settings { clearance: Some(0.1), ..Settings::DEFAULT };
+    /// let mut solver = Solver::new().with_settings(keeping);
+    /// let closest = solver.closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
+    /// assert_eq!(closest.outcome.clearance(0.1), Clearance::Kept);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn closest_approach<'b>(
+        &mut self,
+        a: impl Into<Moving<'b>>,
+        b: impl Into<Moving<'b>>,
+        duration: f64,
+    ) -> Result<Answer, InputError> {
+        let query = posed(a, b, duration, &self.settings)?;
+        self.depth_first.closest_approach(&query, &mut self.oracle)
+    }
+
+    /// Brackets the greatest distance of two moving bodies, to within the tolerance, with its time and the nearest
+    /// pieces then.
+    ///
+    /// The distance is that of the nearest points at each time, and 0 where the bodies overlap. The margin and the start
+    /// policy play no role.
+    ///
+    /// # Guarantee
+    /// The bodies are never farther apart than the upper bound, and at that time at least the lower bound; so are the shapes
+    /// that they [exceed](Body::with_excess).
+    ///
+    /// # Errors
+    /// Those of [`Solver::first_contact`].
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Pose, Solver};
+    /// // A lid lifts from its case, and must stay within 3 mm.
+    /// let (lid, case) = (Body::cuboid([100.0, 100.0, 2.0])?, Body::cuboid([100.0, 100.0, 50.0])?);
+    /// let lifts = Motion::new(Pose::at([0.0, 0.0, 52.1])?, [0.0, 0.0, 2.0], [0.0; 3])?;
+    /// let found = Solver::new().greatest_distance((&lid, lifts), (&case, Motion::STILL), 1.0)?.outcome;
+    /// assert!(found.upper() < 3.0 && found.lower() > 2.0);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn greatest_distance<'b>(
+        &mut self,
+        a: impl Into<Moving<'b>>,
+        b: impl Into<Moving<'b>>,
+        duration: f64,
+    ) -> Result<Answer, InputError> {
+        let query = posed(a, b, duration, &self.settings)?;
+        self.depth_first.greatest_distance(&query, &mut self.oracle)
+    }
+
+    /// Brackets the distance of two bodies at rest, as narrowly as f64 allows, with the nearest pieces.
+    ///
+    /// # Errors
+    /// An [`InputError`] for a pose out of range.
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Pose, Solver};
+    /// let (ball, cube) = (Body::ball(0.5)?, Body::cuboid([1.0; 3])?);
+    /// let beside = Pose::at([4.0, 0.0, 0.0])?;
+    /// let found = Solver::new().distance((&ball, beside), (&cube, Pose::IDENTITY))?.outcome;
+    /// assert!((found.lower() - 2.5).abs() < 1e-4 && (found.upper() - 2.5).abs() < 1e-12);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn distance(&mut self, a: (&Body, Pose), b: (&Body, Pose)) -> Result<Answer, InputError> {
+        self.closest_approach(a, b, 0.0)
+    }
+
+    /// Answers a question, with the settings of the query.
+    ///
+    /// # Errors
+    /// Those of trajectories.
+    #[cfg(feature = "tables")]
+    pub fn answer(
+        &mut self,
+        question: crate::batch::Question,
+        query: &Query<'_>,
+    ) -> Result<Answer, InputError> {
+        use crate::batch::Question;
+        let oracle = &mut self.oracle;
+        match question {
+            Question::FirstContact => self.best_first.first_contact(query, oracle),
+            Question::IsFree => self.depth_first.any_contact(query, oracle),
+            Question::ContactInterval => self.best_first.contact_interval(query, oracle),
+            Question::ClosestApproach | Question::Distance => {
+                self.depth_first.closest_approach(query, oracle)
+            }
+            Question::GreatestDistance => self.depth_first.greatest_distance(query, oracle),
+        }
     }
 }
+
+/// Poses a query that borrows the settings.
+fn posed<'s, 'b: 's>(
+    a: impl Into<Moving<'b>>,
+    b: impl Into<Moving<'b>>,
+    duration: f64,
+    settings: &'s Settings,
+) -> Result<Query<'s>, InputError> {
+    let (a, b): (Moving<'b>, Moving<'b>) = (a.into(), b.into());
+    Query::new(a, b, duration, settings)
+}
+
+#[cfg(test)]
+mod tests;

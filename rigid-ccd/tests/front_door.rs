@@ -1,10 +1,10 @@
 //! The public interface gives the answers of the engine.
 
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::schedule::{BestFirst, Schedule};
+use rigid_ccd::schedule::BestFirst;
 use rigid_ccd::{
-    Body, Config, Direct, DistanceOracle, Error, Gjk, HitKind, InputError, Limit, Motion, Outcome,
-    Overlap, Pose, Problem, Solver, first_contact,
+    Answer, Body, Direct, DistanceOracle, Error, Gjk, HitKind, InputError, Limit, Motion, Outcome,
+    Overlap, Pose, Query, Schedule, Settings, Solver, first_contact,
 };
 
 fn capsule() -> Body {
@@ -26,25 +26,24 @@ fn moving(x: f64, speed: f64) -> Motion {
 #[test]
 fn hits_are_the_engines_bit_for_bit() {
     let (a, b) = (capsule(), cuboid());
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-5,
         margin: 0.01,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let mut solver = Solver::new().with_config(config);
+    let mut solver = Solver::new().with_settings(config.clone());
     let (mut schedule, mut oracle) = (BestFirst::default(), Direct::default());
     let (mut hits, mut misses) = (0, 0);
     for k in 0..50 {
         let flies = moving(-3.0, 0.1 * f64::from(k));
-        let problem = Problem::new((&a, flies), (&b, Motion::STILL), 1.0, &config).unwrap();
-        let answer = schedule.solve(&problem, &mut oracle);
+        let query = Query::new((&a, flies), (&b, Motion::STILL), 1.0, &config).unwrap();
+        let answer = schedule.first_contact(&query, &mut oracle).unwrap();
         let found = solver.first_contact((&a, flies), (&b, Motion::STILL), 1.0);
-        match (answer.outcome, found.unwrap()) {
+        match (answer.outcome, found.unwrap().hit().unwrap()) {
             (Outcome::Contact { time, contact }, Some(hit)) => {
-                assert_eq!((hit.time, hit.contact), (time, Some(contact)));
-                assert_eq!(hit.kind, HitKind::Contact);
-                assert_eq!(hit.witness_a, contact.separation.witness_a);
-                assert_eq!(hit.witness_b, contact.separation.witness_b);
+                assert_eq!((hit.time, hit.kind), (time, HitKind::Contact(contact)));
+                assert_eq!(hit.witness_a(), contact.separation.witness_a);
+                assert_eq!(hit.witness_b(), contact.separation.witness_b);
                 hits += 1;
             }
             (Outcome::Free { .. }, None) => misses += 1,
@@ -58,12 +57,16 @@ fn hits_are_the_engines_bit_for_bit() {
 fn contacts_at_the_start_are_hits_at_time_0() {
     let (a, b) = (cuboid(), cuboid());
     let touching = first_contact((&a, Motion::still(shifted(1.0))), (&b, Motion::STILL), 1.0);
-    let touching = touching.unwrap().unwrap();
-    assert_eq!((touching.time, touching.kind), (0.0, HitKind::Touching));
+    let touching = touching.unwrap().hit().unwrap().unwrap();
+    assert_eq!(touching.time, 0.0);
+    assert!(
+        matches!(touching.kind, HitKind::Touching(_)),
+        "{touching:?}"
+    );
     let across = first_contact((&a, Motion::still(shifted(0.3))), (&b, Motion::STILL), 1.0);
-    let across = across.unwrap().unwrap();
+    let across = across.unwrap().hit().unwrap().unwrap();
     assert_eq!(across.time, 0.0);
-    let pieces = HitKind::Overlapping(Overlap::Pieces(across.contact.unwrap()));
+    let pieces = HitKind::Overlapping(Overlap::Pieces(across.contact().unwrap()));
     assert_eq!(across.kind, pieces);
 }
 
@@ -74,17 +77,16 @@ fn shifted(x: f64) -> Pose {
 #[test]
 fn a_limit_is_an_error_with_a_certified_time() {
     let (a, b) = (capsule(), cuboid());
-    let mut solver = Solver::with_oracle(Gjk).with_config(Config {
+    let mut solver = Solver::with_oracle(Gjk).with_settings(Settings {
         budget: 1,
-        ..Config::default()
+        ..Settings::DEFAULT
     });
     let found = solver.first_contact((&a, moving(-3.0, 4.0)), (&b, Motion::STILL), 1.0);
-    let Err(Error::Unresolved { safe_until, reason }) = found else {
-        panic!("{found:?}");
-    };
-    assert_eq!(reason, Limit::Budget);
+    let known = found.unwrap().hit().unwrap_err();
+    let (safe_until, limit) = (known.safe_until, known.limit);
+    assert_eq!(limit, Limit::Budget);
     assert!((0.0..0.6).contains(&safe_until), "{safe_until}");
-    let message = found.unwrap_err().to_string();
+    let message = Error::from(known).to_string();
     assert!(message.starts_with("unresolved (budget): "), "{message}");
 }
 
@@ -92,7 +94,7 @@ fn a_limit_is_an_error_with_a_certified_time() {
 fn invalid_input_is_an_error() {
     let ball = Body::ball(0.5).unwrap();
     let found = first_contact((&ball, Motion::STILL), (&ball, Motion::STILL), -1.0);
-    let out_of_range = |error| matches!(error, Error::Input(InputError::OutOfRange { .. }));
+    let out_of_range = |error| matches!(error, InputError::OutOfRange { .. });
     assert!(found.is_err_and(out_of_range));
     assert!(Pose::at([f64::NAN, 0.0, 0.0]).is_err());
 }
@@ -109,7 +111,7 @@ fn vectors_are_arrays_or_convert_into_them() {
 fn backends_agree() {
     let (a, b) = (capsule(), cuboid());
     let query = ((&a, moving(-3.0, 4.0)), (&b, Motion::STILL));
-    let time = |found: Result<Option<rigid_ccd::Hit>, Error>| found.unwrap().unwrap().time;
+    let time = |found: Result<Answer, InputError>| found.unwrap().hit().unwrap().unwrap().time;
     let by_default = time(first_contact(query.0, query.1, 1.0));
     let mut gjk = Solver::with_oracle(Gjk);
     let mut both = Solver::with_oracle(rigid_ccd::ClosedForm::default().or_else(Gjk));
@@ -129,9 +131,9 @@ fn meshes_are_loaded_from_files() {
     let inside = Motion::still(Pose::at([0.2, 0.5, 1.0]).unwrap());
     let ball = Body::ball(0.05).unwrap();
     let hit = first_contact((&ball, inside), (&bracket, Motion::STILL), 1.0).unwrap();
-    let hit = hit.expect("the bracket is solid");
-    let inside = HitKind::Overlapping(Overlap::AInsideB(hit.witness_a));
-    assert_eq!((hit.kind, hit.contact), (inside, None));
+    let hit = hit.hit().unwrap().expect("the bracket is solid");
+    let inside = HitKind::Overlapping(Overlap::AInsideB(hit.witness_a()));
+    assert_eq!((hit.kind, hit.contact()), (inside, None));
     let missing = rigid_ccd::load(format!("{folder}/none.obj")).unwrap_err();
     assert!(missing.to_string().contains("none.obj"), "{missing}");
 }

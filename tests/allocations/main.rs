@@ -19,8 +19,8 @@ fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
     for number in 0..QUERIES {
         let posed = mixed.posed(number);
         let [a, b] = [0, 1].map(|k| mixed.moving(&posed, k));
-        solver.set_config(posed.config);
-        let answer = solver.answer(a, b, 1.0).expect("a well-posed query");
+        solver.set_settings(posed.config);
+        let answer = solver.first_contact(a, b, 1.0).expect("a well-posed query");
         if let Outcome::Touching { .. } | Outcome::Overlapping { .. } = answer.outcome {
             at_start += 1;
         }

@@ -9,7 +9,7 @@ use std::cell::Cell;
 #[test]
 fn all_setups_agree_unless_the_distance_is_within_the_tolerance() {
     let (hits, misses) = (Cell::new(0), Cell::new(0));
-    check_cases(500, cases(), |case| {
+    check_cases(200, cases(), |case| {
         let query = case.query();
         // Contact is right as soon as the distance is the tolerance. Free is right until it is 0.
         let first = Referee::with_margin(&query, case.tolerance).finding();
@@ -35,8 +35,5 @@ fn all_setups_agree_unless_the_distance_is_within_the_tolerance() {
             _ => Ok(()),
         }
     });
-    assert!(
-        hits.get() > 150 && misses.get() > 100,
-        "{hits:?} {misses:?}"
-    );
+    assert!(hits.get() > 60 && misses.get() > 40, "{hits:?} {misses:?}");
 }

@@ -5,8 +5,8 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{
-    Body, Config, Face, Facet, Hierarchy, HierarchyNode, InputError, Motion, Moving, Origin,
-    Pieces, Polytope, Pose, Problem, Volume,
+    Body, Face, Facet, Hierarchy, HierarchyNode, InputError, Motion, Moving, Origin, Pieces,
+    Polytope, Pose, Settings, Volume,
 };
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -59,42 +59,39 @@ fn a_zero_quaternion_is_refused() {
 #[test]
 fn durations_tolerances_and_margins_have_their_range() {
     let body = cube();
-    let still = Moving {
-        body: &body,
-        motion: Motion::still(Pose::IDENTITY),
-    };
-    let good = Config::default();
-    let refused = |duration: f64, config: Config, message: &str| {
-        let error = Problem::new(still, still, duration, &config).expect_err("bad input");
+    let still = Moving::from((&body, Motion::still(Pose::IDENTITY)));
+    let good = Settings::DEFAULT;
+    let refused = |duration: f64, config: Settings, message: &str| {
+        let error = ccd_core::Query::new(still, still, duration, &config).expect_err("bad input");
         assert!(matches!(error, InputError::OutOfRange { .. }), "{error:?}");
         assert_eq!(error.to_string(), message);
     };
     for (bad, text) in OUT_OF_RANGE {
         let message = format!("duration is {text}, but must be at least 0 and finite");
-        refused(bad, good, &message);
-        let config = Config {
+        refused(bad, good.clone(), &message);
+        let config = Settings {
             tolerance: bad,
-            ..good
+            ..good.clone()
         };
         let message = format!("tolerance is {text}, but must be from 1e-100 to 1e12");
         refused(1.0, config, &message);
-        let config = Config {
+        let config = Settings {
             margin: bad,
-            ..good
+            ..good.clone()
         };
         let message = format!("margin is {text}, but must be at least 0 and at most 1e12");
         refused(1.0, config, &message);
     }
-    let config = Config {
+    let config = Settings {
         tolerance: 0.0,
-        ..good
+        ..good.clone()
     };
     refused(
         1.0,
         config,
         "tolerance is 0, but must be from 1e-100 to 1e12",
     );
-    assert!(Problem::new(still, still, 0.0, &good).is_ok());
+    assert!(ccd_core::Query::new(still, still, 0.0, &good).is_ok());
     for (duration, text) in OUT_OF_RANGE.into_iter().chain([(0.0, "0")]) {
         let motion = Motion::between(Pose::IDENTITY, Pose::IDENTITY, DVec3::ZERO, duration);
         let message = format!("duration is {text}, but must be positive and finite");
@@ -114,15 +111,9 @@ fn motions_have_a_range() {
     let body = cube();
     let problem = |velocity: DVec3, spin: DVec3| {
         let far = Pose::at(10.0 * DVec3::X).expect("finite");
-        let fast = Moving {
-            body: &body,
-            motion: Motion::new(far, velocity, spin).expect("finite"),
-        };
-        let still = Moving {
-            body: &body,
-            motion: Motion::still(Pose::IDENTITY),
-        };
-        Problem::new(fast, still, 1.0, &Config::default())
+        let fast = Moving::from((&body, Motion::new(far, velocity, spin).expect("finite")));
+        let still = Moving::from((&body, Motion::still(Pose::IDENTITY)));
+        ccd_core::Query::new(fast, still, 1.0, &Settings::DEFAULT)
     };
     for (speed, text) in [
         (1e12, "1.00000000001e12"),

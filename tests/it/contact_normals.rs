@@ -1,7 +1,7 @@
 //! The normal of a contact is in the normal cones of both surfaces, also where the bodies have no gap.
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Config, Motion, Outcome, Pose, Separation};
+use ccd_core::{Motion, Outcome, Pose, Separation, Settings};
 use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::models::{Mesh, Shape, cuboid, dented_cube, l_prism};
 use ccd_tests::query::{Actor, Query};
@@ -29,7 +29,8 @@ fn normals_are_in_the_cones_of_both_surfaces() {
     for round in 0..runner(150).config().cases {
         let touch = Touch::draw(rng);
         for bodies in touch.query.all_bodies() {
-            let problem = touch.query.problem(&bodies, &touch.config());
+            let settings = touch.config();
+            let problem = touch.query.problem(&bodies, &settings);
             let pairs = problem.contacts_at(0.0).unwrap();
             assert!(!pairs.is_empty(), "{round} {:?}", bodies.kinds);
             for pair in &pairs {
@@ -104,10 +105,10 @@ impl Touch {
         }
     }
 
-    fn config(&self) -> Config {
-        Config {
+    fn config(&self) -> Settings {
+        Settings {
             tolerance: 2e-3,
-            ..Config::default()
+            ..Settings::DEFAULT
         }
     }
 

@@ -42,15 +42,20 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
     Ok(points)
 }
 
-/// Checks a model without faults, in every order.
+/// Checks a model without faults, in every order: with the given effort in the default order, quickly in the others.
 fn check_model(model: &Model, effort: Effort) {
-    for order in ORDERS {
-        let (name, mesh) = (&model.name, &model.shape.mesh);
-        let decomposition = decomposed(&model.shape, order)
-            .unwrap_or_else(|error| panic!("{name}, {order:?}: {error}"));
-        check(mesh, &decomposition, effort)
-            .unwrap_or_else(|why| panic!("{name}, {order:?}: {why}"));
+    check_in(Order::Cresting, model, effort);
+    for order in [Order::BreadthFirst, Order::DepthFirst] {
+        check_in(order, model, Effort::QUICK);
     }
+}
+
+fn check_in(order: Order, model: &Model, effort: Effort) {
+    let name = &model.name;
+    decomposed(&model.shape, order)
+        .map_err(|error| error.to_string())
+        .and_then(|decomposition| check(&model.shape.mesh, &decomposition, effort))
+        .unwrap_or_else(|why| panic!("{name}, {order:?}: {why}"));
 }
 
 #[test]
@@ -63,15 +68,15 @@ fn patches_of_solids() {
 #[test]
 fn patches_of_solids_in_general_position() {
     for model in solids() {
-        check_model(&model.turned(), Effort::THOROUGH);
+        check_in(Order::Cresting, &model.turned(), Effort::THOROUGH);
     }
 }
 
 #[test]
 fn patches_of_thousands_of_faces() {
-    let mut knots = vec![(120, 12), (240, 24)];
+    let mut knots = vec![(120, 12)];
     if std::env::var_os("CCD_TEST_SLOW").is_some() {
-        knots.push((480, 36));
+        knots.extend([(240, 24), (480, 36)]);
     }
     for (rings, sides) in knots {
         let name = format!("knot of {rings} rings");
@@ -125,11 +130,11 @@ fn patches_of_random_solids() {
             }
         }
     };
-    runner(300)
+    runner(120)
         .run(&(shapes, turn, grid, order), law)
         .unwrap_or_else(|error| panic!("{error}"));
     assert!(
-        whole.get() > 200 && faulty.get() >= 5,
+        whole.get() > 80 && faulty.get() >= 2,
         "{whole:?} {faulty:?}"
     );
 }
@@ -189,6 +194,9 @@ fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
                 decomposed(&flipped, order).expect(&model.name),
             );
             assert_eq!(sorted(&here), sorted(&there), "{}, {order:?}", model.name);
+            if order != Order::Cresting {
+                continue;
+            }
             check(&flipped.mesh, &there, Effort::QUICK)
                 .unwrap_or_else(|why| panic!("{}, {order:?}: {why}", model.name));
         }

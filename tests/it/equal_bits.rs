@@ -12,7 +12,7 @@ use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn every_setup_repeats_itself() {
-    check_cases(250, cases(), |case| {
+    check_cases(100, cases(), |case| {
         let (query, config) = (case.query(), case.config());
         let mut first = Vec::new();
         for_each_setup(&query, &config, |_, _, answer| {
@@ -51,7 +51,7 @@ used_as_fresh! {
 
 fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
     let (mut schedule, mut oracle) = (S::default(), O::default());
-    for case in sample(200) {
+    for case in sample(100) {
         let query = case.query();
         // Patches have facets, over which marching keeps its position from call to call.
         let shapes = [&query.a.shape, &query.b.shape];
@@ -61,9 +61,12 @@ fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
             if bodies.pairs() > 1_000 {
                 continue;
             }
-            let problem = query.problem(&bodies, &case.config());
-            let used = schedule.solve(&problem, &mut oracle);
-            let fresh = S::default().solve(&problem, &mut O::default());
+            let settings = case.config();
+            let problem = query.problem(&bodies, &settings);
+            let used = schedule.first_contact(&problem, &mut oracle).unwrap();
+            let fresh = S::default()
+                .first_contact(&problem, &mut O::default())
+                .unwrap();
             let (used, fresh) = (format!("{used:?}"), format!("{fresh:?}"));
             assert_eq!(used, fresh, "{}", case.to_toml());
         }

@@ -1,8 +1,9 @@
 //! Bodies that slide on flat ground, however it is cut into triangles, feel none of its inner edges: only what stands
 //! on it.
 
+use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
-use ccd_core::{Body, Config, Limit, Motion, Outcome, Pose, StartPolicy};
+use ccd_core::{Body, Limit, Motion, Outcome, Pose, Settings, StartPolicy};
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::models::{Kind, Mesh, Shape, cuboid, dented_cube, icosphere, l_block};
 use ccd_tests::query::{Actor, Query};
@@ -18,10 +19,10 @@ const HALF: f64 = 8.0;
 /// The time before the true one from which on a contact may be reported: bodies are let go at the least tolerance.
 const EARLY: f64 = 1e-9;
 
-fn leave() -> Config {
-    Config {
+fn leave() -> Settings {
+    Settings {
         start: StartPolicy::Leave,
-        ..Config::default()
+        ..Settings::DEFAULT
     }
 }
 
@@ -189,10 +190,11 @@ fn what_stands_on_cut_ground_is_found_at_its_time() {
                 let time = match answer.outcome {
                     Outcome::Contact { time, .. } => time,
                     // Pieces that an oracle's axis does not tell apart so near to each other.
-                    Outcome::Unresolved {
+                    Outcome::Unresolved(Unresolved {
                         safe_until,
-                        reason: Limit::Stalled,
-                    } => safe_until,
+                        limit: Limit::Stalled,
+                        ..
+                    }) => safe_until,
                     other => panic!("seed {seed}\n{setup:?}\n{other:?}"),
                 };
                 let on_time = truth - EARLY <= time && time <= truth + 1e-14;
@@ -220,9 +222,9 @@ fn ground_of_a_thousand_triangles_is_as_one() {
                 rng.random_range(-1.0..1.0) * DVec3::Z,
             );
             let motion = motion.expect("a motion");
-            let mut solver = Solver::new().with_config(leave());
+            let mut solver = Solver::new().with_settings(leave());
             let answer = solver
-                .answer((&mover, motion), (&ground, Motion::STILL), 1.0)
+                .first_contact((&mover, motion), (&ground, Motion::STILL), 1.0)
                 .expect("a query");
             let free = matches!(answer.outcome, Outcome::Free { .. });
             assert!(free, "seed {seed}\n{answer:?}");
@@ -251,9 +253,9 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
             2.0 * speed * DVec3::Y,
         );
         let rolling = rolling.expect("a motion");
-        let mut solver = Solver::new().with_config(leave());
+        let mut solver = Solver::new().with_settings(leave());
         let mut outcome = |ground, duration| {
-            let answer = solver.answer((&ball, rolling), (ground, Motion::STILL), duration);
+            let answer = solver.first_contact((&ball, rolling), (ground, Motion::STILL), duration);
             answer.expect("a query").outcome
         };
         let free = outcome(&open, 1.0);

@@ -1,7 +1,8 @@
 //! Every query ends: an exhausted budget leaves it unresolved, up to a certified time.
 
+use ccd_core::Unresolved;
 use ccd_core::schedule::BestFirst;
-use ccd_core::{Claim, Config, DistanceOracle, GiveUp, Limit, Outcome, PiecePair, Schedule};
+use ccd_core::{Claim, DistanceOracle, GiveUp, Limit, Outcome, PiecePair, Schedule, Settings};
 use ccd_distance_gjk::Gjk;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::Judge;
@@ -13,21 +14,21 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[test]
 fn a_small_budget_ends_in_a_certified_time() {
     let unresolved = Cell::new(0);
-    check_cases(250, cases(), |case| {
+    check_cases(100, cases(), |case| {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
         let mut law = Ok(());
         for budget in [0, 1, 10, 100] {
-            let config = Config {
+            let config = Settings {
                 budget,
                 ..case.config()
             };
             for_each_setup(&query, &config, |bodies, setup, answer| {
                 let this = match answer.outcome {
-                    Outcome::Unresolved {
-                        reason: Limit::Budget,
+                    Outcome::Unresolved(Unresolved {
+                        limit: Limit::Budget,
                         ..
-                    } => {
+                    }) => {
                         unresolved.set(unresolved.get() + 1);
                         judge.check_time(&answer, 0.0)
                     }
@@ -41,7 +42,7 @@ fn a_small_budget_ends_in_a_certified_time() {
         law
     });
     assert!(
-        unresolved.get() > 100,
+        unresolved.get() > 40,
         "only {} runs ran out of budget",
         unresolved.get()
     );
@@ -50,18 +51,18 @@ fn a_small_budget_ends_in_a_certified_time() {
 #[test]
 fn the_certified_time_grows_with_the_budget() {
     let grown = Cell::new(0);
-    check_cases(250, cases(), |case| {
+    check_cases(100, cases(), |case| {
         let query = case.query();
         let bodies = query.triangles();
         let mut last = 0.0;
         for budget in [1, 4, 16, 64, 256, 1024] {
-            let config = Config {
+            let config = Settings {
                 budget,
                 ..case.config()
             };
             let problem = query.problem(&bodies, &config);
             let answer = ccd_tests::backends::Backend::DEFAULT.solve(&problem);
-            let Outcome::Unresolved { safe_until, .. } = answer.outcome else {
+            let Outcome::Unresolved(Unresolved { safe_until, .. }) = answer.outcome else {
                 return Ok(());
             };
             if safe_until < last {
@@ -72,7 +73,7 @@ fn the_certified_time_grows_with_the_budget() {
         }
         Ok(())
     });
-    assert!(grown.get() > 100, "grew {} times", grown.get());
+    assert!(grown.get() > 40, "grew {} times", grown.get());
 }
 
 /// Answers a number of calls, then asks for the end of the query, and answers on.
@@ -100,7 +101,7 @@ impl DistanceOracle for Stopping {
 #[test]
 fn a_stopped_query_keeps_what_it_has_proven() {
     let (stopped, advanced) = (Cell::new(0), Cell::new(0));
-    check_cases(250, cases(), |case| {
+    check_cases(100, cases(), |case| {
         let query = case.query();
         let bodies = query.triangles();
         let judge = Judge::new(&query, &case.config());
@@ -110,9 +111,20 @@ fn a_stopped_query_keeps_what_it_has_proven() {
                 calls,
                 stop: Arc::clone(&stop),
             };
-            let problem = query.problem(&bodies, &case.config()).stopped_by(&stop);
-            let answer = BestFirst::default().solve(&problem, &mut oracle);
-            if let Outcome::Unresolved { safe_until, reason } = answer.outcome {
+            let settings = Settings {
+                stop: Some(Arc::clone(&stop)),
+                ..case.config()
+            };
+            let problem = query.problem(&bodies, &settings);
+            let answer = BestFirst::default()
+                .first_contact(&problem, &mut oracle)
+                .unwrap();
+            if let Outcome::Unresolved(Unresolved {
+                safe_until,
+                limit: reason,
+                ..
+            }) = answer.outcome
+            {
                 stopped.set(stopped.get() + u32::from(reason == Limit::Stopped));
                 advanced.set(advanced.get() + u32::from(safe_until > 0.0));
             }
@@ -121,5 +133,5 @@ fn a_stopped_query_keeps_what_it_has_proven() {
         Ok(())
     });
     let (stopped, advanced) = (stopped.get(), advanced.get());
-    assert!(stopped >= 20 && advanced >= 5, "{stopped} {advanced}");
+    assert!(stopped >= 8 && advanced >= 2, "{stopped} {advanced}");
 }

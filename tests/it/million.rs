@@ -1,7 +1,7 @@
 //! Handles over a million pairs of pieces at once, and tens of millions that must not all be examined.
 
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Config, Outcome};
+use ccd_core::{Answer, Outcome, Settings};
 use ccd_tests::analytic::{Expect, combs, screw_in_nut};
 use ccd_tests::backends::{Backend, Oracle, Order};
 use ccd_tests::models::{PITCH, parallel_plate};
@@ -15,10 +15,10 @@ fn falling_plate(cells: usize, backend: Backend, tolerance: f64) -> Answer {
         b: Actor::still(parallel_plate(cells), DVec3::ZERO),
         duration: 1.0,
     };
-    let config = Config {
+    let config = Settings {
         tolerance,
         budget: u64::MAX,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let bodies = query.triangles();
     backend.solve(&query.problem(&bodies, &config))
@@ -59,7 +59,7 @@ fn combs_of_many_teeth() {
         panic!("combs meet");
     };
     let bodies = scene.query.triangles();
-    let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &Config::default()));
+    let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &Settings::DEFAULT));
     let Outcome::Contact { time, .. } = answer.outcome else {
         panic!("{answer:?}");
     };
@@ -74,9 +74,9 @@ fn combs_of_many_teeth() {
 fn a_fine_screw() {
     let scene = screw_in_nut("T18 fine screw", PITCH, if slow() { 4 } else { 2 });
     let bodies = scene.query.triangles();
-    let config = Config {
+    let config = Settings {
         budget: u64::MAX,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &config));
     assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");

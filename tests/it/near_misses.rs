@@ -2,11 +2,11 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::schedule::{AnyContact, BestFirst, Schedule};
-use ccd_core::{Body, Config, Motion, Outcome, Pose, Problem};
+use ccd_core::schedule::{BestFirst, Schedule};
+use ccd_core::{Body, Motion, Outcome, Pose, Settings};
 use ccd_distance_gjk::Gjk;
+use rigid_ccd::Solver;
 use rigid_ccd::trajectory::{Chain, Curve, Joint, Spline, Steady, Trajectory, Turns};
-use rigid_ccd::{Solver, Travelling};
 use std::f64::consts::PI;
 
 /// T6: a rod turns past a wall that its corners just do not reach. All of a gap is left to advance by when a
@@ -20,12 +20,15 @@ fn a_rod_that_turns_past_a_wall_takes_few_steps() {
     for exponent in 1..=10 {
         let gap = 10f64.powi(-exponent);
         let away = Pose::at((long.hypot(thin) + gap + 1.0) * DVec3::X).unwrap();
-        let config = Config {
+        let config = Settings {
             tolerance: 0.25 * gap,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
-        let problem = Problem::new((&rod, turning), (&wall, Motion::still(away)), 1.0, &config);
-        let answer = BestFirst::default().solve(&problem.unwrap(), &mut Gjk);
+        let problem =
+            ccd_core::Query::new((&rod, turning), (&wall, Motion::still(away)), 1.0, &config);
+        let answer = BestFirst::default()
+            .first_contact(&problem.unwrap(), &mut Gjk)
+            .unwrap();
         assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
         assert!(answer.stats.iterations <= 2, "{gap}: {:?}", answer.stats);
     }
@@ -66,31 +69,28 @@ fn a_ball_past_a_box_takes_few_steps() {
 fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     let radius = 0.25;
     let (ball, cube) = (Body::ball(radius).unwrap(), Body::cuboid([1.0; 3]).unwrap());
-    let a = Travelling {
-        body: &ball,
-        trajectory,
-    };
+    let a = (&ball, trajectory);
     let below =
         Motion::still(Pose::at([0.0, 0.0, lowest(trajectory) - radius - gap - 1.0]).unwrap());
     let b = (&cube, &below);
     let tolerance = if gap > 0.0 { 0.25 * gap } else { 1e-9 };
-    let config = Config {
+    let config = Settings {
         tolerance,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let mut solver = Solver::new().with_config(config);
-    let first = solver.answer_along(a, b, 1.0).unwrap();
-    let any = solver.any_contact_along(a, b, 1.0).unwrap();
-    let closest = solver.closest_approach_along(a, b, 1.0).unwrap();
+    let mut solver = Solver::new().with_settings(config);
+    let first = solver.first_contact(a, b, 1.0).unwrap();
+    let any = solver.any_contact(a, b, 1.0).unwrap();
+    let closest = solver.closest_approach(a, b, 1.0).unwrap();
     if gap > 0.0 {
         assert!(matches!(first.outcome, Outcome::Free { .. }), "{first:?}");
-        assert!(matches!(any.outcome, AnyContact::Free { .. }), "{any:?}");
+        assert!(matches!(any.outcome, Outcome::Free { .. }), "{any:?}");
     } else {
         assert!(
             matches!(first.outcome, Outcome::Contact { .. }),
             "{first:?}"
         );
-        assert!(matches!(any.outcome, AnyContact::Contact { .. }), "{any:?}");
+        assert!(matches!(any.outcome, Outcome::Contact { .. }), "{any:?}");
     }
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // Of coordinates up to 4.

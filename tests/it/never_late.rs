@@ -7,7 +7,7 @@ use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, rem
 
 #[test]
 fn triangles_of_any_shape() {
-    check_cases(2_000, cases(), |case| {
+    check_cases(800, cases(), |case| {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
         let bodies = query.triangles();
@@ -18,22 +18,22 @@ fn triangles_of_any_shape() {
 
 #[test]
 fn every_setup_of_any_shape() {
-    check_cases(500, cases(), every_setup);
+    check_cases(150, cases(), every_setup);
 }
 
 #[test]
 fn every_setup_of_convex_shapes() {
-    check_cases(500, convex_cases(), every_setup);
+    check_cases(150, convex_cases(), every_setup);
 }
 
 #[test]
 fn every_setup_near_and_overlapping() {
-    check_cases(500, crowded_cases(), every_setup);
+    check_cases(150, crowded_cases(), every_setup);
 }
 
 #[test]
 fn every_setup_far_away_tiny_and_huge() {
-    check_cases(500, remote_cases(), every_setup);
+    check_cases(150, remote_cases(), every_setup);
 }
 
 fn every_setup(case: &Case) -> Law {

@@ -158,7 +158,7 @@ fn parallel<O: DistanceOracle + Default>(sizes: &'static [usize]) {
         _ => Hull::new(cube.points[..count].to_vec()),
     };
     let inputs = (direction(), -16.0..0.0f64, -9.0..1.0f64, any::<bool>());
-    run(2_000, &inputs, |(axis, turn, apart, diagonal)| {
+    run(600, &inputs, |(axis, turn, apart, diagonal)| {
         let turn = DQuat::from_axis_angle(axis, 10.0f64.powf(turn));
         let base = if diagonal {
             DQuat::from_rotation_x(FRAC_PI_4)

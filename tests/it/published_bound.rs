@@ -4,7 +4,7 @@
 use ccd_core::Bound;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::schedule::{Fast, Naive};
-use ccd_core::{Answer, Config, Motion, Outcome, Pose, Problem, Schedule};
+use ccd_core::{Answer, Motion, Outcome, Pose, Schedule, Settings};
 use ccd_distance_gjk::Gjk;
 use ccd_tests::analytic::{Expect, scenes_named};
 use ccd_tests::models::{Kind, cuboid};
@@ -18,8 +18,8 @@ fn schedules(bound: Bound) -> [Box<dyn Schedule<Gjk>>; 2] {
     [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
 }
 
-fn answers(problem: &Problem<'_>, bound: Bound) -> [Answer; 2] {
-    schedules(bound).map(|mut schedule| schedule.solve(problem, &mut Gjk))
+fn answers(problem: &ccd_core::Query<'_>, bound: Bound) -> [Answer; 2] {
+    schedules(bound).map(|mut schedule| schedule.first_contact(problem, &mut Gjk).unwrap())
 }
 
 /// Returns the delay of an answer after the contact, infinite if it misses the contact.
@@ -49,7 +49,7 @@ fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_on
         panic!("the mace meets the wall");
     };
     let bodies = bodies(&scenes[0].query);
-    let problem = scenes[0].query.problem(&bodies, &Config::default());
+    let problem = scenes[0].query.problem(&bodies, &Settings::DEFAULT);
     for answer in answers(&problem, Bound::Published) {
         assert!(lateness(&answer, latest) > 0.1, "{answer:?}");
     }
@@ -86,14 +86,14 @@ fn rods(rng: &mut Pcg64) -> Query {
 fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one() {
     let mut rng = Pcg64::new(9, 0);
     let (mut hits, mut late) = (0, [0; 2]);
-    for _ in 0..600 {
+    for _ in 0..300 {
         let query = rods(&mut rng);
         let Finding::Hit { hi, .. } = Referee::new(&query).finding() else {
             continue;
         };
         hits += 1;
         let bodies = bodies(&query);
-        let problem = query.problem(&bodies, &Config::default());
+        let problem = query.problem(&bodies, &Settings::DEFAULT);
         for answer in answers(&problem, Bound::Sound) {
             assert!(lateness(&answer, hi) <= 1e-9, "{answer:?}: {query:?}");
         }
@@ -102,7 +102,7 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
         }
     }
     assert!(
-        hits > 150 && late.iter().all(|&late| late > 0),
+        hits > 75 && late.iter().all(|&late| late > 0),
         "{late:?} of {hits}"
     );
 }

@@ -2,7 +2,7 @@
 
 use ccd_core::glam::{DQuat, DVec2};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Config, Feature, Motion, Moving, Pose, Problem};
+use ccd_core::{Feature, Motion, Moving, Pose, Settings};
 use ccd_decomp::{Detail, Order, Prepared, TriangleMesh, body_from_mesh};
 use ccd_tests::models::{Mesh, divided_cube, l_block};
 
@@ -46,12 +46,9 @@ impl Body {
 
 /// Returns the names of the features in contact, in order.
 fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
-    let still = |made, pose| Moving {
-        body: made,
-        motion: Motion::still(pose),
-    };
+    let still = |made, pose| Moving::from((made, Motion::still(pose)));
     let (a, b) = (still(&a.body, pose), still(&b.body, Pose::IDENTITY));
-    let problem = Problem::new(a, b, 1.0, &Config::default()).expect("good input");
+    let problem = ccd_core::Query::new(a, b, 1.0, &Settings::DEFAULT).expect("good input");
     let pairs = problem.contacts_at(0.0).expect("contacts");
     let mut names: Vec<_> = pairs.iter().map(|p| [p.feature_a, p.feature_b]).collect();
     names.sort();

@@ -2,7 +2,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
-use ccd_core::{Body, Config, Motion, Moving, Outcome, Pose, Problem, StartPolicy};
+use ccd_core::{Body, Motion, Moving, Outcome, Pose, Settings, StartPolicy};
 use ccd_decomp::{Detail, Order, prepare};
 use ccd_distance_gjk::Direct;
 use ccd_tests::exact::{Blend, Location, Solid};
@@ -61,19 +61,22 @@ fn body(mesh: &Mesh, detail: Detail) -> Body {
 }
 
 fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
-    let moving = |body, velocity| Moving {
-        body,
-        motion: Motion::new(Pose::IDENTITY, velocity, DVec3::ZERO).unwrap(),
+    let moving = |body, velocity| {
+        Moving::from((
+            body,
+            Motion::new(Pose::IDENTITY, velocity, DVec3::ZERO).unwrap(),
+        ))
     };
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-6,
         start,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let (a, b) = (moving(a, DVec3::ZERO), moving(b, velocity));
-    let problem = Problem::new(a, b, 1.0, &config).unwrap();
+    let problem = ccd_core::Query::new(a, b, 1.0, &config).unwrap();
     BestFirst::default()
-        .solve(&problem, &mut Direct::default())
+        .first_contact(&problem, &mut Direct::default())
+        .unwrap()
         .outcome
 }
 
@@ -166,7 +169,7 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
             assert!(
                 !matches!(
                     outside,
-                    Outcome::Overlapping { .. } | Outcome::Unresolved { .. }
+                    Outcome::Overlapping { .. } | Outcome::Unresolved(_)
                 ),
                 "case {case} {outside:?}"
             );

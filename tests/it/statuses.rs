@@ -1,7 +1,7 @@
 //! Touching, overlapping, inside: the state at the start decides.
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Config, Outcome, Overlap};
+use ccd_core::{Outcome, Overlap, Settings};
 use ccd_tests::backends::{default_answer, for_each_setup};
 use ccd_tests::models::{Kind, Mesh, Shape, both, boulder, cuboid, hollow, icosphere, torus};
 use ccd_tests::query::{Actor, Query};
@@ -20,7 +20,7 @@ fn outcomes(query: &Query, check: impl Fn(Outcome) -> bool) {
 }
 
 fn outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
-    for_each_setup(query, &Config::default(), |_, setup, answer| {
+    for_each_setup(query, &Settings::DEFAULT, |_, setup, answer| {
         assert!(check(setup.kinds, answer.outcome), "{setup:?}\n{answer:?}");
     });
 }
@@ -31,8 +31,9 @@ fn nested(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -
     match outcome {
         Outcome::Overlapping {
             overlap: Overlap::Pieces(_),
+            ..
         } => kinds.into_iter().any(Kind::is_filled),
-        Outcome::Overlapping { overlap } => check(overlap),
+        Outcome::Overlapping { overlap, .. } => check(overlap),
         _ => false,
     }
 }
@@ -45,7 +46,8 @@ fn overlaps(outcome: Outcome) -> bool {
     matches!(
         outcome,
         Outcome::Overlapping {
-            overlap: Overlap::Pieces(_)
+            overlap: Overlap::Pieces(_),
+            ..
         }
     )
 }
@@ -147,9 +149,9 @@ fn needles_that_cross_overlap() {
             let b = needle(thickness).placed(turn, DVec3::ZERO);
             let query = query(needle(thickness), b, DVec3::ZERO);
             // The needles are triangles: for polytopes without facets the oracle's claim is taken.
-            let config = Config {
+            let config = Settings {
                 tolerance: 1e-9,
-                ..Config::default()
+                ..Settings::DEFAULT
             };
             let answer = default_answer(&query, &config);
             assert!(overlaps(answer.outcome), "{thickness} {k} {answer:?}");
@@ -171,9 +173,9 @@ fn bodies_far_smaller_than_the_tolerance_are_answered() {
             b: Actor::moving(octahedron(size), 3.0 * away, -4.0 * away, DVec3::Z),
             ..near.clone()
         };
-        let config = Config {
+        let config = Settings {
             tolerance,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         for_each_setup(&near, &config, |_, setup, answer| {
             let touching = matches!(answer.outcome, Outcome::Touching { .. });

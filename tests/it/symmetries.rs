@@ -11,7 +11,7 @@ use std::cell::Cell;
 
 #[test]
 fn bodies_may_be_swapped() {
-    check_cases(1_000, cases(), |case| {
+    check_cases(400, cases(), |case| {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
         let (here, there) = (
@@ -48,7 +48,7 @@ fn both_may_be_seen_from_any_frame() {
 #[test]
 fn a_free_motion_in_reverse_is_free() {
     let (free, grazing) = (Cell::new(0), Cell::new(0));
-    check_cases(1_000, cases(), |case| {
+    check_cases(400, cases(), |case| {
         let query = case.query();
         let forwards = default_answer(&query, &case.config());
         if !matches!(forwards.outcome, Outcome::Free { .. }) {
@@ -67,7 +67,7 @@ fn a_free_motion_in_reverse_is_free() {
     });
     let (free, grazing) = (free.get(), grazing.get());
     assert!(
-        free > 100 && 50 * grazing <= free,
+        free > 40 && 50 * grazing <= free,
         "{free} free, {grazing} grazing"
     );
 }

@@ -3,7 +3,7 @@
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
 use ccd_core::schedule::{BestFirst, Fast, Naive};
-use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
+use ccd_core::{Answer, Body, DistanceOracle, Schedule, Settings};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
@@ -89,7 +89,7 @@ impl Backend {
     }
 
     /// Answers with a fresh schedule and a fresh oracle.
-    pub fn solve(self, problem: &Problem<'_>) -> Answer {
+    pub fn solve(self, problem: &ccd_core::Query<'_>) -> Answer {
         match self.oracle {
             Oracle::ClosedForm => self.solve_with(problem, &mut ClosedForm::default()),
             Oracle::Gjk => self.solve_with(problem, &mut Gjk),
@@ -99,11 +99,19 @@ impl Backend {
     }
 
     /// Answers with its schedule and any oracle.
-    pub fn solve_with<O: DistanceOracle>(self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+    pub fn solve_with<O: DistanceOracle>(
+        self,
+        problem: &ccd_core::Query<'_>,
+        oracle: &mut O,
+    ) -> Answer {
         match self.order {
-            Order::BestFirst => BestFirst::<O>::default().solve(problem, oracle),
-            Order::Fast => Fast::<O>::default().solve(problem, oracle),
-            Order::Naive => Naive::<O>::default().solve(problem, oracle),
+            Order::BestFirst => BestFirst::<O>::default()
+                .first_contact(problem, oracle)
+                .unwrap(),
+            Order::Fast => Fast::<O>::default().first_contact(problem, oracle).unwrap(),
+            Order::Naive => Naive::<O>::default()
+                .first_contact(problem, oracle)
+                .unwrap(),
         }
     }
 }
@@ -115,7 +123,7 @@ fn has_tree(body: &&Body) -> bool {
 /// Calls `check` with the answer of every setup that suits the query.
 pub fn for_each_setup(
     query: &Query,
-    config: &Config,
+    config: &Settings,
     mut check: impl FnMut(&Bodies, Setup, Answer),
 ) {
     for bodies in query.all_bodies() {
@@ -131,7 +139,7 @@ pub fn for_each_setup(
 }
 
 /// Returns the answer of the default backend for triangles.
-pub fn default_answer(query: &Query, config: &Config) -> Answer {
+pub fn default_answer(query: &Query, config: &Settings) -> Answer {
     let bodies = query.triangles();
     Backend::DEFAULT.solve(&query.problem(&bodies, config))
 }

@@ -3,7 +3,7 @@
 use crate::models::{self, Mesh, Shape};
 use crate::query::{Actor, Query};
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Config, Motion, Pose, StartPolicy};
+use ccd_core::{Motion, Pose, Settings, StartPolicy};
 use serde::{Deserialize, Serialize};
 
 /// A query with its settings, and the reason for testing it.
@@ -18,13 +18,13 @@ pub struct Case {
     pub why: String,
     /// The end of the time interval, which begins at 0.
     pub duration: f64,
-    /// The same as [`Config::tolerance`].
+    /// The same as [`Settings::tolerance`].
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// The same as [`Config::margin`].
+    /// The same as [`Settings::margin`].
     #[serde(default)]
     pub margin: f64,
-    /// The same as [`Config::start`].
+    /// The same as [`Settings::start`].
     #[serde(default)]
     pub start: Start,
     /// Body A.
@@ -137,15 +137,15 @@ impl Case {
     }
 
     /// Returns the settings of the query.
-    pub fn config(&self) -> Config {
-        Config {
+    pub fn config(&self) -> Settings {
+        Settings {
             tolerance: self.tolerance,
             margin: self.margin,
             start: match self.start {
                 Start::Report => StartPolicy::Report,
                 Start::Leave => StartPolicy::Leave,
             },
-            ..Config::default()
+            ..Settings::DEFAULT
         }
     }
 
@@ -232,7 +232,7 @@ fn soup(triangles: &[[[f64; 3]; 3]]) -> Mesh {
 }
 
 fn default_tolerance() -> f64 {
-    Config::default().tolerance
+    Settings::DEFAULT.tolerance
 }
 
 fn one() -> f64 {

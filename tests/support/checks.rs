@@ -10,12 +10,12 @@ use crate::query::{Actor, Bodies, Query};
 use crate::referee::{Finding, Placement, Referee};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Separation};
+use ccd_core::{Answer, Body, Contact, Feature, Outcome, Overlap, Piece, Separation, Settings};
 
 /// Judges answers to one query by the referee's findings.
 pub struct Judge<'a> {
     query: &'a Query,
-    config: Config,
+    config: Settings,
     referee: Referee<'a>,
     finding: Finding,
     nested: bool,
@@ -40,12 +40,12 @@ use law;
 
 impl<'a> Judge<'a> {
     /// Runs the referee on a query.
-    pub fn new(query: &'a Query, config: &Config) -> Self {
+    pub fn new(query: &'a Query, config: &Settings) -> Self {
         let referee = Referee::with_margin(query, config.margin);
         let time = |k: u32| query.duration * f64::from(k) / 16.0;
         Judge {
             query,
-            config: *config,
+            config: config.clone(),
             finding: referee.finding(),
             nested: referee.nested(0.0),
             samples: (0..=16).map(|k| (time(k), referee.gap(time(k)))).collect(),
@@ -55,11 +55,16 @@ impl<'a> Judge<'a> {
 
     /// Returns the same judge for another tolerance, without running the referee again.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
-        let config = Config {
+        let config = Settings {
             tolerance,
-            ..self.config
+            ..self.config.clone()
         };
         Judge { config, ..self }
+    }
+
+    /// Returns the settings of the answers that it judges.
+    pub fn config(&self) -> Settings {
+        self.config.clone()
     }
 
     /// Returns the referee's finding.
@@ -85,9 +90,10 @@ impl<'a> Judge<'a> {
                 check_contact(self.query, *time, contact, bodies, reach)
             }
             Outcome::Touching { contact } => check_contact(self.query, 0.0, contact, bodies, reach),
-            Outcome::Overlapping { overlap } => self.check_overlap(overlap, bodies),
+            Outcome::Overlapping { overlap, .. } => self.check_overlap(overlap, bodies),
             Outcome::Free { .. } => Ok(()),
-            Outcome::Unresolved { .. } => Err("unresolved".into()),
+            Outcome::Unresolved(_) => Err("unresolved".into()),
+            other => Err(format!("no outcome of a first contact: {other:?}")),
         }
     }
 
@@ -127,7 +133,8 @@ impl<'a> Judge<'a> {
                 law!(gap <= reach, "false: the distance at the start is {gap}");
             }
             Outcome::Overlapping { .. } => {}
-            Outcome::Unresolved { safe_until, .. } => self.never_late(*safe_until)?,
+            Outcome::Unresolved(known) => self.never_late(known.safe_until)?,
+            other => return Err(format!("no outcome of a first contact: {other:?}")),
         }
         Ok(())
     }

@@ -2,29 +2,27 @@
 //! number alone.
 
 use crate::models::{
-    Kind, Shape, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
+    Kind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
 };
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Body, Config, Motion, Moving, Pose, StartPolicy};
-use ccd_decomp::TriangleMesh;
+use ccd_core::{Body, Motion, Moving, Pose, Settings, StartPolicy};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// The bodies.
 pub struct Mixed {
-    shapes: Vec<Shape>,
     bodies: Vec<Body>,
 }
 
 /// A query by its bodies' numbers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Posed {
     /// The numbers of bodies A and B.
     pub bodies: [usize; 2],
     /// Their motions.
     pub motions: [Motion; 2],
     /// Accuracy and limits.
-    pub config: Config,
+    pub config: Settings,
 }
 
 impl Mixed {
@@ -48,7 +46,6 @@ impl Mixed {
         let bodies = shapes.iter().map(|(shape, kind)| shape.body(*kind));
         Mixed {
             bodies: bodies.collect(),
-            shapes: shapes.into_iter().map(|(shape, _)| shape).collect(),
         }
     }
 
@@ -58,7 +55,7 @@ impl Mixed {
         let mut body = || rng.random_range(0..self.bodies.len());
         let bodies = [body(), body()];
         let motions = [0.0, 3.0].map(|apart| motion(&mut rng, apart));
-        let config = Config {
+        let config = Settings {
             tolerance: 10f64.powi(-rng.random_range(2..=7)),
             margin: if rng.random_bool(0.2) { 0.05 } else { 0.0 },
             start: if rng.random_bool(0.1) {
@@ -66,7 +63,7 @@ impl Mixed {
             } else {
                 StartPolicy::Report
             },
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         Posed {
             bodies,
@@ -77,16 +74,7 @@ impl Mixed {
 
     /// Returns a body of a query and its motion.
     pub fn moving(&self, posed: &Posed, which: usize) -> Moving<'_> {
-        Moving {
-            body: &self.bodies[posed.bodies[which]],
-            motion: posed.motions[which],
-        }
-    }
-
-    /// Returns the bodies' meshes.
-    pub fn meshes(&self) -> Vec<TriangleMesh> {
-        let mesh = |shape: &Shape| shape.mesh.for_decomposition();
-        self.shapes.iter().map(mesh).collect()
+        (&self.bodies[posed.bodies[which]], posed.motions[which]).into()
     }
 }
 

@@ -132,19 +132,19 @@ fn triangles<'a>(
 /// seen from outside.
 fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
     let polytope = claim.polytope;
-    let mut named = Vec::new();
+    let (mut named, inside_out) = (Vec::new(), mesh.signed_volume() < 0.0);
     for facet in &polytope.facets {
         if let Origin::Face(id) = facet.origin {
             named.push(id);
             let corners = facet.corners.iter().map(|&c| polytope.points[c as usize]);
-            if !is_loop(&corners.collect::<Vec<_>>(), outward(mesh, id)?) {
+            if !is_loop(&corners.collect::<Vec<_>>(), outward(mesh, id, inside_out)?) {
                 return Err(format!("{facet:?} is not face {id}"));
             }
         }
     }
     for it in &polytope.faces {
         named.push(it.id);
-        if !is_loop(&it.corners, outward(mesh, it.id)?) {
+        if !is_loop(&it.corners, outward(mesh, it.id, inside_out)?) {
             return Err(format!("{it:?} is not face {}", it.id));
         }
         let holds = |corners: &[u32]| it.corners.iter().all(|&p| lies_on(polytope, corners, p));
@@ -193,16 +193,12 @@ fn check_merged(polytope: &Polytope) -> Law {
 }
 
 /// Returns the corners of a face, counter-clockwise seen from outside.
-fn outward(mesh: &Mesh, id: u32) -> Result<[DVec3; 3], String> {
+fn outward(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3], String> {
     if id as usize >= mesh.faces.len() {
         return Err(format!("there is no face {id}"));
     }
     let [a, b, c] = mesh.triangle(id as usize);
-    Ok(if mesh.signed_volume() < 0.0 {
-        [a, c, b]
-    } else {
-        [a, b, c]
-    })
+    Ok(if inside_out { [a, c, b] } else { [a, b, c] })
 }
 
 /// Returns true if a loop is that of a triangle, with any start.

@@ -4,7 +4,7 @@ use crate::models::{Kind, Shape};
 use crate::tolerance::rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{Body, Config, Motion, Moving, Pose, Problem};
+use ccd_core::{Body, Motion, Moving, Pose, Settings};
 use std::rc::Rc;
 
 /// A shape and its motion.
@@ -104,16 +104,10 @@ impl Query {
     ///
     /// # Panics
     /// If the engine refuses it.
-    pub fn problem<'a>(&self, bodies: &'a Bodies, config: &Config) -> Problem<'a> {
-        let a = Moving {
-            body: &bodies.a,
-            motion: self.a.motion,
-        };
-        let b = Moving {
-            body: &bodies.b,
-            motion: self.b.motion,
-        };
-        Problem::new(a, b, self.duration, config).expect("a well-posed problem")
+    pub fn problem<'a>(&self, bodies: &'a Bodies, config: &'a Settings) -> ccd_core::Query<'a> {
+        let a = Moving::from((bodies.a(), self.a.motion));
+        let b = Moving::from((bodies.b(), self.b.motion));
+        ccd_core::Query::new(a, b, self.duration, config).expect("a well-posed problem")
     }
 }
 

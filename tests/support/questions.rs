@@ -4,13 +4,10 @@
 use crate::backends::Oracle;
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
+use ccd_core::Schedule;
 use ccd_core::order::greater;
-use ccd_core::schedule::{
-    AnyContact, BestFirst, ClosestApproach, ContactInterval, DepthFirst, GreatestDistance,
-};
-use ccd_core::{
-    Accelerations, Answer, Config, DistanceOracle, InputError, Journey, Motion, Smooth,
-};
+use ccd_core::schedule::{BestFirst, DepthFirst};
+use ccd_core::{Accelerations, Answer, DistanceOracle, InputError, Motion, Settings, Smooth};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
@@ -43,11 +40,11 @@ pub struct Asked {
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
     /// Whether they touch at all.
-    pub any: Answer<AnyContact>,
+    pub any: Answer,
     /// How close they come.
-    pub closest: Answer<ClosestApproach>,
+    pub closest: Answer,
     /// Whether they keep a distance: a required one, and the answer.
-    pub cleared: (f64, Answer<ClosestApproach>),
+    pub cleared: (f64, Answer),
 }
 
 /// The answers to every question about the same motions, given as a user's own.
@@ -56,15 +53,15 @@ pub struct AnswersAlong {
     /// When they first touch.
     pub first: Answer,
     /// Whether they touch at all.
-    pub any: Answer<AnyContact>,
+    pub any: Answer,
     /// How close they come.
-    pub closest: Answer<ClosestApproach>,
+    pub closest: Answer,
     /// Whether they keep a distance: a required one, and the answer.
-    pub cleared: (f64, Answer<ClosestApproach>),
+    pub cleared: (f64, Answer),
     /// How far apart they get.
-    pub greatest: Answer<GreatestDistance>,
+    pub greatest: Answer,
     /// When they first touch, and when last.
-    pub interval: Answer<ContactInterval>,
+    pub interval: Answer,
 }
 
 impl Oracle {
@@ -80,7 +77,7 @@ impl Oracle {
 /// Calls `check` with the answers of every oracle that suits the bodies, for all bodies of the query.
 pub fn for_each_answers(
     query: &Query,
-    config: &Config,
+    config: &Settings,
     mut check: impl FnMut(&Bodies, Asked, Answers),
 ) {
     for_each_oracle(query, |bodies, asked| {
@@ -97,7 +94,7 @@ pub fn for_each_answers(
 /// Calls `check` with the answers along motions that are a user's own, as [`for_each_answers`] does.
 pub fn for_each_answers_along(
     query: &Query,
-    config: &Config,
+    config: &Settings,
     mut check: impl FnMut(&Bodies, Asked, AnswersAlong),
 ) {
     for_each_oracle(query, |bodies, asked| {
@@ -124,7 +121,7 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, Asked)) {
 }
 
 /// Returns a distance on either side of the least one, or about it, and the settings that require it.
-fn beside(closest: &Answer<ClosestApproach>, config: &Config) -> (f64, Config) {
+fn beside(closest: &Answer, config: &Settings) -> (f64, Settings) {
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // As good as random.
     let required = match closest.stats.iterations % 4 {
@@ -134,9 +131,9 @@ fn beside(closest: &Answer<ClosestApproach>, config: &Config) -> (f64, Config) {
         _ => 2.0 * upper,
     };
     let clearance = Some(required).filter(|required| *required <= 1e12);
-    let keeping = Config {
+    let keeping = Settings {
         clearance: Some(clearance.unwrap_or(1.0)),
-        ..*config
+        ..config.clone()
     };
     (clearance.unwrap_or(1.0), keeping)
 }
@@ -144,52 +141,62 @@ fn beside(closest: &Answer<ClosestApproach>, config: &Config) -> (f64, Config) {
 fn ask<O: DistanceOracle>(
     query: &Query,
     bodies: &Bodies,
-    config: &Config,
+    config: &Settings,
     mut oracle: O,
 ) -> Answers {
     let problem = query.problem(bodies, config);
     let mut schedule = DepthFirst::<O>::default();
-    let closest = schedule.closest_approach(&problem, &mut oracle);
+    let well_posed = "motions within range";
+    let closest = schedule
+        .closest_approach(&problem, &mut oracle)
+        .expect(well_posed);
     let (required, keeping) = beside(&closest, config);
     let problem = query.problem(bodies, &keeping);
     Answers {
-        any: schedule.any_contact(&problem, &mut oracle),
+        any: schedule
+            .any_contact(&problem, &mut oracle)
+            .expect(well_posed),
         closest,
-        cleared: (required, schedule.closest_approach(&problem, &mut oracle)),
+        cleared: (
+            required,
+            schedule
+                .closest_approach(&problem, &mut oracle)
+                .expect(well_posed),
+        ),
     }
 }
 
 fn ask_along<O: DistanceOracle>(
     query: &Query,
     bodies: &Bodies,
-    config: &Config,
+    config: &Settings,
     mut oracle: O,
 ) -> AnswersAlong {
     let (a, b) = (Own(query.a.motion), Own(query.b.motion));
     let (a, b) = ((bodies.a(), &a), (bodies.b(), &b));
-    let journey = Journey::new(a, b, query.duration, config).expect("a well-posed journey");
+    let along = ccd_core::Query::new(a, b, query.duration, config).expect("a well-posed query");
     let mut best_first = BestFirst::<O>::default();
     let mut depth_first = DepthFirst::<O>::default();
     let well_posed = "motions within range";
-    let closest = (depth_first.closest_approach_along(&journey, &mut oracle)).expect(well_posed);
+    let closest = (depth_first.closest_approach(&along, &mut oracle)).expect(well_posed);
     let (required, keeping) = beside(&closest, config);
-    let keeping = Journey::new(a, b, query.duration, &keeping).expect("a well-posed journey");
-    let cleared = (depth_first.closest_approach_along(&keeping, &mut oracle)).expect(well_posed);
+    let keeping = ccd_core::Query::new(a, b, query.duration, &keeping).expect("a well-posed query");
+    let cleared = (depth_first.closest_approach(&keeping, &mut oracle)).expect(well_posed);
     // It takes a look at each of many times: each time that bodies move by about their distance, or by the tolerance if
     // they slide on each other or overlap. Hundreds are enough here.
     let travel = query.a.reach(query.duration) + query.b.reach(query.duration);
     let looks = greater(0.1 * closest.outcome.upper(), 1e-3 * travel);
-    let coarse = Config {
+    let coarse = Settings {
         tolerance: greater(config.tolerance, looks),
-        ..*config
+        ..config.clone()
     };
-    let coarse = Journey::new(a, b, query.duration, &coarse).expect("a well-posed journey");
+    let coarse = ccd_core::Query::new(a, b, query.duration, &coarse).expect("a well-posed query");
     AnswersAlong {
-        first: (best_first.first_contact_along(&journey, &mut oracle)).expect(well_posed),
-        any: (depth_first.any_contact_along(&journey, &mut oracle)).expect(well_posed),
+        first: (best_first.first_contact(&along, &mut oracle)).expect(well_posed),
+        any: (depth_first.any_contact(&along, &mut oracle)).expect(well_posed),
         closest,
         cleared: (required, cleared),
-        greatest: (depth_first.greatest_distance_along(&coarse, &mut oracle)).expect(well_posed),
-        interval: (best_first.contact_interval_along(&journey, &mut oracle)).expect(well_posed),
+        greatest: (depth_first.greatest_distance(&coarse, &mut oracle)).expect(well_posed),
+        interval: (best_first.contact_interval(&along, &mut oracle)).expect(well_posed),
     }
 }

@@ -2,14 +2,15 @@
 //!
 //! It shares no code with the engine. Poses come from the formula of the motion, distances from all
 //! pairs of vertices, edges and faces, times from undirected conservative advancement.
+//! The judge of `ccd-fuzz` takes each distance in double-double, which is too slow for a million answers.
 
 mod placement;
 mod triangles;
 
 use ccd_core::order::{greater, lesser};
 pub use placement::Placement;
+pub(crate) use triangles::{Face, distance_squared};
 pub use triangles::{contains, point_segment, point_triangle};
-pub(crate) use triangles::{edge_edge_squared, pierces};
 
 use crate::query::Query;
 use crate::tolerance::{CLOSE, KEPT};

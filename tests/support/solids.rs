@@ -1,8 +1,9 @@
-//! Small solids whose distances are a few lines of arithmetic, which nothing else uses.
+//! Small solids, with distances by the referee's.
 
-use crate::referee::{edge_edge_squared, pierces, point_segment, point_triangle};
+use crate::models::{Mesh, cuboid};
+use crate::referee::{Face, distance_squared};
 use ccd_core::glam::DVec3;
-use ccd_core::order::lesser;
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, Pieces, Pose, Volume};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -23,24 +24,7 @@ pub enum Solid {
 }
 
 /// The corners of the faces of a tetrahedron, from outside counterclockwise if its determinant is positive.
-const SIDES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-
-/// The corners of the faces of a cuboid; corner `k` is on the positive side of x, y and z where bit 0, 1 and 2 of
-/// `k` are set.
-const CRATE: [[usize; 3]; 12] = [
-    [0, 2, 3],
-    [0, 3, 1],
-    [4, 5, 7],
-    [4, 7, 6],
-    [0, 1, 5],
-    [0, 5, 4],
-    [2, 6, 7],
-    [2, 7, 3],
-    [0, 4, 6],
-    [0, 6, 2],
-    [1, 3, 7],
-    [1, 7, 5],
-];
+const SIDES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
 impl Solid {
     /// Draws a solid about as large as `size`.
@@ -64,10 +48,9 @@ impl Solid {
     /// # Panics
     /// If the engine refuses it.
     pub fn body(&self) -> Body {
-        let mesh = |corners: &[DVec3], faces: &[[usize; 3]]| {
-            let faces: Vec<_> = faces.iter().map(|face| face.map(|k| k as u32)).collect();
+        let mesh = |corners: &[DVec3], faces: &[[u32; 3]]| {
             let names: Vec<_> = (0..faces.len() as u32).collect();
-            let pieces = Pieces::triangles(corners, &faces, &names).expect("a few triangles");
+            let pieces = Pieces::triangles(corners, faces, &names).expect("a few triangles");
             Body::new(&pieces, Volume::Solid).expect("a solid")
         };
         match *self {
@@ -75,125 +58,64 @@ impl Solid {
             Solid::Capsule(radius, half) => Body::capsule(radius, half).expect("a capsule"),
             Solid::Cuboid(half) => Body::cuboid(half).expect("a cuboid"),
             Solid::Tetrahedron(corners) => mesh(&corners, &SIDES),
-            Solid::Crate(half) => mesh(&corners_of(half), &CRATE),
+            Solid::Crate(half) => {
+                let Mesh { vertices, faces } = cuboid(half).mesh;
+                mesh(&vertices, &faces)
+            }
         }
     }
 
     /// Returns the solid in its place.
     pub fn placed(&self, pose: &Pose) -> Placed {
         let at = |p: DVec3| pose.rotation() * p + pose.translation();
-        match *self {
-            Solid::Ball(radius) => Placed::Rod([at(DVec3::ZERO); 2], radius),
+        let hull = |corners: &[DVec3], faces: &[[u32; 3]]| {
+            let face = |face: &[u32; 3]| Face::new(face.map(|k| at(corners[k as usize])));
+            (faces.iter().map(face).collect(), 0.0)
+        };
+        let (faces, radius) = match *self {
+            // A point and a segment are triangles without area.
+            Solid::Ball(radius) => (vec![Face::new([at(DVec3::ZERO); 3])], radius),
             Solid::Capsule(radius, half) => {
-                Placed::Rod([-half, half].map(|z| at(z * DVec3::Z)), radius)
+                let core = [-half, half, half].map(|z| at(z * DVec3::Z));
+                (vec![Face::new(core)], radius)
             }
             Solid::Cuboid(half) | Solid::Crate(half) => {
-                Placed::Hull(Hull::new(&corners_of(half).map(at), &CRATE))
+                let Mesh { vertices, faces } = cuboid(half).mesh;
+                hull(&vertices, &faces)
             }
-            Solid::Tetrahedron(corners) => Placed::Hull(Hull::new(&corners.map(at), &SIDES)),
-        }
+            Solid::Tetrahedron(corners) => hull(&corners, &SIDES),
+        };
+        Placed { faces, radius }
     }
 }
 
-fn corners_of(half: DVec3) -> [DVec3; 8] {
-    std::array::from_fn(|k| {
-        let sign = |axis: usize| if k >> axis & 1 == 1 { 1.0 } else { -1.0 };
-        half * DVec3::new(sign(0), sign(1), sign(2))
-    })
-}
-
-/// A solid in its place.
-#[derive(Clone, Debug)]
-pub enum Placed {
-    /// A segment, or a point twice, grown by a radius.
-    Rod([DVec3; 2], f64),
-    /// A polytope.
-    Hull(Hull),
-}
-
-/// A convex solid: its corners, its edges, and its faces, counterclockwise from outside.
-#[derive(Clone, Debug)]
-pub struct Hull {
-    corners: Vec<DVec3>,
-    edges: Vec<[DVec3; 2]>,
-    faces: Vec<[DVec3; 3]>,
-}
-
-impl Hull {
-    fn new(corners: &[DVec3], faces: &[[usize; 3]]) -> Self {
-        let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        // Each edge is a side of two faces, once each way.
-        let edges = sides.filter(|[a, b]| a < b);
-        Hull {
-            edges: edges.map(|edge| edge.map(|k| corners[k])).collect(),
-            faces: faces.iter().map(|face| face.map(|k| corners[k])).collect(),
-            corners: corners.to_vec(),
-        }
-    }
-
-    fn contains(&self, p: DVec3) -> bool {
-        let height = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).dot(p - *a);
-        self.faces.iter().all(|face| height(face) <= 0.0)
-    }
-
-    fn to_point(&self, p: DVec3) -> f64 {
-        let to = self
-            .faces
-            .iter()
-            .map(|face| point_triangle(p, *face).distance(p));
-        to.fold(f64::INFINITY, lesser)
-    }
-
-    fn to_edge(&self, edge: [DVec3; 2]) -> f64 {
-        let to = self.edges.iter().map(|own| edge_edge(*own, edge));
-        to.fold(f64::INFINITY, lesser)
-    }
-
-    fn is_pierced(&self, edge: [DVec3; 2]) -> bool {
-        self.faces.iter().any(|face| pierces(edge, *face))
-    }
+/// A solid in its place: the faces of a hull, counterclockwise from outside, or of a point or a segment, grown by a
+/// radius.
+pub struct Placed {
+    faces: Vec<Face>,
+    radius: f64,
 }
 
 impl Placed {
     /// Returns the distance of two solids; 0 if they overlap.
     pub fn distance(&self, other: &Placed) -> f64 {
-        let apart = match (self, other) {
-            (Placed::Rod(p, r), Placed::Rod(q, s)) => edge_edge(*p, *q) - r - s,
-            (Placed::Rod(core, radius), Placed::Hull(hull))
-            | (Placed::Hull(hull), Placed::Rod(core, radius)) => rod_hull(*core, hull) - radius,
-            (Placed::Hull(a), Placed::Hull(b)) => hull_hull(a, b),
-        };
-        if apart > 0.0 { apart } else { 0.0 }
+        if self.contains(other) || other.contains(self) {
+            return 0.0;
+        }
+        let pairs = self.faces.iter().flat_map(|a| {
+            let others = other.faces.iter();
+            others.map(move |b| distance_squared(a, b))
+        });
+        let cores = pairs.fold(f64::INFINITY, lesser).sqrt();
+        greater(0.0, cores - self.radius - other.radius)
     }
-}
 
-fn rod_hull(core: [DVec3; 2], hull: &Hull) -> f64 {
-    if hull.contains(core[0]) || hull.is_pierced(core) {
-        return 0.0;
-    }
-    let [first, last] = core.map(|p| hull.to_point(p));
-    lesser(hull.to_edge(core), lesser(first, last))
-}
-
-fn hull_hull(a: &Hull, b: &Hull) -> f64 {
-    let pierced = |one: &Hull, other: &Hull| {
-        let mut edges = other.edges.iter();
-        one.contains(other.corners[0]) || edges.any(|edge| one.is_pierced(*edge))
-    };
-    if pierced(a, b) || pierced(b, a) {
-        return 0.0;
-    }
-    let edges = a.edges.iter().map(|edge| b.to_edge(*edge));
-    let points = a.corners.iter().map(|p| b.to_point(*p));
-    let back = b.corners.iter().map(|p| a.to_point(*p));
-    edges.chain(points).chain(back).fold(f64::INFINITY, lesser)
-}
-
-fn edge_edge(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
-    match (e[0] == e[1], f[0] == f[1]) {
-        (true, true) => e[0].distance(f[0]),
-        (true, false) => point_segment(e[0], f).distance(e[0]),
-        (false, true) => point_segment(f[0], e).distance(f[0]),
-        (false, false) => edge_edge_squared(e, f).sqrt(),
+    /// Returns true if the hull holds a corner of the other solid's.
+    fn contains(&self, other: &Placed) -> bool {
+        let [p, ..] = other.faces[0].corners;
+        let below = |Face {
+                         corners: [a, b, c], ..
+                     }: &Face| { (*b - *a).cross(*c - *a).dot(p - *a) <= 0.0 };
+        self.faces.len() > 1 && self.faces.iter().all(below)
     }
 }

@@ -15,7 +15,7 @@ use anyhow::Result;
 use flight::{Flight, KINDS, Kind, STEP, Shape, shapes};
 use peer::Tally;
 use rigid_ccd::batch::median;
-use rigid_ccd::{Config, Impact, Motion, Moving, Pose, Scene};
+use rigid_ccd::{Impact, Motion, Moving, Pose, Scene, Settings};
 use std::collections::HashMap;
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -55,8 +55,8 @@ struct Row {
 impl Row {
     fn measure(flight: &Flight, shapes: &[Shape], steps: u32) -> Result<Self> {
         let mut row = Row::default();
-        let config = Config::default();
-        let mut scene = Scene::with_threads(NonZeroUsize::MIN).with_config(config);
+        let config = Settings::DEFAULT;
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN).with_settings(config.clone());
         scene.add_fixed(&shapes[0].body, Pose::IDENTITY);
         for (shape, motion) in flight.step(0)? {
             scene.add(&shapes[shape].body, motion);
@@ -64,7 +64,7 @@ impl Row {
         let mut impacts = Vec::new();
         for step in 0..steps {
             for (k, (_, motion)) in flight.step(step)?.into_iter().enumerate() {
-                scene.set_motion(k + 1, motion)?;
+                scene.set_movement(k + 1, motion)?;
             }
             let least = |question: &mut dyn FnMut()| {
                 let times = (0..5).map(|_| {
@@ -96,18 +96,14 @@ impl Row {
         step: &[(usize, Motion)],
         shapes: &[Shape],
         found: &[Impact],
-        config: &Config,
+        config: &Settings,
     ) -> Result<()> {
         let found: HashMap<[usize; 2], &Impact> =
             found.iter().map(|impact| (impact.bodies, impact)).collect();
         let mut all = vec![(0, Motion::STILL)];
         all.extend(step);
         let boxes = all.iter().map(|&(shape, motion)| {
-            Moving {
-                body: &shapes[shape].body,
-                motion,
-            }
-            .swept_box(STEP, config)
+            Moving::from((&shapes[shape].body, motion)).swept_box(STEP, config)
         });
         let boxes = boxes.collect::<Result<Vec<_>, _>>()?;
         for b in 0..all.len() {

@@ -4,7 +4,7 @@ use anyhow::Result;
 use ccd_bench::scene::model::Blob;
 use rapier3d_f64::prelude::{SharedShape, Vector};
 use rigid_ccd::Body;
-use rigid_ccd_parry::Settings;
+use rigid_ccd_parry::Options;
 use rigid_ccd_parry::f64::body;
 
 /// The bounding radius.
@@ -17,6 +17,6 @@ pub(crate) fn bunny() -> Result<(SharedShape, Body)> {
         .map(|&vertex| Vector::from_array((RADIUS * vertex).to_array()))
         .collect();
     let shape = SharedShape::convex_decomposition(&vertices, mesh.faces());
-    let body = body(&*shape, &Settings::default())?.body().clone();
+    let body = body(&*shape, &Options::default())?.body().clone();
     Ok((shape, body))
 }

@@ -1,6 +1,7 @@
 //! The step of a rapier world in which nothing passes through anything: all that such a program needs.
 
 use anyhow::Result;
+use ccd_core::Trajectory;
 use rapier3d_f64::prelude::{
     PhysicsWorld, Pose as At, RigidBody, RigidBodyHandle, Rotation, Vector,
 };
@@ -20,7 +21,7 @@ pub(crate) fn step(
     for (&(index, body), start) in moving.iter().zip(starts) {
         let body = &world.bodies[body];
         let centre = body.mass_properties().local_mprops.local_com.to_array();
-        scene.set_motion(
+        scene.set_movement(
             index,
             Motion::between(start, pose(body)?, centre, duration)?,
         )?;
@@ -28,7 +29,7 @@ pub(crate) fn step(
     let stops = scene.stops(duration)?;
     for &(index, body) in moving {
         if stops[index].by.is_some() {
-            let pose = scene.motion(index).pose(stops[index].time);
+            let pose = scene.movement(index).pose(stops[index].time)?;
             world.bodies[body].set_position(at(pose), true);
         }
     }

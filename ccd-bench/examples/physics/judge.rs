@@ -51,11 +51,8 @@ impl Seen {
 /// Returns the pairs whose ways meet, without those that are joined or do not move.
 fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>> {
     let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &Moved)| {
-        let moving = Moving {
-            body: &body.body,
-            motion,
-        };
-        moving.swept_box(duration, &rigid_ccd::Config::default())
+        let moving = Moving::from((&body.body, motion));
+        moving.swept_box(duration, &rigid_ccd::Settings::DEFAULT)
     };
     let boxes = world.bodies.iter().zip(moved).map(swept);
     let boxes = boxes.collect::<Result<Vec<_>, _>>()?;

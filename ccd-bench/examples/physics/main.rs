@@ -15,6 +15,7 @@ use anyhow::Result;
 use chart::{Depths, draw};
 use glue::pose;
 use judge::{Moved, Seen};
+use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Motion, Pose, Scene};
 use std::io::Write;
 use std::num::NonZeroUsize;
@@ -126,7 +127,10 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
         let moved = match stops {
             Some(stops) => (0..)
                 .zip(stops)
-                .map(|(index, stop)| (scene.motion(index), stop.time))
+                .map(|(index, stop)| {
+                    let motion = scene.movement(index).as_motion();
+                    (motion.expect("a step is a motion"), stop.time)
+                })
                 .collect(),
             None => moved(world, &starts, duration)?,
         };

@@ -6,7 +6,7 @@ use crate::method::wire::{REFUSED, serve};
 use crate::method::{Method, Ours};
 use crate::run::contest::MOST_PAIRS_FOR_NAIVE;
 use anyhow::{Context, Result, anyhow};
-use ccd_core::Config;
+use ccd_core::Settings;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::batch::{Bodies, ScheduleKind};
@@ -71,10 +71,10 @@ fn answer(
             if kind.schedule == ScheduleKind::Naive && pairs > MOST_PAIRS_FOR_NAIVE {
                 return Ok(Err(format!("{pairs} pairs are too many")));
             }
-            let config = Config {
+            let config = Settings {
                 tolerance,
                 margin: args.margin,
-                ..Config::default()
+                ..Settings::DEFAULT
             };
             serve_all(&mut Ours::new(kind, Bodies { a: &a, b: &b }, config))?;
         }

@@ -7,7 +7,7 @@ use crate::method::guarded::Programs;
 use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
 use crate::stability::{
-    Extent, Findings, Survey, families, growth_map, limits, reach_map, summary, write_atlas,
+    Extent, Findings, Survey, families, growth_map, limits, reach_map, summary,
 };
 use anyhow::{Result, ensure};
 use clap::Args;
@@ -52,8 +52,7 @@ until which nothing touches; refused; late and missed are contacts that were pas
 answer is not known that well; died is a process that ended; cut off one that was stopped, so that a busy
 machine cuts off more.
 
-Files: index.html is a page on which each cell of the maps opens; trials.csv has every answer, chart.csv
-every step; limits.md and stability.svg show how far each method follows, growth.svg how its cost grows.
+Files: trials.csv has every answer, chart.csv every step; limits.md and stability.svg show how far each method follows, growth.svg how its cost grows.
 
 Examples:
   ccd-bench stability
@@ -61,7 +60,7 @@ Examples:
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
 /// Returns all methods, without those of a script if there is none.
-pub(super) fn all_methods(script: Option<&Path>) -> Vec<Method> {
+fn all_methods(script: Option<&Path>) -> Vec<Method> {
     let mut methods = known_methods();
     methods.retain(|method| script.is_some() || !matches!(method, Method::Script(_)));
     methods
@@ -75,18 +74,6 @@ fn known_methods() -> Vec<Method> {
     methods.insert(last.map_or(0, |last| last + 1), Method::published());
     methods.extend(ScriptKind::ALL.map(Method::Script));
     methods
-}
-
-impl StabilityArgs {
-    /// Returns the options that choose the methods.
-    fn options(&self) -> String {
-        let ours = if self.ours { " --ours" } else { "" };
-        let script = self.peers.iter();
-        let peers: String = script
-            .map(|p| format!(" --peers '{}'", p.display()))
-            .collect();
-        ours.to_owned() + &peers
-    }
 }
 
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
@@ -140,7 +127,6 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         let written = ccd_file::write(&file, |out| out.write_all(text.as_bytes()));
         written.map_err(|source| CannotWrite { place, source })?;
     }
-    write_atlas(&findings, &args.options(), &args.out.join("index.html"))?;
     print_summary(&summary(&findings))?;
     Ok(Exit::AllAnswered)
 }

@@ -3,35 +3,28 @@
 //! | chart | shows |
 //! |---|---|
 //! | `pareto`, `pareto-small` | time against error, a line for each method over its tolerances |
-//! | `tolerance`, `steps` | time and steps against tolerance |
 //! | `triangles` | time against the size of the mesh |
-//! | `models` | models of the same mesh: time and error |
-//! | `figure-N` | the paper's figures, trial by trial |
 //! | `stability`, `growth` | how far each method follows each family of scenes, and how its cost grows |
 //!
 //! A method that was late or missed a contact anywhere has hollow markers everywhere, and no point
 //! on a plane of time and error: its accuracy when it is right is no merit.
 
 mod axis;
-mod figures;
 mod grid;
 mod heat_map;
 mod legend;
 mod look;
-mod models;
 mod panel;
 mod pareto;
 mod sheet;
-mod sweep;
 #[cfg(test)]
 mod tests;
 mod triangles;
 
 pub use heat_map::{HeatCell, HeatKind, HeatMap, HeatRow};
 
-use crate::run::measured::{Cell, Trial};
+use crate::run::measured::Cell;
 use look::{Fill, Look};
-use plotters::style::Color;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -47,16 +40,12 @@ const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn a
 pub struct Charts<'a> {
     /// Every method on every scene at every tolerance, with medians that [can be compared](super::comparable).
     pub cells: &'a [Cell],
-    /// Single queries, in the order of their scene.
-    pub trials: &'a [Trial],
     /// The scenes in display order; cells of other scenes are left out.
     pub scenes: &'a [SceneFacts<'a>],
     /// The methods in display order; cells of other methods are left out.
     pub methods: &'a [MethodFacts<'a>],
     /// The scenes of the small chart of time against error.
     pub headline: &'a [&'a str],
-    /// The methods for which the paper's figures are redrawn.
-    pub published: &'a [&'a str],
 }
 
 /// The facts about a scene that charts need.
@@ -68,8 +57,6 @@ pub struct SceneFacts<'a> {
     pub shape: &'a str,
     /// The number of triangles of the moving mesh.
     pub triangles: usize,
-    /// The paper's figure that shows it.
-    pub figure: Option<u8>,
 }
 
 /// The facts about a method that charts need.
@@ -92,7 +79,7 @@ pub enum Family {
     Rival,
     /// A library in use.
     Peer,
-    /// This project's method on another model of the same mesh; only in the chart of models.
+    /// This project's method on another model of the same mesh; in tables only.
     Model,
 }
 
@@ -163,10 +150,6 @@ impl Charts<'_> {
         drawings.extend(pareto::all_scenes(self)?);
         drawings.extend(pareto::headline(self)?);
         drawings.extend(triangles::chart(self)?);
-        drawings.extend(sweep::tolerance(self)?);
-        drawings.extend(sweep::steps(self)?);
-        drawings.extend(models::chart(self)?);
-        drawings.extend(figures::charts(self)?);
         Ok(drawings)
     }
 
@@ -175,17 +158,6 @@ impl Charts<'_> {
         self.cells
             .iter()
             .any(|cell| cell.method == method && cell.is_unsafe())
-    }
-
-    /// Returns the methods, each with its colour in all charts, in HTML notation.
-    pub fn colours(&self) -> Vec<(MethodFacts<'_>, String)> {
-        let looks = look::looks(self.methods, |_| Fill::Solid);
-        let written = |look: &Look| {
-            let (red, green, blue) = look.colour.rgb();
-            format!("#{red:02x}{green:02x}{blue:02x}")
-        };
-        let methods = self.methods.iter().copied();
-        methods.zip(looks.iter().map(written)).collect()
     }
 
     /// Returns the scenes that have cells.

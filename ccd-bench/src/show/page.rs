@@ -1,13 +1,12 @@
-//! What all pages share: the template, the style, the library that draws.
+//! What a page is made of: the template and the style.
 
 use super::chart::ChartError;
-use plotly::Plot;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub(super) use ccd_view::{escape, filled, json};
+pub(super) use ccd_view::{escape, filled};
 
-/// The style of all pages.
+/// The style of a page.
 pub(super) const STYLE: &str = include_str!("page/style.css");
 
 /// A page cannot be made.
@@ -39,15 +38,4 @@ pub(super) fn write(path: &Path, html: &str) -> Result<(), PageError> {
         path: path.to_owned(),
         source,
     })
-}
-
-/// Returns the library that draws, as a script. Its other script renders formulas, and no page has any.
-pub(super) fn plotly() -> String {
-    const END: &str = "</script>";
-    let scripts = Plot::offline_js_sources();
-    let first = match scripts.split_once(END) {
-        Some((first, _)) => format!("{first}{END}"),
-        None => scripts,
-    };
-    format!("{}{first}", include_str!("page/canvas.html"))
 }

@@ -96,7 +96,6 @@ impl<'e> Presentation<'e> {
                 name: &scene.name,
                 shape,
                 triangles: scene.a.triangles(),
-                figure: scene.figure,
             })
             .collect();
         let methods: Vec<MethodFacts<'_>> = self
@@ -110,11 +109,9 @@ impl<'e> Presentation<'e> {
             .collect();
         let charts = Charts {
             cells: &self.cells,
-            trials: self.evaluated.journal.trials(),
             scenes: &scenes,
             methods: &methods,
             headline: &HEADLINE,
-            published: &[AS_PUBLISHED, PAPERS_RIVALS[0], DEFAULT],
         };
         charts.write(folder)?;
         Ok(views::write_page(

@@ -1,7 +1,5 @@
 //! One page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
 
-mod data;
-
 use crate::show::chart::Charts;
 use crate::show::page::{self, PageError, escape};
 use crate::show::tables::TextTable;
@@ -16,7 +14,7 @@ pub struct Page<'a> {
     pub title: &'a str,
     /// The introduction: paragraphs, separated by empty lines.
     pub preface: &'a str,
-    /// The charts; the interactive plane of time and error is drawn from them too.
+    /// The charts.
     pub charts: Charts<'a>,
     /// The scenes to view.
     pub views: &'a [View<'a>],
@@ -46,10 +44,7 @@ impl Page<'_> {
             ("tables", self.tables_html()),
             ("view_place", ccd_view::HTML.to_owned()),
             ("view_style", ccd_view::STYLE.to_owned()),
-            ("measured", data::measured(&self.charts)?),
             ("views", view::data(self.views)?),
-            ("plotly", page::plotly()),
-            ("charts_script", include_str!("report/charts.js").to_owned()),
             ("view_scripts", ccd_view::scripts()),
             ("tables_script", include_str!("report/tables.js").to_owned()),
         ];

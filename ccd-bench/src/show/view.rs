@@ -43,11 +43,12 @@ impl Shot {
             Outcome::Contact { time, contact } => ("contact", Some(*time), Some(*contact)),
             Outcome::Free { .. } => ("free", None, None),
             Outcome::Touching { contact } => ("touching", Some(0.0), Some(*contact)),
-            Outcome::Overlapping { overlap } => match overlap {
+            Outcome::Overlapping { overlap, .. } => match overlap {
                 Overlap::Pieces(contact) => ("overlapping", Some(0.0), Some(*contact)),
                 Overlap::AInsideB(_) | Overlap::BInsideA(_) => ("overlapping", Some(0.0), None),
             },
-            Outcome::Unresolved { safe_until, .. } => ("unresolved", Some(*safe_until), None),
+            Outcome::Unresolved(known) => ("unresolved", Some(known.safe_until), None),
+            Outcome::Interval { .. } | Outcome::Measured { .. } => ("measured", None, None),
         };
         Shot {
             name: format!("{} ({kind})", query.id),
@@ -111,7 +112,7 @@ fn shown(shot: &Shot, meshes: [usize; 2]) -> ccd_view::View {
         },
         gap: shot.gap.as_ref().map(|found| found.gap.clone()),
         contacts: contact.into_iter().collect(),
-        ..ccd_view::View::of(&shot.name, &shot.status, query.duration)
+        ..ccd_view::View::new(&shot.name, &shot.status, query.duration)
     }
 }
 
@@ -135,13 +136,15 @@ fn status(outcome: &Outcome, duration: f64) -> String {
         }
         Outcome::Free { .. } => format!("No contact until {duration}."),
         Outcome::Touching { contact } => format!("In contact at the start: {}.", at(contact)),
-        Outcome::Overlapping { overlap } => match overlap {
+        Outcome::Overlapping { overlap, .. } => match overlap {
             Overlap::Pieces(contact) => format!("Overlapping at the start: {}.", at(contact)),
             Overlap::AInsideB(_) => "Overlapping at the start: A inside B.".to_owned(),
             Overlap::BInsideA(_) => "Overlapping at the start: B inside A.".to_owned(),
         },
-        Outcome::Unresolved { safe_until, .. } => {
-            format!("Given up; no contact until {safe_until:.6} of {duration}.")
+        Outcome::Unresolved(known) => {
+            let until = known.safe_until;
+            format!("Given up; no contact until {until:.6} of {duration}.")
         }
+        Outcome::Interval { .. } | Outcome::Measured { .. } => String::new(),
     }
 }

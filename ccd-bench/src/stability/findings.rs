@@ -89,13 +89,6 @@ impl<'j> Findings<'j> {
         self.families.is_empty() || self.methods.is_empty()
     }
 
-    /// Returns the worst answer of a method to a step; none if it was not asked.
-    pub(super) fn worst(&self, family: &Family, value: f64, method: &str) -> Option<&'j Trial> {
-        let step = step_name(family, value);
-        let (_, trial) = self.worst.get(&(step.as_str(), method))?;
-        Some(trial)
-    }
-
     /// Returns how far a method followed a family; none if it was not asked.
     pub(super) fn reach(&self, family: &Family, method: &str) -> Option<Reach> {
         let answer = |&value: &f64| {

@@ -1,4 +1,6 @@
 //! The nearest points of two triangles, and directions that separate them.
+//!
+//! A referee's own: it shares no code with the rivals or the engine.
 
 use super::surface::Triangle;
 use ccd_core::glam::DVec3;

@@ -33,8 +33,8 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let page = fs::read_to_string(folder.join("index.html")).unwrap();
     assert!(page.contains("<h1>ccd: certified"));
     let place = |part: &str| page.find(part).unwrap();
-    assert!(place(r#"<section id="scenes">"#) < place(r#"<section id="plane">"#));
-    assert!(page.contains(r#""group":"this project""#));
+    assert!(place(r#"<section id="scenes">"#) < place(r#"<section id="charts">"#));
+    assert!(page.contains("Time against error"));
     assert_eq!(first_view(&page), "contact");
     let table = fs::read(folder.join("chart.csv")).unwrap();
     let rows = parse(&table);
@@ -50,7 +50,7 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let trials = parse(&fs::read(folder.join("trials.csv")).unwrap());
     let asked: f64 = rows.iter().map(|row| row.number("rows")).sum();
     assert_eq!(trials.len() as f64, asked);
-    for file in ["pareto.svg", "tolerance.svg", "steps.svg", "index.html"] {
+    for file in ["pareto.svg", "triangles.svg", "index.html"] {
         assert!(
             fs::metadata(folder.join(file)).unwrap().len() > 1000,
             "{file}"

@@ -3,7 +3,7 @@
 mod chart;
 #[path = "../../../rigid-ccd/tests/cli/command.rs"]
 mod command;
-mod falsify;
+mod judge;
 mod peer;
 mod stability;
 mod truth;

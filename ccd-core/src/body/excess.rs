@@ -1,8 +1,8 @@
 //! How far a body may exceed the shape that is meant.
 
 use super::Body;
+use crate::answer::{Contact, Separation};
 use crate::error::{InputError, check_length};
-use crate::outcome::{Contact, Separation};
 
 impl Body {
     /// Returns the body as an enclosure of a shape: one that may exceed it by a length.
@@ -12,7 +12,7 @@ impl Body {
     /// # Guarantee
     /// That of distances holds for the shape where the body holds the shape, and no point of the body is farther than the
     /// excess from it; neither is checked. Lower bounds and times are those of the body. Upper bounds of the [least
-    /// distance](crate::schedule::ClosestApproach) and of the [greatest one](crate::schedule::GreatestDistance) are
+    /// distance](crate::schedule::DepthFirst::closest_approach) and of the [greatest one](crate::schedule::DepthFirst::greatest_distance) are
     /// larger by the excess of both bodies. A first contact states the distance of the bodies themselves.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Two features that are in contact.
 
+use crate::answer::Separation;
 use crate::body::feature::Feature;
-use crate::outcome::Separation;
 
 /// A feature of A and one of B that are in contact, and their distance.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,11 +3,11 @@
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
 use super::skin::{Skin, Spot};
+use crate::answer::Separation;
 use crate::distance::common_normals::CommonNormals;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{self, normal, unit};
 use crate::motion::pose::Frame;
-use crate::outcome::Separation;
 use crate::problem::Problem;
 use crate::tolerance::is_blurred;
 use glam::DVec3;

@@ -1,13 +1,14 @@
 use super::*;
+use crate::answer::Separation;
 use crate::body::feature::Feature;
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::body::{Body, Volume};
-use crate::config::Config;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::Separation;
-use crate::problem::Moving;
+use crate::query::Moving;
+use crate::query::Query;
+use crate::settings::Settings;
 use crate::tests::scene::{Look, Pcg64, RngExt, direction, magnitude, rng, rotation, soup, within};
 use glam::{DQuat, DVec3};
 use twin::Mesh;
@@ -17,19 +18,16 @@ mod twin;
 
 /// Two bodies at rest, A at its pose, B at the origin.
 fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> {
-    let config = Config {
+    let config = Settings {
         tolerance,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     still(a, b, pose, &config).contacts_at(0.25).unwrap()
 }
 
-fn still<'a>(a: &'a Body, b: &'a Body, pose: Pose, config: &Config) -> Problem<'a> {
-    let moving = |body, pose| Moving {
-        body,
-        motion: Motion::still(pose),
-    };
-    Problem::new(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
+fn still<'a>(a: &'a Body, b: &'a Body, pose: Pose, config: &'a Settings) -> Problem<'a> {
+    let moving = |body, pose| Moving::from((body, Motion::still(pose)));
+    Problem::about(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
 }
 
 fn at(x: f64, y: f64, z: f64) -> Pose {
@@ -210,9 +208,9 @@ fn features_without_a_number_are_named_by_their_piece() {
 #[test]
 fn a_margin_is_reached_across() {
     let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Volume::Solid);
-    let config = Config {
+    let config = Settings {
         margin: 0.25,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     for (height, count) in [(0.2505, 4), (0.2515, 0)] {
         let problem = still(&cube, &cube, at(0.0, 0.0, 1.0 + height), &config);
@@ -227,7 +225,7 @@ fn a_margin_is_reached_across() {
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
     let mut found = [0; 3];
-    for round in 0..600 {
+    for round in 0..240 {
         let size = magnitude(rng, -3.0, 3.0);
         let [look_a, look_b] = [0; 2].map(|_| Look::ALL[rng.random_range(0..5)]);
         let tame = |look| {
@@ -246,7 +244,7 @@ fn no_pair_of_random_soups_is_missed() {
         let tolerance = size * magnitude(rng, -2.5, -0.5);
         compare(&a, &b, pose, tolerance, &mut found, round);
     }
-    assert!(found.iter().all(|&count| count > 300), "{found:?}");
+    assert!(found.iter().all(|&count| count > 120), "{found:?}");
 }
 
 /// Closed meshes that share vertices: faces on faces, edges on faces, edges across, corners on corners.
@@ -254,7 +252,7 @@ fn no_pair_of_random_soups_is_missed() {
 fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     let rng = &mut rng(72);
     let mut found = [0; 3];
-    for round in 0..400 {
+    for round in 0..160 {
         let half = DVec3::from_array(std::array::from_fn(|_| rng.random_range(0.2..1.5)));
         let rough = [0.0, 1e-3, 0.3][round % 3];
         let (a, b) = (Mesh::cuboid(half), Mesh::terrain(rng, 8, 3.0, rough));
@@ -281,15 +279,15 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
             round,
         );
     }
-    assert!(found[0] > 1000 && found[1] > 1000, "{found:?}");
+    assert!(found[0] > 400 && found[1] > 400, "{found:?}");
 }
 
 /// Compares the pairs with the twin's, names and distances, in both orders.
 fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
-    let config = Config {
+    let config = Settings {
         tolerance,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let problem = still(&body_a, &body_b, pose, &config);
     let pairs = problem.contacts_at(0.0).unwrap();
@@ -367,9 +365,11 @@ fn fine_plates_face_to_face_are_no_trouble() {
 #[test]
 fn times_beyond_the_duration_and_budgets_are_refused() {
     let cube = Mesh::cuboid(DVec3::ONE).body(Volume::Solid);
-    let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &Config::default());
+    let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &Settings::DEFAULT);
+    let (place, settings) = (Pose::at([0.0, 0.0, 2.0]).unwrap(), Settings::DEFAULT);
+    let query = Query::new((&cube, place), (&cube, Pose::IDENTITY), 1.0, &settings).unwrap();
     for time in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
-        let refused = problem.contacts_at(time);
+        let refused = query.contacts_at(time);
         assert!(
             matches!(refused, Err(ContactsError::NotInDuration { .. })),
             "{time}"
@@ -378,9 +378,9 @@ fn times_beyond_the_duration_and_budgets_are_refused() {
     assert_eq!(problem.contacts_at(0.0).unwrap().len(), 4);
     assert_eq!(problem.contacts_at(1.0).unwrap().len(), 4);
     for budget in 1..4 {
-        let config = Config {
+        let config = Settings {
             budget,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &config);
         assert_eq!(

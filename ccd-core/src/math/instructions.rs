@@ -1,6 +1,6 @@
 //! The vector instructions that kernels are compiled for, chosen at run time.
 
-use crate::config::Instructions;
+use crate::settings::Instructions;
 use fearless_simd::Level;
 
 impl Instructions {

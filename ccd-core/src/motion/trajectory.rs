@@ -40,7 +40,7 @@ use glam::DVec3;
 /// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.stray.shift);
 /// # Ok::<(), InputError>(())
 /// ```
-pub trait Trajectory {
+pub trait Trajectory: Sync {
     /// Returns a motion near this one from a time to a later one, or the same.
     ///
     /// # Errors
@@ -51,6 +51,12 @@ pub trait Trajectory {
     /// that end there are better. If there are several, one about the middle is best.
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let _ = (from, to);
+        None
+    }
+
+    /// Returns the motion, if the trajectory is one over all time; otherwise `None`. Queries about two motions are
+    /// answered at once, instead of stretch by stretch.
+    fn as_motion(&self) -> Option<Motion> {
         None
     }
 
@@ -206,7 +212,7 @@ impl std::ops::Add for Stray {
 /// assert!(stretch.stray.shift > 0.03 && stretch.stray.shift < 0.04 && stretch.stray.turn < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```
-pub trait Smooth {
+pub trait Smooth: Sync {
     /// Returns the motion with the pose and the velocities of a time; its time 0 is that time.
     ///
     /// The linear velocity is that of the motion's [centre](Motion::centre).
@@ -320,6 +326,10 @@ impl<S: Smooth + ?Sized> Trajectory for S {
 
 /// Each stretch is the motion itself; those that do not begin at time 0 are off by rounding.
 impl Trajectory for Motion {
+    fn as_motion(&self) -> Option<Motion> {
+        Some(*self)
+    }
+
     fn stretch(&self, from: f64, _to: f64) -> Result<Stretch, InputError> {
         if from == 0.0 {
             return Ok(Stretch::exact(*self));

@@ -1,16 +1,16 @@
 //! Inputs of a query, and its internal units.
 
 use super::*;
+use crate::limits::LEAST_TOLERANCE;
 use crate::motion::pose::Pose;
+use crate::query::Moving;
+use crate::settings::Settings;
 
-fn posed(motion: Motion, duration: f64, config: &Config) -> Result<f64, InputError> {
+fn posed(motion: Motion, duration: f64, config: &Settings) -> Result<f64, InputError> {
     let ball = Body::ball(1.0).unwrap();
-    let moving = |motion| Moving {
-        body: &ball,
-        motion,
-    };
+    let moving = |motion| Moving::from((&ball, motion));
     let still = Motion::still(Pose::IDENTITY);
-    Problem::new(moving(motion), moving(still), duration, config).map(|p| p.tolerance())
+    Problem::about(moving(motion), moving(still), duration, config).map(|p| p.tolerance())
 }
 
 fn refused(result: Result<f64, InputError>) -> &'static str {
@@ -23,19 +23,19 @@ fn refused(result: Result<f64, InputError>) -> &'static str {
 #[test]
 fn quantities_out_of_range_are_refused_by_name() {
     let still = Motion::still(Pose::IDENTITY);
-    let config = Config::default();
+    let config = Settings::DEFAULT;
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(refused(posed(still, bad, &config)), "duration");
-        let margin = Config {
+        let margin = Settings {
             margin: bad,
-            ..config
+            ..config.clone()
         };
         assert_eq!(refused(posed(still, 1.0, &margin)), "margin");
     }
     for bad in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
-        let tolerance = Config {
+        let tolerance = Settings {
             tolerance: bad,
-            ..config
+            ..config.clone()
         };
         assert_eq!(refused(posed(still, 1.0, &tolerance)), "tolerance");
     }
@@ -52,7 +52,7 @@ fn quantities_out_of_range_are_refused_by_name() {
 
 #[test]
 fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
-    let config = Config::default();
+    let config = Settings::DEFAULT;
     let pose = |at: f64| Pose::at(at * DVec3::Z).unwrap();
     let refusal = |motion| refused(posed(motion, 1.0, &config));
     let good = |motion| posed(motion, 1.0, &config).is_ok();
@@ -72,29 +72,27 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     }
     // Both in range, but too far apart.
     let body = Body::ball(1.0).unwrap();
-    let still = |at: f64| Moving {
-        body: &body,
-        motion: Motion::still(pose(at)),
-    };
-    let apart = |at: f64| Problem::new(still(at), still(-at), 1.0, &config).map(|p| p.tolerance());
+    let still = |at: f64| Moving::from((&body, Motion::still(pose(at))));
+    let apart =
+        |at: f64| Problem::about(still(at), still(-at), 1.0, &config).map(|p| p.tolerance());
     assert!(apart(0.5 * MAX_COORDINATE).is_ok());
     assert_eq!(refused(apart(0.6 * MAX_COORDINATE)), "travel");
     // Side by side they are as exact as anywhere, wherever that is.
-    let side_by_side = Problem::new(still(1e12), still(1e12 - 4.0), 1.0, &config).unwrap();
+    let side_by_side = Problem::about(still(1e12), still(1e12 - 4.0), 1.0, &config).unwrap();
     assert_eq!(side_by_side.tolerance(), config.tolerance);
     for large in [MAX_COORDINATE, 1e13] {
         let is_good = large <= MAX_COORDINATE;
-        let margin = Config {
+        let margin = Settings {
             margin: large,
-            ..config
+            ..config.clone()
         };
         assert_eq!(
             posed(Motion::still(pose(3.0)), 1.0, &margin).is_ok(),
             is_good
         );
-        let tolerance = Config {
+        let tolerance = Settings {
             tolerance: large,
-            ..config
+            ..config.clone()
         };
         assert_eq!(
             posed(Motion::still(pose(3.0)), 1.0, &tolerance).is_ok(),
@@ -108,9 +106,9 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
 fn a_tolerance_that_cannot_be_certified_is_raised() {
     let near = Motion::still(Pose::at(3.0 * DVec3::X).unwrap());
     let far = Motion::still(Pose::at(3e9 * DVec3::X).unwrap());
-    let fine = Config {
+    let fine = Settings {
         tolerance: 1e-15,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let (low, high) = (
         posed(near, 1.0, &fine).unwrap(),
@@ -118,18 +116,15 @@ fn a_tolerance_that_cannot_be_certified_is_raised() {
     );
     assert!(low > 1e-15 && low < 1e-12, "{low:e}");
     assert!(high > 1e3 * low && high < 1e-3, "{high:e}");
-    assert_eq!(posed(near, 1.0, &Config::default()), Ok(1e-3));
+    assert_eq!(posed(near, 1.0, &Settings::DEFAULT), Ok(1e-3));
 }
 
 #[test]
 fn clocks_are_times_that_are_never_late() {
     let ball = Body::ball(1.0).unwrap();
-    let still = Moving {
-        body: &ball,
-        motion: Motion::still(Pose::IDENTITY),
-    };
+    let still = Moving::from((&ball, Motion::still(Pose::IDENTITY)));
     for duration in [0.0, 1e-300, 0.1, 1.0, 7.0, 1e300] {
-        let problem = Problem::new(still, still, duration, &Config::default()).unwrap();
+        let problem = Problem::about(still, still, duration, &Settings::DEFAULT).unwrap();
         assert_eq!(problem.time(0.0), 0.0);
         assert_eq!(problem.time(1.0), duration);
         assert_eq!(problem.time(f64::INFINITY), duration);
@@ -149,16 +144,16 @@ fn ranges_are_named_as_they_are() {
         let words = result.unwrap_err().to_string();
         assert!(words.contains(&format!("{limit:e}")), "{words}: {limit:e}");
     };
-    let (still, config) = (Motion::STILL, Config::default());
-    let tolerance = |tolerance| Config {
+    let (still, config) = (Motion::STILL, Settings::DEFAULT);
+    let tolerance = |tolerance| Settings {
         tolerance,
-        ..config
+        ..config.clone()
     };
     named(posed(still, 1.0, &tolerance(0.0)), LEAST_TOLERANCE);
     named(posed(still, 1.0, &tolerance(0.0)), MAX_COORDINATE);
-    let margin = Config {
+    let margin = Settings {
         margin: -1.0,
-        ..config
+        ..config.clone()
     };
     named(posed(still, 1.0, &margin), MAX_COORDINATE);
     let far = Motion::still(Pose::at([2.0 * MAX_COORDINATE, 0.0, 0.0]).unwrap());

@@ -5,11 +5,11 @@ mod given;
 use super::memory::Kept;
 use super::meter::Meter;
 use super::start::at_start;
-use crate::config::StartPolicy;
+use crate::answer::{Answer, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
-use crate::outcome::{Answer, Outcome, Stats};
 use crate::problem::Problem;
+use crate::settings::StartPolicy;
 use crate::touching_plane::TouchingPlane;
 pub(super) use given::{contact_of_given, of_given};
 
@@ -74,6 +74,7 @@ fn answer_after<O: DistanceOracle>(
         let within = problem.margin + tolerance;
         (of_given(problem, oracle, meter, outcome, within), tolerance)
     })
+    .answer()
 }
 
 /// Returns the problem of bodies that touch at the start and are to be let go; none of others.
@@ -96,20 +97,37 @@ pub(super) fn let_go<'a, O: DistanceOracle>(
     }
 }
 
-/// Adds up the work for an outcome and its tolerance.
+/// Something that was searched for, with its tolerance and the cost.
+pub(super) struct Searched<T> {
+    pub(super) found: T,
+    pub(super) tolerance: f64,
+    pub(super) stats: Stats,
+}
+
+impl Searched<Outcome> {
+    pub(super) fn answer(self) -> Answer {
+        Answer {
+            outcome: self.found,
+            tolerance: self.tolerance,
+            stats: self.stats,
+        }
+    }
+}
+
+/// Adds up the work on a search, which returns what it found and the tolerance.
 pub(super) fn metered<O: DistanceOracle, T>(
     problem: &Problem<'_>,
     oracle: &mut O,
     kept: &mut Kept,
     solve: impl FnOnce(&mut O, &mut Meter) -> (T, f64),
-) -> Answer<T> {
+) -> Searched<T> {
     let before = oracle.effort();
     let mut meter = Meter::new(problem);
     meter.kept = kept.take();
-    let (outcome, tolerance) = solve(oracle, &mut meter);
+    let (found, tolerance) = solve(oracle, &mut meter);
     *kept = meter.kept.take();
-    Answer {
-        outcome,
+    Searched {
+        found,
         tolerance,
         stats: Stats {
             effort: oracle.effort() - before,

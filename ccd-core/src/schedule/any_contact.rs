@@ -8,58 +8,13 @@ use super::proven::{Proven, free_at_once};
 use super::rounds::in_rounds;
 use super::search::{Advance, Question, Search};
 use super::start::overlapping;
+use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
+use crate::error::InputError;
 use crate::math::order::lesser;
-use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap};
 use crate::problem::Problem;
+use crate::query::Query;
 use std::ops::ControlFlow;
-
-/// The answer to "do they touch at all?".
-///
-/// # Guarantee
-/// Bodies that are [free](AnyContact::Free) never touch, in floating point as well.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnyContact {
-    /// The bodies stay apart over the whole duration.
-    Free {
-        /// As in [`Outcome::Free`].
-        proven_gap: f64,
-    },
-    /// The bodies are within margin + tolerance at `time`. They may be so before, and may overlap then.
-    Contact {
-        /// The time, in the motions' unit.
-        time: f64,
-        /// Two pieces that are in contact at that time.
-        contact: Contact,
-    },
-    /// The bodies overlap at the start.
-    Overlapping {
-        /// The proof.
-        overlap: Overlap,
-    },
-    /// A limit was reached before an answer.
-    Unresolved {
-        /// The bodies do not touch before this time, certified.
-        safe_until: f64,
-        /// The limit.
-        reason: Limit,
-    },
-}
-
-impl From<Outcome> for AnyContact {
-    /// Forgets that a first contact is the first.
-    fn from(outcome: Outcome) -> Self {
-        match outcome {
-            Outcome::Free { proven_gap } => AnyContact::Free { proven_gap },
-            Outcome::Contact { time, contact } => AnyContact::Contact { time, contact },
-            Outcome::Touching { contact } => AnyContact::Contact { time: 0.0, contact },
-            Outcome::Overlapping { overlap } => AnyContact::Overlapping { overlap },
-            Outcome::Unresolved { safe_until, reason } => {
-                AnyContact::Unresolved { safe_until, reason }
-            }
-        }
-    }
-}
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Answers whether the bodies touch at all, or come within margin + tolerance.
@@ -69,9 +24,20 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// regard to those that may touch before.
     ///
     /// # Guarantee
-    /// That of [`AnyContact`]; ends on every input; the same call gives the same bits, unless a
-    /// [deadline](crate::Config::deadline) ends it.
-    pub fn any_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer<AnyContact> {
+    /// That of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// [deadline](crate::Settings::deadline) ends it.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
+    pub fn any_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
+        match &query.problem {
+            Some(problem) => Ok(self.any_contact_of(problem, oracle)),
+            None => self.any_contact_along(query, oracle),
+        }
+    }
+
+    /// Answers the same about two motions.
+    pub(super) fn any_contact_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut kept = self.kept.take();
         let answer = answer_in_any_order(problem, oracle, &mut kept, |problem, oracle, meter| {
             in_rounds(problem, meter, |problem, meter| {
@@ -84,7 +50,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         });
         self.stack.clear();
         self.kept = kept;
-        answer.map(AnyContact::from)
+        any(answer)
     }
 
     fn contact(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
@@ -99,13 +65,22 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut any = Any::default();
         match search.run(problem, &mut any) {
             // Pairs that still wait keep apart until their clocks only.
-            Outcome::Unresolved { safe_until, reason } => Outcome::Unresolved {
-                safe_until: lesser(safe_until, problem.time(self.stack.least_clock())),
-                reason,
-            },
+            Outcome::Unresolved(known) => Outcome::unresolved(
+                lesser(known.safe_until, problem.time(self.stack.least_clock())),
+                known.limit,
+            ),
             outcome => outcome,
         }
     }
+}
+
+/// Returns the answer of a search that does not distinguish contacts at the start from later ones.
+pub(super) fn any(answer: Answer) -> Answer {
+    let outcome = match answer.outcome {
+        Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
+        outcome => outcome,
+    };
+    Answer { outcome, ..answer }
 }
 
 /// Do they touch at all?
@@ -127,10 +102,7 @@ impl Any {
 
     fn unresolved(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
         let stuck = self.stuck.map_or(f64::INFINITY, |(first, _)| first);
-        Outcome::Unresolved {
-            safe_until: problem.time(lesser(s, stuck)),
-            reason,
-        }
+        Outcome::unresolved(problem.time(lesser(s, stuck)), reason)
     }
 }
 

@@ -1,15 +1,15 @@
 //! Every pair has its own clock; the pair whose proof expires first is examined next.
 
 use super::answer::answer;
-use super::contract::Schedule;
+use super::contract::Solve;
 use super::memory::Kept;
 use super::meter::Meter;
 use super::proven::{Proven, free_at_once};
 use super::queue::Queue;
 use super::rounds::in_rounds;
 use super::search::{Advance, Item, Question, Search};
+use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
 
@@ -37,8 +37,8 @@ use std::ops::ControlFlow;
 /// let mut schedule = BestFirst::default();
 /// for speed in [1.0, 2.0] {
 ///     let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, speed * DVec3::X, DVec3::ZERO)?;
-///     let problem = Problem::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Config::default())?;
-///     let outcome = schedule.solve(&problem, &mut Balls).outcome;
+///     let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
+///     let outcome = schedule.first_contact(&query, &mut Balls)?.outcome;
 ///     assert!(matches!(outcome, Outcome::Contact { time, .. } if (time - 2.0 / speed).abs() < 1e-3));
 /// }
 /// # Ok::<(), InputError>(())
@@ -58,13 +58,21 @@ impl<O: DistanceOracle> Default for BestFirst<O> {
     }
 }
 
-impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
+impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
+    fn takes_accelerations(&self) -> bool {
+        true
+    }
+
+    fn kept(&mut self) -> &mut Kept {
+        &mut self.kept
+    }
+
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut kept = self.kept.take();
         let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
             in_rounds(problem, meter, |problem, meter| {
                 self.queue.clear();
-                let outcome = self.first_contact(problem, oracle, meter);
+                let outcome = self.search(problem, oracle, meter);
                 let stats = &mut meter.stats;
                 stats.peak_front = stats.peak_front.max(self.queue.peak());
                 outcome
@@ -77,12 +85,7 @@ impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
 }
 
 impl<O: DistanceOracle> BestFirst<O> {
-    fn first_contact(
-        &mut self,
-        problem: &Problem<'_>,
-        oracle: &mut O,
-        meter: &mut Meter,
-    ) -> Outcome {
+    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
         if let Some(free) = free_at_once(problem) {
             return free;
         }
@@ -121,10 +124,7 @@ impl<O: DistanceOracle> Question<O> for Proven {
     }
 
     fn stopped(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
-        Outcome::Unresolved {
-            safe_until: problem.time(s),
-            reason,
-        }
+        Outcome::unresolved(problem.time(s), reason)
     }
 
     fn done(&mut self, problem: &Problem<'_>) -> Outcome {

@@ -1,13 +1,12 @@
 //! How close do two bodies come, and when?
 
-pub(super) mod bracket;
 mod follow;
 pub(super) mod guess;
 pub(super) mod ladder;
 mod nearing;
 pub(super) mod required;
 
-use super::answer::{contact_of_given, metered};
+use super::answer::{Searched, contact_of_given, metered};
 use super::depth_first::DepthFirst;
 use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
@@ -17,11 +16,12 @@ use super::proven::Proven;
 use super::rounds::Sample;
 use super::search::Search;
 use super::start::at_start;
+use crate::answer::{Answer, Contact, Limit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
+use crate::error::InputError;
 use crate::math::order::greater;
-use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap};
 use crate::problem::Problem;
-use bracket::ClosestApproach;
+use crate::query::Query;
 use guess::guess;
 use ladder::Ladder;
 use nearing::Nearing;
@@ -32,18 +32,29 @@ use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Brackets the least distance of the bodies over the duration, to within the tolerance; or answers
-    /// whether bodies that move keep a required [clearance](crate::Config::clearance).
+    /// whether bodies that move keep a required [clearance](crate::Settings::clearance).
     ///
     /// The margin and the [policy](crate::StartPolicy) for the start play no role.
     ///
     /// # Guarantee
-    /// That of [`ClosestApproach`]; ends on every input; the same call gives the same bits, unless a
-    /// [deadline](crate::Config::deadline) ends it.
+    /// That of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// [deadline](crate::Settings::deadline) ends it.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
     pub fn closest_approach(
         &mut self,
-        problem: &Problem<'_>,
+        query: &Query<'_>,
         oracle: &mut O,
-    ) -> Answer<ClosestApproach> {
+    ) -> Result<Answer, InputError> {
+        match &query.problem {
+            Some(problem) => Ok(self.closest_approach_of(problem, oracle)),
+            None => self.closest_approach_along(query, oracle),
+        }
+    }
+
+    /// Answers the same about two motions.
+    pub(super) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
             Some(distance) => self.keeps(problem, distance, oracle),
             None => self.approach_of_bodies(problem, oracle),
@@ -52,24 +63,19 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 
     /// Brackets the least distance of the bodies themselves, whatever their shapes are.
-    pub(super) fn approach_of_bodies(
-        &mut self,
-        problem: &Problem<'_>,
-        oracle: &mut O,
-    ) -> Answer<ClosestApproach> {
+    pub(super) fn approach_of_bodies(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = self.measured(problem, f64::INFINITY, oracle, or_overlap);
-        answer.map(|found| {
-            found.unwrap_or_else(|Beyond { lower }| unresolved(lower, Limit::OracleGaveUp))
-        })
+        let found = answer.found;
+        Answer {
+            outcome: found
+                .unwrap_or_else(|Beyond { lower }| unresolved(lower, Limit::OracleGaveUp)),
+            tolerance: answer.tolerance,
+            stats: answer.stats,
+        }
     }
 
     /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
-    fn keeps(
-        &mut self,
-        problem: &Problem<'_>,
-        distance: f64,
-        oracle: &mut O,
-    ) -> Answer<ClosestApproach> {
+    fn keeps(&mut self, problem: &Problem<'_>, distance: f64, oracle: &mut O) -> Answer {
         let required = Required {
             distance,
             tolerance: problem.tolerance,
@@ -82,7 +88,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             problem.deadline = begun.and_then(|begun| {
                 (problem.deadline).map(|deadline| deadline.saturating_sub(begun.elapsed()))
             });
-            Ok::<_, Infallible>(self.any_contact(&problem, oracle))
+            Ok::<_, Infallible>(self.any_contact_of(&problem, oracle))
         });
         answer.unwrap_or_else(|never| match never {})
     }
@@ -94,7 +100,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
-    ) -> Answer<Result<ClosestApproach, Beyond>> {
+    ) -> Searched<Result<Outcome, Beyond>> {
         self.measured(problem, beyond, oracle, |_, _, _, found| found)
     }
 
@@ -104,8 +110,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
-        last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, ClosestApproach) -> ClosestApproach,
-    ) -> Answer<Result<ClosestApproach, Beyond>> {
+        last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, Outcome) -> Outcome,
+    ) -> Searched<Result<Outcome, Beyond>> {
         let mut kept = self.kept.take();
         let answer = metered(problem, oracle, &mut kept, |oracle, meter| {
             let problem = problem.measuring();
@@ -120,7 +126,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 let found = last_look(&problem, oracle, meter, found);
                 told(&problem, oracle, meter, found)
             });
-            let width = told.as_ref().map_or(0.0, ClosestApproach::width);
+            let width = told.as_ref().map_or(0.0, Outcome::width);
             // Distances may not be known to the tolerance that is requested.
             (told, greater(problem.tolerance, width))
         });
@@ -134,7 +140,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         beyond: f64,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Result<ClosestApproach, Beyond> {
+    ) -> Result<Outcome, Beyond> {
         self.stack.clear();
         let found = self.search(problem, beyond, oracle, meter);
         let stats = &mut meter.stats;
@@ -149,7 +155,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         beyond: f64,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Result<ClosestApproach, Beyond> {
+    ) -> Result<Outcome, Beyond> {
         if !moves(problem) {
             return at_one_pose(problem, beyond, oracle, meter);
         }
@@ -201,39 +207,21 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// Returns what is found in a period that stands for the whole time as an answer for all of it.
-fn at_all_times(
-    sample: &Sample<'_>,
-    found: Result<ClosestApproach, Beyond>,
-) -> Result<ClosestApproach, Beyond> {
-    let contact = |contact| sample.contact(contact);
-    match found {
-        Ok(ClosestApproach::Nearest {
-            lower,
-            time,
-            contact: nearest,
-        }) => Ok(ClosestApproach::Nearest {
-            lower: sample.lower(lower),
-            time,
-            contact: contact(nearest),
-        }),
-        Ok(ClosestApproach::Unresolved {
-            lower,
-            nearest,
-            reason,
-        }) => Ok(ClosestApproach::Unresolved {
-            lower: greater(0.0, sample.lower(lower)),
-            nearest: nearest.map(|(time, nearest)| (time, contact(nearest))),
-            reason,
-        }),
-        Ok(
-            found @ (ClosestApproach::Overlapping { .. }
-            | ClosestApproach::Farther { .. }
-            | ClosestApproach::Nearer { .. }),
-        ) => Ok(found),
-        Err(Beyond { lower }) => Err(Beyond {
-            lower: sample.lower(lower),
-        }),
-    }
+fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<Outcome, Beyond> {
+    let found = found.map_err(|Beyond { lower }| Beyond {
+        lower: sample.lower(lower),
+    })?;
+    let lower = sample.lower(found.lower());
+    Ok(
+        match found.map_contacts(|contact, _| sample.contact(contact)) {
+            Outcome::Measured { upper, at, .. } => Outcome::Measured { lower, upper, at },
+            Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
+                lower: greater(0.0, lower),
+                ..known
+            }),
+            _ => found,
+        },
+    )
 }
 
 /// Returns the answer for bodies that meet, unless they overlap at the start as well.
@@ -241,13 +229,13 @@ fn or_overlap<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
-    found: ClosestApproach,
-) -> ClosestApproach {
-    if !found.meets_later(problem.tolerance) {
+    found: Outcome,
+) -> Outcome {
+    if !meets_later(&found, problem.tolerance) {
         return found;
     }
     match at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
-        Some(Outcome::Overlapping { overlap }) => ClosestApproach::overlapping(overlap),
+        Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
         _ => found,
     }
 }
@@ -258,16 +246,14 @@ fn at_one_pose<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> Result<ClosestApproach, Beyond> {
+) -> Result<Outcome, Beyond> {
     Ok(match at_start(problem, beyond, oracle, meter) {
-        Some(Outcome::Touching { contact }) => ClosestApproach::Nearest {
-            lower: greater(0.0, contact.separation.lower),
-            time: 0.0,
-            contact,
-        },
-        Some(Outcome::Overlapping { overlap }) => ClosestApproach::overlapping(overlap),
-        Some(Outcome::Unresolved { reason, .. }) => {
-            unresolved(greater(0.0, least_distance(problem)), reason)
+        Some(Outcome::Touching { contact }) => {
+            Outcome::least(greater(0.0, contact.separation.lower), 0.0, contact)
+        }
+        Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
+        Some(Outcome::Unresolved(known)) => {
+            unresolved(greater(0.0, least_distance(problem)), known.limit)
         }
         _ => return Err(Beyond { lower: beyond }),
     })
@@ -294,11 +280,18 @@ fn moves(problem: &Problem<'_>) -> bool {
     problem.a.path.moves() || problem.b.path.moves()
 }
 
-fn unresolved(lower: f64, reason: Limit) -> ClosestApproach {
-    ClosestApproach::Unresolved {
-        lower,
-        nearest: None,
-        reason,
+fn unresolved(lower: f64, limit: Limit) -> Outcome {
+    Outcome::Unresolved(Unresolved::least(lower, None, limit))
+}
+
+/// Returns true if the bodies come to no distance after the start.
+pub(super) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
+    match *found {
+        Outcome::Measured {
+            at: Some((time, contact)),
+            ..
+        } => time > 0.0 && contact.separation.upper <= tolerance,
+        _ => false,
     }
 }
 
@@ -307,43 +300,12 @@ fn told<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
-    found: ClosestApproach,
-) -> ClosestApproach {
-    let mut told = |contact: Contact, time| {
+    found: Outcome,
+) -> Outcome {
+    found.map_contacts(|contact, time| {
         let within = contact.separation.upper;
         contact_of_given(problem, oracle, meter, contact, within, time)
-    };
-    match found {
-        ClosestApproach::Nearest {
-            lower,
-            time,
-            contact,
-        } => ClosestApproach::Nearest {
-            lower,
-            time,
-            contact: told(contact, time),
-        },
-        ClosestApproach::Overlapping {
-            overlap: Overlap::Pieces(contact),
-            upper,
-        } => ClosestApproach::Overlapping {
-            overlap: Overlap::Pieces(told(contact, 0.0)),
-            upper,
-        },
-        ClosestApproach::Unresolved {
-            lower,
-            nearest,
-            reason,
-        } => ClosestApproach::Unresolved {
-            lower,
-            nearest: nearest.map(|(time, contact)| (time, told(contact, time))),
-            reason,
-        },
-        // Told where they were found.
-        ClosestApproach::Farther { .. }
-        | ClosestApproach::Nearer { .. }
-        | ClosestApproach::Overlapping { .. } => found,
-    }
+    })
 }
 
 /// Two pieces at the clock at which they are the nearest so far.

@@ -1,8 +1,12 @@
 //! The contract of schedules.
 
+use super::along::first;
+use super::memory::Kept;
+use crate::answer::Answer;
 use crate::distance::oracle::DistanceOracle;
-use crate::outcome::Answer;
+use crate::error::InputError;
 use crate::problem::Problem;
+use crate::query::Query;
 
 /// An order in which to advance the pairs of two bodies until the first contact is certain.
 ///
@@ -18,21 +22,45 @@ use crate::problem::Problem;
 /// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
 /// #     }
 /// # }
-/// fn outcome(mut schedule: impl Schedule<Balls>, problem: &Problem<'_>) -> Outcome {
-///     schedule.solve(problem, &mut Balls).outcome
+/// fn outcome(mut schedule: impl Schedule<Balls>, query: &Query<'_>) -> Result<Outcome, InputError> {
+///     Ok(schedule.first_contact(query, &mut Balls)?.outcome)
 /// }
 /// let ball = Body::ball(0.5)?;
 /// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
-/// let problem = Problem::new((&ball, flying), (&ball, Motion::STILL), 1.0, &Config::default())?;
-/// assert!(matches!(outcome(BestFirst::default(), &problem), Outcome::Free { .. }));
-/// assert!(matches!(outcome(Naive::default(), &problem), Outcome::Free { .. }));
+/// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 1.0, &Settings::DEFAULT)?;
+/// assert!(matches!(outcome(BestFirst::default(), &query)?, Outcome::Free { .. }));
+/// assert!(matches!(outcome(Naive::default(), &query)?, Outcome::Free { .. }));
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Schedule<O: DistanceOracle> {
-    /// Answers a query.
+    /// Answers when the bodies first touch.
     ///
     /// # Guarantee
     /// [Never late](crate#guarantee); ends on every input; the same call gives the same bits, unless a
-    /// [deadline](crate::Config::deadline) ends it.
+    /// [deadline](crate::Settings::deadline) ends it.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range. There is none for two motions.
+    fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError>;
+}
+
+/// A schedule as the engine calls it.
+pub(crate) trait Solve<O: DistanceOracle> {
+    /// Whether the search takes accelerations of the bodies' centres into account. Otherwise they count as strays.
+    fn takes_accelerations(&self) -> bool;
+
+    /// Answers a query about motions.
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer;
+
+    /// The memory kept between queries.
+    fn kept(&mut self) -> &mut Kept;
+}
+
+impl<O: DistanceOracle, S: Solve<O>> Schedule<O> for S {
+    fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
+        match &query.problem {
+            Some(problem) => Ok(self.solve(problem, oracle)),
+            None => first::first_contact(self, query, oracle),
+        }
+    }
 }

@@ -7,14 +7,14 @@ mod reach;
 
 use super::answer::answer;
 use super::best_first::BestFirst;
-use super::contract::Schedule;
+use super::contract::Solve;
 use super::memory::Kept;
 use super::meter::Meter;
 use super::proven::Proven;
 use super::rounds::in_rounds;
+use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::bound::Bound;
-use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use descent::Descent;
 use front::Front;
@@ -43,7 +43,7 @@ use std::ops::ControlFlow;
 /// [`BestFirst`] answers the query.
 ///
 /// # Guarantee
-/// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
+/// That of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
 /// contacts missed.
 ///
 /// The bodies come nearer by a share of their distance in every step. Grazing passes and fast
@@ -77,7 +77,15 @@ impl<O: DistanceOracle> Default for Fast<O> {
     }
 }
 
-impl<O: DistanceOracle> Schedule<O> for Fast<O> {
+impl<O: DistanceOracle> Solve<O> for Fast<O> {
+    fn takes_accelerations(&self) -> bool {
+        false
+    }
+
+    fn kept(&mut self) -> &mut Kept {
+        &mut self.kept
+    }
+
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let Some(hulls) = HullPair::of(problem) else {
             return self.without_trees.solve(problem, oracle);
@@ -129,10 +137,7 @@ impl<O: DistanceOracle> Fast<O> {
                 return outcome;
             }
             if !(next > s) {
-                return Outcome::Unresolved {
-                    safe_until: problem.time(s),
-                    reason: Limit::Stalled,
-                };
+                return Outcome::unresolved(problem.time(s), Limit::Stalled);
             }
             s = next;
         }

@@ -1,16 +1,19 @@
 //! The first contact, asked in steps: a search that stops at a time, and goes on later.
 
 use super::BestFirst;
+use super::along::first::first_contact;
 use super::answer::{let_go, of_given, shown};
 use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
 use super::proven::{Proven, free_at_once};
 use super::rounds::Rounds;
 use super::search::{Question, Search};
-use crate::config::StartPolicy;
+use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::outcome::{Answer, Limit, Outcome};
+use crate::error::InputError;
 use crate::problem::Problem;
+use crate::query::Query;
+use crate::settings::StartPolicy;
 use std::ops::ControlFlow;
 
 /// A search for the first contact that goes as far in time as it is asked to.
@@ -30,15 +33,30 @@ use std::ops::ControlFlow;
 /// # }
 /// let ball = Body::ball(0.5)?;
 /// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
-/// let problem = Problem::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Config::default())?;
-/// let mut search = FirstContact::new(problem, BestFirst::default());
-/// let Progress::ApartUntil(time) = search.advance(&mut Balls, 0.5) else { panic!("they are far apart") };
+/// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
+/// let mut search = FirstContact::new(query, BestFirst::default());
+/// let Progress::ApartUntil(time) = search.advance(&mut Balls, 0.5)? else { panic!("they are far apart") };
 /// assert!(time >= 0.5 && time <= 2.0);
-/// let Progress::Answered(answer) = search.advance(&mut Balls, 4.0) else { panic!("all time is up") };
+/// let Progress::Answered(answer) = search.advance(&mut Balls, 4.0)? else { panic!("all time is up") };
 /// assert!(matches!(answer.outcome, Outcome::Contact { .. }));
 /// # Ok::<(), InputError>(())
 /// ```
-pub struct FirstContact<'a, O: DistanceOracle> {
+pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
+
+#[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
+enum Kind<'a, O: DistanceOracle> {
+    /// About motions.
+    InSteps(Steps<'a, O>),
+    /// Along trajectories, which are searched as a whole.
+    AtOnce {
+        query: Query<'a>,
+        memory: BestFirst<O>,
+        answer: Option<Answer>,
+    },
+}
+
+/// A search about two motions.
+struct Steps<'a, O: DistanceOracle> {
     problem: Problem<'a>,
     /// What is searched now: the problem with a contact at the start as an answer, or bodies let go.
     current: Problem<'a>,
@@ -71,13 +89,59 @@ pub enum Progress {
 }
 
 impl<'a, O: DistanceOracle> FirstContact<'a, O> {
-    /// Takes up a problem, with the memory of a schedule. A [deadline](crate::Config::deadline) counts from now.
-    pub fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
+    /// Takes up a query, with the memory of a schedule. A [deadline](crate::Settings::deadline) counts from now.
+    pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
+        FirstContact(match query.problem.take() {
+            Some(problem) => Kind::InSteps(Steps::new(problem, memory)),
+            None => Kind::AtOnce {
+                query,
+                memory,
+                answer: None,
+            },
+        })
+    }
+
+    /// Returns the memory, for another search.
+    pub fn into_memory(self) -> BestFirst<O> {
+        match self.0 {
+            Kind::InSteps(steps) => steps.into_memory(),
+            Kind::AtOnce { memory, .. } => memory,
+        }
+    }
+
+    /// Goes on until the bodies are proven apart until a time, or later, or there is an answer. Along trajectories other
+    /// than [motions](crate::Motion), it goes on to the answer.
+    ///
+    /// # Guarantee
+    /// [Never late](crate#guarantee); ends on every input. The answer is the same bits as that of [`BestFirst`], in
+    /// whatever steps it is asked for, unless a deadline ends the search.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
+    pub fn advance(&mut self, oracle: &mut O, until: f64) -> Result<Progress, InputError> {
+        match &mut self.0 {
+            Kind::InSteps(steps) => Ok(steps.advance(oracle, until)),
+            Kind::AtOnce {
+                query,
+                memory,
+                answer,
+            } => {
+                if answer.is_none() {
+                    *answer = Some(first_contact(memory, query, oracle)?);
+                }
+                Ok(answer.map_or(Progress::ApartUntil(0.0), Progress::Answered))
+            }
+        }
+    }
+}
+
+impl<'a, O: DistanceOracle> Steps<'a, O> {
+    fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
         let mut meter = Meter::new(&problem);
         meter.kept = memory.kept.take();
         memory.queue.clear();
         let current = problem.reporting();
-        FirstContact {
+        Steps {
             part: first_part(&current),
             current,
             start: problem.start,
@@ -89,19 +153,13 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         }
     }
 
-    /// Returns the memory, for another search.
-    pub fn into_memory(mut self) -> BestFirst<O> {
+    fn into_memory(mut self) -> BestFirst<O> {
         self.memory.queue.clear();
         self.memory.kept = self.meter.kept;
         self.memory
     }
 
-    /// Goes on until the bodies are proven apart until a time, or later, or there is an answer.
-    ///
-    /// # Guarantee
-    /// [Never late](crate#guarantee); ends on every input. The answer is the same bits as that of [`BestFirst`], in
-    /// whatever steps it is asked for, unless a deadline ends the search.
-    pub fn advance(&mut self, oracle: &mut O, until: f64) -> Progress {
+    fn advance(&mut self, oracle: &mut O, until: f64) -> Progress {
         if let Some(answer) = self.answer {
             return Progress::Answered(answer);
         }

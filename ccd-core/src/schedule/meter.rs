@@ -1,7 +1,7 @@
 //! The limits of a query's work, the work done, and the memory for it.
 
 use super::memory::{Kept, Memory};
-use crate::outcome::{Limit, Stats};
+use crate::answer::{Limit, Stats};
 use crate::problem::Problem;
 use crate::tolerance::WORK_BETWEEN_LOOKS;
 use std::sync::atomic::Ordering;

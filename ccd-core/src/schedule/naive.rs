@@ -1,16 +1,16 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, a slow and obvious reference.
 
 use super::answer::answer;
-use super::contract::Schedule;
+use super::contract::Solve;
 use super::memory::{Kept, empty};
 use super::meter::Meter;
 use super::pieces::pair::Pair;
 use super::pieces::snapshot::Snapshot;
 use super::proven::Proven;
+use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
 use crate::motion::bound::Bound;
-use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::{Problem, Side};
 use std::ops::ControlFlow;
 
@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 /// checks of the other schedules.
 ///
 /// # Guarantee
-/// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late.
+/// That of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with [`Bound::Published`] times may be late.
 #[derive(Debug)]
 pub struct Naive<O: DistanceOracle> {
     bound: Bound,
@@ -47,7 +47,15 @@ impl<O: DistanceOracle> Default for Naive<O> {
     }
 }
 
-impl<O: DistanceOracle> Schedule<O> for Naive<O> {
+impl<O: DistanceOracle> Solve<O> for Naive<O> {
+    fn takes_accelerations(&self) -> bool {
+        false
+    }
+
+    fn kept(&mut self) -> &mut Kept {
+        &mut self.kept
+    }
+
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut kept = self.kept.take();
         let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
@@ -63,10 +71,7 @@ impl<O: DistanceOracle> Schedule<O> for Naive<O> {
 impl<O: DistanceOracle> Naive<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
         let (a, b) = (problem.a.body.pieces().len(), problem.b.body.pieces().len());
-        let unresolved = |s: f64, reason| Outcome::Unresolved {
-            safe_until: problem.time(s),
-            reason,
-        };
+        let unresolved = |s: f64, reason| Outcome::unresolved(problem.time(s), reason);
         empty(&mut self.pairs);
         let all = a as u64 * b as u64;
         if all > problem.budget {

@@ -5,10 +5,10 @@ use super::nodes::roots::keep_apart;
 use super::out_of_reach::out_of_reach;
 use super::pieces::pair::Step;
 use super::start::{contained, overlapping, touching};
-use crate::config::StartPolicy;
+use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::outcome::{Contact, Limit, Outcome};
 use crate::problem::Problem;
+use crate::settings::StartPolicy;
 use std::ops::ControlFlow;
 
 /// Returns the outcome if balls around the bodies, or boxes, tell them apart for good.
@@ -38,10 +38,7 @@ impl Proven {
         step: Step,
         s: f64,
     ) -> ControlFlow<Outcome, f64> {
-        let unresolved = |reason| Outcome::Unresolved {
-            safe_until: problem.time(s),
-            reason,
-        };
+        let unresolved = |reason| Outcome::unresolved(problem.time(s), reason);
         ControlFlow::Break(match step {
             Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
             Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),

@@ -8,12 +8,12 @@
 
 use super::meter::Meter;
 use super::proven::free_at_once;
-use crate::config::StartPolicy;
+use crate::answer::{Contact, Limit, Outcome, Separation};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::period::{Period, Reaching};
-use crate::outcome::{Contact, Limit, Outcome, Separation};
 use crate::problem::{Problem, Side};
+use crate::settings::StartPolicy;
 use crate::tolerance::{
     LEAST_GAIN, REPEATED, SCREW_DRIFT, TURNS_F64, least_tolerance, place_rounding,
 };
@@ -133,15 +133,16 @@ impl<'a> Rounds<'a> {
         outcome: &Outcome,
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
-        let unresolved = |rounds: &Self, reason| Outcome::Unresolved {
-            safe_until: rounds.whole.time(rounds.from),
-            reason,
-        };
+        let unresolved =
+            |rounds: &Self, reason| Outcome::unresolved(rounds.whole.time(rounds.from), reason);
         match *outcome {
             Outcome::Free { proven_gap } => self.prove(proven_gap)?,
             Outcome::Contact { time, contact } => self.meet(time, contact)?,
             Outcome::Touching { contact } => self.meet(self.whole.time(self.from), contact)?,
-            Outcome::Unresolved { .. } => return ControlFlow::Break(*outcome),
+            Outcome::Unresolved(_) => return ControlFlow::Break(*outcome),
+            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+                unreachable!("no outcome of a search for contacts")
+            }
             Outcome::Overlapping { .. } if self.from == 0.0 => return ControlFlow::Break(*outcome),
             // They were apart until then: an oracle contradicts itself.
             Outcome::Overlapping { .. } => {

@@ -7,8 +7,8 @@ use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::{Pair, Step};
 use super::waiting::{Full, Rank, Waiting};
+use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
-use crate::outcome::Limit;
 use crate::problem::Problem;
 use std::ops::ControlFlow;
 

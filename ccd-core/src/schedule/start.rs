@@ -4,8 +4,8 @@ mod containment;
 
 use super::meter::Meter;
 use super::nearest::{Nearest, Stop};
+use crate::answer::{Contact, Limit, Outcome, Overlap};
 use crate::distance::oracle::DistanceOracle;
-use crate::outcome::{Contact, Limit, Outcome, Overlap};
 use crate::problem::Problem;
 use containment::Containment;
 
@@ -75,27 +75,19 @@ pub(super) fn contained(
     pieces: &mut Vec<u32>,
 ) -> Option<Outcome> {
     match containment::at_start(problem, touching, pieces) {
-        Containment::Inside(overlap) => Some(Outcome::Overlapping { overlap }),
+        Containment::Inside(overlap) => Some(Outcome::overlapping(overlap)),
         Containment::Outside => None,
-        Containment::Undecided => Some(Outcome::Unresolved {
-            safe_until: 0.0,
-            reason: Limit::Undecided,
-        }),
+        Containment::Undecided => Some(Outcome::unresolved(0.0, Limit::Undecided)),
     }
 }
 
 /// Returns the outcome for two pieces that overlap.
 pub(super) fn overlapping(contact: Contact) -> Outcome {
-    Outcome::Overlapping {
-        overlap: Overlap::Pieces(contact),
-    }
+    Outcome::overlapping(Overlap::Pieces(contact))
 }
 
 fn unresolved(reason: Limit) -> Outcome {
-    Outcome::Unresolved {
-        safe_until: 0.0,
-        reason,
-    }
+    Outcome::unresolved(0.0, reason)
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Boxes hold sampled points, bodies whose boxes are apart are free, and boxes are not much larger than they must be.
 
 use super::*;
-use crate::schedule::{BestFirst, Schedule};
+use crate::schedule::BestFirst;
+use crate::schedule::contract::Solve;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};
 use crate::{Motion, Outcome, Pose};
@@ -11,10 +12,7 @@ fn boxes(scene: &Scene) -> [SweptBox; 2] {
 }
 
 fn moving(scene: &Scene, k: usize) -> Moving<'_> {
-    Moving {
-        body: &scene.bodies[k],
-        motion: scene.motions[k],
-    }
+    Moving::from((&scene.bodies[k], scene.motions[k]))
 }
 
 #[test]
@@ -62,7 +60,7 @@ fn room_of(scene: &Scene, k: usize) -> f64 {
         given: None,
         path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
     };
-    room(&side, &scene.config)
+    room(&side, &scene.config.terms())
 }
 
 /// Bodies move apart by what lies between their boxes, and a little less.
@@ -133,9 +131,9 @@ fn a_ball_that_flies_has_the_box_of_its_way() {
     let mut rng = rng(4);
     let spin = 10.0 * direction(&mut rng);
     let flies = Motion::new(Pose::at([1.0, 2.0, 3.0]).unwrap(), [4.0, -2.0, 0.0], spin).unwrap();
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-9,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let swept = Moving::from((&ball, flies))
         .swept_box(1.0, &config)
@@ -149,7 +147,7 @@ fn a_ball_that_flies_has_the_box_of_its_way() {
 fn what_a_problem_refuses_has_no_box() {
     let ball = crate::Body::ball(0.5).unwrap();
     let far = Motion::new(Pose::IDENTITY, [2e12, 0.0, 0.0], [0.0; 3]).unwrap();
-    let (config, still) = (Config::default(), Motion::STILL);
+    let (config, still) = (Settings::DEFAULT, Motion::STILL);
     assert!(Moving::from((&ball, far)).swept_box(1.0, &config).is_err());
     assert!(Moving::from((&ball, far)).swept_box(0.1, &config).is_ok());
     assert!(

@@ -1,5 +1,7 @@
 //! Double-double arithmetic: the reference for samples of the allowances for rounding. A number is
 //! the unevaluated sum of two f64, with a relative error of about 1e-31.
+//!
+//! A crate of tests cannot lend its own: it depends on this crate, which would be built twice.
 
 use crate::math::order::greater;
 use crate::motion::Motion;

@@ -4,13 +4,15 @@
 use super::double::{Double, Double3, Ends};
 use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use crate::answer::Outcome;
 use crate::body::Body;
-use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::Outcome;
-use crate::problem::{Moving, Problem};
-use crate::schedule::{BestFirst, Naive, Schedule};
+use crate::problem::Problem;
+use crate::query::Moving;
+use crate::schedule::contract::Solve;
+use crate::schedule::{BestFirst, Naive};
+use crate::settings::Settings;
 use glam::DVec3;
 
 /// Poses at both ends about a point in the world, with quaternions of any length, sometimes equal.
@@ -65,7 +67,7 @@ impl Scene {
 fn answers_hold_for_the_motion_between_the_poses_as_given() {
     let mut rng = rng(41);
     let (mut hits, mut misses) = (0, 0);
-    for number in 0..2_000 {
+    for number in 0..800 {
         let scene = Scene::new(&mut rng);
         let bodies = scene.centres.map(|centre| {
             let ball = crate::body::polytope::Polytope {
@@ -77,15 +79,12 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
             Body::new(&pieces, crate::body::Volume::Surface).unwrap()
         });
         let duration = magnitude(&mut rng, -2.0, 2.0);
-        let config = Config {
+        let config = Settings {
             tolerance: 1e-12,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
-        let moving = |k: usize| Moving {
-            body: &bodies[k],
-            motion: between(&scene.ends[k], duration),
-        };
-        let problem = Problem::new(moving(0), moving(1), duration, &config).unwrap();
+        let moving = |k: usize| Moving::from((&bodies[k], between(&scene.ends[k], duration)));
+        let problem = Problem::about(moving(0), moving(1), duration, &config).unwrap();
         for outcome in [
             BestFirst::default()
                 .solve(&problem, &mut Exhaustive)
@@ -121,5 +120,5 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
             }
         }
     }
-    assert!(hits > 500 && misses > 500, "{hits} {misses}");
+    assert!(hits > 200 && misses > 200, "{hits} {misses}");
 }

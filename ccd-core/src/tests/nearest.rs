@@ -1,5 +1,7 @@
 //! The nearest points of two triangles by brute force: every edge with every edge, every corner
 //! with the other's plane, and whether an edge pierces the other triangle.
+//!
+//! A crate of tests cannot lend its own: it depends on this crate, which would be built twice.
 
 use crate::math::order::lesser;
 use glam::DVec3;

@@ -4,11 +4,14 @@ use super::nearest::{Triangle, nearest};
 use super::worst::Tape;
 use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
-use crate::config::Config;
+use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Moving, Problem};
+use crate::problem::Problem;
+use crate::query::Moving;
+use crate::query::Query;
+use crate::settings::Settings;
 use glam::{DQuat, DVec3};
 use rand::TryRng;
 pub(crate) use rand::{RngExt, SeedableRng};
@@ -181,7 +184,7 @@ pub(crate) struct Scene {
     pub(crate) bodies: [Body; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) accelerations: [DVec3; 2],
-    pub(crate) config: Config,
+    pub(crate) config: Settings,
     /// The clock at which they are near each other.
     pub(crate) clock: f64,
     /// The approximate time for which they are.
@@ -190,12 +193,9 @@ pub(crate) struct Scene {
 
 impl Scene {
     pub(crate) fn problem(&self) -> Problem<'_> {
-        let moving = |k: usize| Moving {
-            body: &self.bodies[k],
-            motion: self.motions[k],
-        };
+        let moving = |k: usize| (&self.bodies[k], self.motions[k]);
         let bodies = [moving(0), moving(1)];
-        Problem::accelerated(bodies, self.accelerations, 1.0, &self.config).unwrap()
+        Problem::accelerated(bodies, self.accelerations, 1.0, &self.config.terms()).unwrap()
     }
 
     /// Lets the bodies of every third scene accelerate.
@@ -303,9 +303,9 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
         bodies: bodies.try_into().unwrap(),
         motions: motions.try_into().unwrap(),
         accelerations: [DVec3::ZERO; 2],
-        config: Config {
+        config: Settings {
             tolerance: lesser(sizes[0], sizes[1]) * magnitude(rng, -6.0, -2.0),
-            ..Config::default()
+            ..Settings::DEFAULT
         },
         clock,
         window: (sizes[0] + sizes[1]) / (velocities[0].distance(velocities[1]) + size),
@@ -369,5 +369,18 @@ fn set_moving(
                 };
             }
         }
+    }
+}
+
+impl<'a> Problem<'a> {
+    /// Returns the problem of a query about two motions.
+    pub(crate) fn about(
+        a: impl Into<Moving<'a>>,
+        b: impl Into<Moving<'a>>,
+        duration: f64,
+        settings: &'a Settings,
+    ) -> Result<Self, InputError> {
+        let query = Query::new(a, b, duration, settings)?;
+        Ok(query.problem.expect("both bodies are on motions"))
     }
 }

@@ -4,15 +4,17 @@
 use super::nearest::nearest;
 use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
+use crate::answer::{Outcome, Unresolved};
 use crate::body::Body;
-use crate::config::Config;
 use crate::math::order::lesser;
 use crate::math::vector::unit;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::Outcome;
-use crate::problem::{Moving, Problem};
-use crate::schedule::{BestFirst, Schedule};
+use crate::problem::Problem;
+use crate::query::Moving;
+use crate::schedule::BestFirst;
+use crate::schedule::contract::Solve;
+use crate::settings::Settings;
 use glam::DVec3;
 
 /// A vector of small integers.
@@ -64,16 +66,14 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
         let way = [normal, direction(&mut rng)][rng.random_range(0..2)];
         let start = Pose::at(goal - way * rng.random_range(1.0..3.0)).unwrap();
         let motion = Motion::new(start, way * rng.random_range(1.0..4.0), DVec3::ZERO).unwrap();
-        let config = Config {
+        let config = Settings {
             tolerance: magnitude(&mut rng, -9.0, -3.0),
             margin: magnitude(&mut rng, -1.0, 0.0),
-            ..Config::default()
+            ..Settings::DEFAULT
         };
-        let moving = |k: usize| Moving {
-            body: &bodies[k],
-            motion: [Motion::still(Pose::IDENTITY), motion][k],
-        };
-        let problem = Problem::new(moving(0), moving(1), 1.0, &config).unwrap();
+        let moving =
+            |k: usize| Moving::from((&bodies[k], [Motion::still(Pose::IDENTITY), motion][k]));
+        let problem = Problem::about(moving(0), moving(1), 1.0, &config).unwrap();
         let outcome = BestFirst::default()
             .solve(&problem, &mut Exhaustive)
             .outcome;
@@ -87,7 +87,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
                 (1.0, proven_gap)
             }
             // The slow oracle squares tiny numbers, and claims poor axes.
-            Outcome::Unresolved { safe_until, .. } => {
+            Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 open += 1;
                 (safe_until, problem.margin)
             }

@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::cmp::Ordering;
 
-/// The [side] for points of a list, by their numbers. A corner of the triangle is in its plane without a
-/// computation, which would be the predicate's longest.
+/// Returns the [side] of a point, by indices into a list. A corner of the triangle needs no computation, which would be
+/// the predicate's slowest.
 #[inline]
 pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
     if triangle.contains(&point) {
@@ -18,7 +18,7 @@ pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Order
     side(corners, points[point as usize])
 }
 
-/// A projection of a triangle to a coordinate plane that keeps an area, and the triangle's orientation there.
+/// A coordinate plane on which a triangle projects to a non-zero area, and its orientation there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Projection {
     /// The axis along which the triangle is projected.
@@ -27,8 +27,8 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// Finds a projection; none for a triangle without area.
-    pub(crate) fn of(triangle: [DVec3; 3]) -> Option<Self> {
+    /// Returns a projection; `None` if the triangle is degenerate.
+    pub(crate) fn new(triangle: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = triangle;
         (0..3).find_map(|axis| match turn_along(axis, [a, b], c) {
             Ordering::Equal => None,
@@ -39,8 +39,8 @@ impl Projection {
         })
     }
 
-    /// Returns the side of a line in the triangle's plane with a point of the plane: `Greater` to the left of
-    /// the direction from `a` to `b`, seen from the triangle's front.
+    /// Returns on which side of the line from `a` to `b` a point lies, all in the triangle's plane: `Greater` is to the
+    /// left, seen from the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         if self.turned {
@@ -51,21 +51,21 @@ impl Projection {
     }
 }
 
-/// Returns whether a triangle has no area, with coordinates however near to 0. Each axis is first scaled by a
-/// power of two until its largest coordinate is about 1, which does not change the answer. Exact, unless
-/// coordinates along one axis differ by a factor of more than 1e90.
+/// Returns whether a triangle is degenerate. Coordinates may be arbitrarily near to 0. Each axis is first scaled by a
+/// power of two until its largest coordinate is about 1, which does not change the answer. Exact, unless coordinates
+/// along one axis differ by a factor of more than 1e90.
 pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
     let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_to_one));
     is_degenerate(triangle.map(|p| p * scale))
 }
 
-/// The power of two that takes a small number to about 1; 1 for any other number.
+/// Returns the power of two that scales a number below 1 to about 1; 1 for any other number.
 fn scale_to_one(x: f64) -> f64 {
     if x < 1.0 { to_one(x) } else { 1.0 }
 }
 
-/// The power of two that takes a positive number to about 1; 1 for any other number.
+/// Returns the power of two that scales a positive number to about 1; 1 for any other number.
 fn to_one(x: f64) -> f64 {
     const EXPONENT: u64 = f64::INFINITY.to_bits();
     if x > 0.0 && x.is_finite() {

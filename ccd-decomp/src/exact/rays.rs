@@ -1,11 +1,11 @@
-//! Rays through triangles, for winding numbers: exactly.
+//! Exact crossings of segments with triangles, for winding numbers.
 
 use super::predicates::side;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Counts how a segment crosses a triangle: 1 where it leaves through it, −1 where it enters, 0 where it passes
-/// by; none when it meets the triangle's edge, or ends on it.
+/// Returns how a segment crosses a triangle: 1 from back to front, −1 from front to back, 0 if it misses. Returns
+/// `None` if it meets an edge or ends on the triangle.
 pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
     let [a, b, c] = triangle;
     let ends = [from, to].map(|p| side(triangle, p));
@@ -24,9 +24,9 @@ pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i
     }
 }
 
-/// The `k`-th segment that is tried from a point out of a mesh of some size.
+/// Returns the `k`-th segment to try from a point to the outside of a mesh of a given size.
 ///
-/// It runs nearly along an axis, so that few boxes meet its box, and in no special relation to any.
+/// It is nearly parallel to an axis, so that few boxes meet its box, but slightly tilted to avoid degenerate cases.
 pub(crate) fn probe(from: DVec3, size: f64, k: usize) -> [DVec3; 2] {
     let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
     let across = DVec3::new(0.7548, 0.5698, -0.3247) * tilt;

@@ -1,11 +1,11 @@
-//! Exact tests whether triangles and segments meet.
+//! Exact intersection tests of triangles and segments.
 
 use super::predicates::{Projection, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Returns whether two triangles with an area meet elsewhere than in the corners they share, by the numbers
-/// of their corners and by their points.
+/// Returns whether two non-degenerate triangles meet outside their shared corners. Corners are given by number and by
+/// point.
 pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
     let is_shared = |which: usize, k: usize| corners[1 - which].contains(&corners[which][k]);
     let shared = (0..3).filter(|&k| is_shared(0, k)).count();
@@ -44,7 +44,7 @@ fn folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
     let (Some(k), Some(l)) = (far(0), far(1)) else {
         return true;
     };
-    let Some(projection) = Projection::of(one) else {
+    let Some(projection) = Projection::new(one) else {
         return true;
     };
     side(one, other[l]) == Ordering::Equal
@@ -67,7 +67,7 @@ fn meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
 
 /// Returns whether a segment in the triangle's plane meets the triangle; touching counts.
 fn meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
-    let Some(projection) = Projection::of(triangle) else {
+    let Some(projection) = Projection::new(triangle) else {
         return true;
     };
     let outside = |k: usize| {

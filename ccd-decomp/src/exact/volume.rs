@@ -1,9 +1,9 @@
-//! The sign of a volume, where rounding cannot have changed it.
+//! Signed volumes with a bound on rounding.
 
 use crate::tolerance::volume_rounding;
 use ccd_core::glam::DVec3;
 
-/// A sum of signed volumes, and of their sizes, which bounds the rounding of the sum.
+/// A sum of signed volumes, with the sum of magnitudes that bounds its rounding.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SignedVolume {
     sum: f64,
@@ -27,7 +27,7 @@ impl SignedVolume {
         self.terms += 1.0;
     }
 
-    /// The sign; none when [rounding](volume_rounding) could have changed it.
+    /// Returns whether the sum is positive; `None` if [rounding](volume_rounding) could change the sign.
     pub(crate) fn is_positive(&self) -> Option<bool> {
         let sum = self.sum + self.lost;
         let rounding = volume_rounding(self.size, self.terms);

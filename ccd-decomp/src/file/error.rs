@@ -5,11 +5,11 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A stored body that cannot be read, or a body that cannot be stored.
+/// An error of loading or storing a body.
 #[derive(Debug, thiserror::Error)]
 #[error("{}{fault}", Prefix(.file))]
 pub struct StoreError {
-    /// The file, where there is one.
+    /// The file, if there is one.
     pub file: Option<PathBuf>,
     /// The reason.
     pub fault: StoreFault,
@@ -19,10 +19,10 @@ pub struct StoreError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StoreFault {
-    /// The operating system does not give the bytes.
+    /// The file cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// The operating system does not take the bytes.
+    /// The file cannot be written.
     #[error("cannot be written: {0}")]
     Unwritable(#[source] io::Error),
     /// The file does not begin like a stored body.
@@ -31,7 +31,7 @@ pub enum StoreFault {
     /// The file is a pointer of Git LFS.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
-    /// Another version of the program wrote it.
+    /// The file has another version of the format.
     #[error(
         "is of version {version} of the format, and version {} is what is read; {PREPARE}",
         VERSION
@@ -43,10 +43,10 @@ pub enum StoreFault {
     /// The file ends before the length that it announces.
     #[error("is cut short; copy it again, or {PREPARE}")]
     Truncated,
-    /// The bytes are not those that were written.
+    /// The checksum does not match.
     #[error("is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE}")]
     Damaged,
-    /// The bytes are whole, but describe no valid body.
+    /// The checksum matches, but the content is no valid body.
     #[error("holds no valid body: {problem}; {PREPARE}")]
     Invalid {
         /// The part that is not valid.
@@ -56,8 +56,7 @@ pub enum StoreFault {
 
 const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
 
-/// The version that is written, and the only one that is read: a stored body can be prepared again from its
-/// source, so an older file is not worth a second reader.
+/// The version that is written and read. Older files are prepared again from their meshes, instead of a second reader.
 pub(super) const VERSION: u32 = 2;
 
 impl StoreFault {

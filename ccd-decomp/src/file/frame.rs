@@ -1,4 +1,4 @@
-//! The frame about a stored payload, which detects a foreign, cut or damaged file.
+//! The frame of a stored payload, which detects foreign, truncated and damaged files.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -12,8 +12,8 @@ use super::error::{StoreFault, VERSION};
 use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
-/// The first bytes, in the manner of PNG: no text begins so, and a transfer that changes line ends or cuts
-/// the eighth bit damages them.
+/// The first bytes, as in PNG: no text begins with them, and a transfer that converts line ends or strips the eighth
+/// bit damages them.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
@@ -30,14 +30,14 @@ pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     writer.flush()
 }
 
-/// Reads a payload, and checks that its frame is whole.
+/// Reads a payload, and verifies its frame.
 ///
 /// # Complexity
 /// Linear in the bytes present, for any announced length.
 pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     let mut header = bytes(&mut reader, HEADER as u64)?;
     if !header.starts_with(&MAGIC) {
-        // A few bytes more identify a pointer. A file cut within the magic number is more likely foreign.
+        // More bytes identify an LFS pointer. A file shorter than the magic number is more likely foreign.
         header.extend(bytes(&mut reader, HEADER as u64)?);
         return Err(if is_lfs_pointer(&header) {
             StoreFault::LfsPointer
@@ -66,7 +66,7 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     }
 }
 
-/// Reads the next bytes, as many as asked for or as there are.
+/// Reads up to `count` bytes.
 fn bytes(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
     let mut bytes = Vec::new();
     let taken = reader.take(count).read_to_end(&mut bytes);

@@ -1,4 +1,4 @@
-//! Meshes and pieces as Wavefront OBJ.
+//! Writers of Wavefront OBJ.
 
 use crate::mesh::TriangleMesh;
 use ccd_core::{Piece, Pieces};
@@ -19,11 +19,10 @@ pub fn write_obj(mesh: &TriangleMesh, writer: impl Write) -> io::Result<()> {
     writer.flush()
 }
 
-/// Writes every piece as a group of its own, `g piece_0` and so on, for viewing: its facets as polygons or,
-/// where none are known, its triangle, its segment or its points.
+/// Writes every piece as a group, `g piece_0` and so on, for viewing: its facets or, if none are known, its triangle,
+/// segment or points.
 ///
-/// Vertices read back to the same bits. A vertex that pieces share is written once for each piece. Rounding
-/// radii are left out.
+/// Vertices read back to the same bits. Shared vertices are written once for each piece. Rounding radii are omitted.
 ///
 /// # Errors
 /// The writer's errors.

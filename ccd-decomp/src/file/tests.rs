@@ -198,7 +198,7 @@ fn parts_that_do_not_belong_together_are_reported() {
     ));
 }
 
-/// Checks that bytes that can be read are a valid body.
+/// Checks that bytes that load give a valid body.
 fn check(bytes: &[u8]) {
     if let Ok(model) = Model::read(bytes) {
         let body = model.body().unwrap();
@@ -283,7 +283,7 @@ fn threads_save_side_by_side() {
             let (model, folder) = (&models[thread % 2], &folder);
             scope.spawn(move || {
                 for _ in 0..50 {
-                    // Names that differ by their ending alone, and one that all share.
+                    // Names that differ only in their endings, and a name that all share.
                     let own = folder.join(format!("body.v{thread}"));
                     model.save(&own).unwrap();
                     assert_eq!(stored(&Model::load(&own).unwrap()), stored(model));
@@ -323,7 +323,7 @@ fn links_are_followed_and_devices_stay_what_they_are() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Remarks of a mesh are stored behind the rest, where older files have nothing.
+/// Remarks of a mesh are stored at the end; older files have none.
 #[test]
 fn remarks_are_stored() {
     let plain = model(TETRAHEDRON, Detail::Triangles);

@@ -25,7 +25,7 @@ proptest! {
     #[test]
     fn edges_are_those_of_a_sorted_list(triangles in triangles()) {
         let mut listed = Vec::new();
-        for (ends, uses) in Edges::of(&triangles).iter() {
+        for (ends, uses) in Edges::new(&triangles).iter() {
             prop_assert!(!uses.is_empty());
             listed.extend(uses.iter().map(|u| (ends, u.half_edge(), u.is_backward())));
         }

@@ -1,4 +1,4 @@
-//! Convex hulls that grow point by point, by exact predicates.
+//! Incremental convex hulls, by exact predicates.
 
 mod conflicts;
 mod few;
@@ -10,7 +10,7 @@ use crate::tolerance::FEW_POINTS;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// The hull of some points of a list, as a closed surface of triangles with an area.
+/// The hull of points of a list, as a closed surface of non-degenerate triangles.
 ///
 /// # Guarantee
 /// Exact: every point that was inserted is inside or on it, and every corner is one of them. Facets are
@@ -24,15 +24,15 @@ pub(crate) struct ExactHull {
 /// The change of a hull when a point is inserted.
 #[derive(Clone, Debug)]
 pub(crate) struct Growth {
-    /// True if the point sees a facet from outside, and replaces it; by facet.
+    /// Whether the point sees a facet, which is then replaced; by facet.
     seen: Vec<bool>,
     /// The new facets, about the point.
     fan: Vec<[u32; 3]>,
 }
 
 impl ExactHull {
-    /// Makes the hull of a convex polygon of strict corners: two fans back to back. It has no volume, and only
-    /// points off its plane may be inserted.
+    /// Creates the hull of a strictly convex polygon: two fans back to back. It has no volume, and only points off its
+    /// plane may be inserted.
     pub(crate) fn polygon(corners: &[u32]) -> Self {
         let fan = |k: usize| [corners[0], corners[k], corners[k + 1]];
         let front = (1..corners.len() - 1).map(fan);
@@ -50,12 +50,12 @@ impl ExactHull {
         ExactHull { facets, corners }
     }
 
-    /// Computes the hull of all points; none when they lie in one plane. O(n log n).
-    pub(crate) fn of(points: &[DVec3]) -> Option<Self> {
+    /// Computes the hull of all points; `None` if they are coplanar. O(n log n).
+    pub(crate) fn new(points: &[DVec3]) -> Option<Self> {
         ExactHull::facets_of(points).map(ExactHull::with_facets)
     }
 
-    /// Computes the facets of the hull of all points; none when they lie in one plane. O(n log n).
+    /// Computes the facets of the hull of all points; `None` if they are coplanar. O(n log n).
     pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         let simplex = ExactHull::simplex(points)?;
         Some(if points.len() <= FEW_POINTS {
@@ -65,7 +65,7 @@ impl ExactHull {
         })
     }
 
-    /// Finds a triangle of points, and a point behind its plane; none when all are in one plane. O(n).
+    /// Returns a triangle of points and a point behind its plane; `None` if all are coplanar. O(n).
     fn simplex(points: &[DVec3]) -> Option<[u32; 4]> {
         let at = |k: u32| points[k as usize];
         let rest = 0..points.len() as u32;
@@ -80,17 +80,17 @@ impl ExactHull {
         })
     }
 
-    /// The facets.
+    /// Returns the facets.
     pub(crate) fn facets(&self) -> &[[u32; 3]] {
         &self.facets
     }
 
-    /// The corners of the facets, each once; in ascending order, except those of a polygon.
+    /// Returns the corners of the facets without duplicates, in ascending order except for a polygon.
     pub(crate) fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// Computes the change by a point; none when the point is inside already. O(f log f) in the number of facets.
+    /// Computes the change by inserting a point; `None` if the point is inside. O(f log f) in the number of facets.
     pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<Growth> {
         let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
         let seen: Vec<bool> = self.facets.iter().map(sees).collect();
@@ -112,12 +112,12 @@ impl ExactHull {
         })
     }
 
-    /// The box of all facets that a growth adds or removes.
+    /// Returns the bounding box of all facets that a change adds or removes.
     pub(crate) fn changed(&self, points: &[DVec3], growth: &Growth) -> Bounds {
         let removed = self.facets.iter().zip(&growth.seen);
         let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
         let corners = removed.chain(&growth.fan).flatten();
-        Bounds::of(corners.map(|&v| points[v as usize]))
+        Bounds::enclosing(corners.map(|&v| points[v as usize]))
     }
 
     /// Applies a change.

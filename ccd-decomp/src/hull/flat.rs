@@ -1,15 +1,15 @@
-//! The hull of points in one plane, exactly.
+//! Exact hulls of coplanar points.
 
 use crate::exact::predicates::{Projection, lexicographic};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Computes the polygon around points that are all in the plane of a triangle of them, and its back: first the
-/// lower chain, then the upper one, each turning left throughout (Andrew's monotone chain).
+/// Computes the hull of points in the plane of one of their triangles, as a front and a back polygon (Andrew's monotone
+/// chain).
 pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
     let at = |k: u32| points[k as usize];
-    let Some(projection) = Projection::of(triangle.map(|k| points[k])) else {
+    let Some(projection) = Projection::new(triangle.map(|k| points[k])) else {
         return Loops::default();
     };
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
@@ -24,7 +24,7 @@ pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
             }
             chain.push(next);
         }
-        // Its end is where the other chain starts.
+        // The last point starts the other chain.
         chain.pop();
         chain
     };

@@ -1,4 +1,4 @@
-//! The library's hull: fast, but in floating point, so that it is only a candidate.
+//! The library's hull: a fast candidate in floating point.
 
 use crate::exact::predicates::lexicographic;
 use ccd_core::glam::DVec3;
@@ -6,10 +6,10 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 use std::panic::catch_unwind;
 
-/// Computes the triangles of the hull of a few points at different places; none when the library gives up.
+/// Computes the hull triangles of a few distinct points; `None` if the library gives up.
 ///
-/// Few, because the library takes time and memory that grow with the square of the number of points, and
-/// recurses once per triangle that a new corner removes.
+/// The library's time and memory grow with the square of the number of points, and it recurses once per removed
+/// triangle.
 pub(super) fn triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     let cloud: Vec<Vector> = points.iter().map(|p| p.to_array().into()).collect();
     // The library asserts conditions that rounding can violate.
@@ -23,7 +23,7 @@ pub(super) fn triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     triangles.iter().map(named).collect()
 }
 
-/// Finds the points at the places of the corners, because the library returns no numbers.
+/// Finds the indices of the corners, which the library does not return.
 fn identify(points: &[DVec3], corners: impl Iterator<Item = DVec3>) -> Option<Vec<u32>> {
     let at = |k: u32| points[k as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();

@@ -9,15 +9,15 @@ use std::cmp::Ordering;
 /// A convex polygon that triangles of a convex surface fill.
 #[derive(Clone, Debug)]
 pub(crate) struct Polygon {
-    /// Its strict corners, counter-clockwise seen from outside.
+    /// The strict corners, counter-clockwise seen from outside.
     pub(crate) corners: Vec<u32>,
-    /// The triangles, as indices into those given, in ascending order.
+    /// The indices of the triangles, in ascending order.
     pub(crate) triangles: Vec<u32>,
 }
 
 /// Merges the triangles of a closed convex surface into convex polygons.
 ///
-/// Exact: the corners of a polygon are in one plane precisely. The two sides of a flat surface are two polygons.
+/// Exact: the corners of a polygon are exactly coplanar. A flat surface has two polygons, front and back.
 pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon> {
     let mut polygons = Vec::new();
     for_each_polygon(points, triangles, |corners, group| {
@@ -60,17 +60,17 @@ fn for_each_polygon(
     for (&start, &end) in starts.zip(&ends) {
         let group = &members[start as usize..end as usize];
         let first = triangles[members[start as usize] as usize];
-        let Some(plane) = Projection::of(first.map(|v| points[v as usize])) else {
+        let Some(plane) = Projection::new(first.map(|v| points[v as usize])) else {
             continue;
         };
         match group {
-            [_] => visit(&starting_least(first), group),
+            [_] => visit(&smallest_first(first), group),
             _ => visit(&surface.corners(group, &group_of, plane), group),
         }
     }
 }
 
-/// Drops the corners of a convex loop at which it goes straight on.
+/// Drops the corners of a convex loop at which it is straight.
 pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -> Vec<u32> {
     let at = |k: usize| points[rim[k % rim.len()] as usize];
     (0..rim.len())
@@ -79,16 +79,18 @@ pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -
         .collect()
 }
 
-/// Rotates a loop so that its least corner comes first.
-fn starting_least([a, b, c]: [u32; 3]) -> [u32; 3] {
-    match (a < b && a < c, b < c) {
-        (true, _) => [a, b, c],
-        (false, true) => [b, c, a],
-        (false, false) => [c, a, b],
+/// Rotates a triangle so that its smallest corner comes first.
+pub(crate) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a <= b && a <= c {
+        [a, b, c]
+    } else if b <= c {
+        [b, c, a]
+    } else {
+        [c, a, b]
     }
 }
 
-/// Chains the directed edges of one loop, and returns the loop of their first ends.
+/// Chains the directed edges of one loop to a list of vertices.
 fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     rim.sort_unstable();
     let Some(&(first, mut at)) = rim.first() else {
@@ -108,10 +110,9 @@ fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
 struct Surface<'a> {
     points: &'a [DVec3],
     triangles: &'a [[u32; 3]],
-    /// The opposite of the edge from corner `k` of triangle `t`, at `3 t + k`; empty where an edge does not have
-    /// exactly one opposite.
+    /// The twin of the edge from corner `k` of triangle `t`, at `3 t + k`; empty if any edge does not have exactly one.
     pairs: Vec<u32>,
-    /// The directed edges for that case, sorted, each with its triangle and the corner that it starts from.
+    /// The directed edges in that case, sorted, each with its triangle and start corner.
     edges: Vec<(u32, u32, u32, u8)>,
 }
 
@@ -144,7 +145,7 @@ impl<'a> Surface<'a> {
         self
     }
 
-    /// The corners of the polygon that a group of triangles in a plane forms.
+    /// Returns the corners of the polygon of a group of coplanar triangles.
     fn corners(&self, group: &[u32], group_of: &[u32], plane: Projection) -> Vec<u32> {
         let is_inner = |t: usize, k: usize| {
             let mut twins = self.twins(t, k);
@@ -163,8 +164,8 @@ impl<'a> Surface<'a> {
         (corners[k], corners[(k + 1) % 3])
     }
 
-    /// Iterates over the triangles beyond an edge, with the corner at which the edge starts. The two sides of a
-    /// flat surface may have edges in common, so that there may be two.
+    /// Iterates over the triangles beyond an edge, with their start corners. The two sides of a flat surface may share
+    /// edges, so that there may be two.
     fn twins(&self, triangle: usize, k: usize) -> impl Iterator<Item = (usize, usize)> {
         let (a, b) = self.edge(triangle, k);
         let first = self.edges.partition_point(|e| (e.0, e.1) < (b, a));
@@ -177,7 +178,7 @@ impl<'a> Surface<'a> {
             .chain(same.map(|e| (e.2 as usize, e.3 as usize)))
     }
 
-    /// Numbers the groups of triangles, connected in one plane with one normal: the number by triangle.
+    /// Returns the group of each triangle: connected coplanar triangles with one normal.
     fn groups(&self) -> Vec<u32> {
         const UNSEEN: u32 = u32::MAX;
         let mut group_of = vec![UNSEEN; self.triangles.len()];
@@ -216,7 +217,7 @@ impl<'a> Surface<'a> {
         let beyond = self.triangles[next].map(|v| self.points[v as usize]);
         let far = beyond[(l + 2) % 3];
         side(corners, far) == Ordering::Equal
-            && Projection::of(corners).is_some_and(|plane| {
+            && Projection::new(corners).is_some_and(|plane| {
                 plane.turn(beyond[l], beyond[(l + 1) % 3], far) == Ordering::Greater
             })
     }

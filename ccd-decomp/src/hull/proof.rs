@@ -1,4 +1,4 @@
-//! The proof that polygons are the facets of the hull of points: exact.
+//! Exact proofs that polygons are the facets of the hull of points.
 
 use crate::exact::predicates::{Projection, lexicographic, side};
 use ccd_core::Loops;
@@ -6,12 +6,12 @@ use ccd_core::glam::DVec3;
 use ccd_core::point_tree::PointTree;
 use std::cmp::Ordering;
 
-/// The reason why polygons are not proven to be the facets of the hull.
+/// The reason why polygons are not the facets of the hull.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Refutation {
     /// The polygon of this index is not flat and strictly convex.
-    Bent(usize),
-    /// This edge does not have one polygon on either side, each behind the other's plane.
+    NotConvex(usize),
+    /// This edge does not have one polygon on each side, each behind the other's plane.
     Edge(u32, u32),
     /// These points are in front of a polygon, in ascending order.
     Outside(Vec<u32>),
@@ -19,10 +19,9 @@ pub(super) enum Refutation {
 
 /// Returns the polygons, if they are the facets of the hull of the points.
 ///
-/// No point is in front of a polygon, so that each is within a facet of the hull, in the facet's orientation.
-/// Beyond each of its edges the plane changes, so that the edge is on the facet's rim, and a convex polygon
-/// with all edges on the rim is the facet. As every edge occurs once in either direction, no facet is
-/// repeated, and none is missing.
+/// No point is in front of a polygon, so that each is within a facet of the hull, in the facet's orientation. Beyond
+/// each of its edges the plane changes, so that the edge is on the facet's rim, and a convex polygon with all edges on
+/// the rim is the facet. Every edge occurs once in each direction, so that no facet is repeated or missing.
 ///
 /// # Errors
 /// [`Refutation`].
@@ -39,9 +38,8 @@ pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutati
     }
 }
 
-/// Returns the polygons, if they close a surface that is convex at each of its edges. They are then the facets of
-/// the hull of points that are known to be in front of none: those for which exact predicates decided so while
-/// the hull grew.
+/// Returns the polygons, if they form a closed surface that is convex at every edge. They are then the facets of the
+/// hull of all points that are in front of none, as the incremental hull has decided exactly.
 ///
 /// # Errors
 /// [`Refutation`], except by points outside.
@@ -51,7 +49,7 @@ pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutati
 /// [`prove`] would examine.
 pub(super) fn prove_convex(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
-        return Err(Refutation::Bent(bent));
+        return Err(Refutation::NotConvex(bent));
     }
     if let Some((v, w)) = unmatched_edge(points, &polygons) {
         return Err(Refutation::Edge(v, w));
@@ -67,7 +65,7 @@ fn is_convex(points: &[DVec3], corners: &[u32]) -> bool {
         return false;
     }
     let plane = plane(points, corners);
-    let Some(projection) = Projection::of(plane) else {
+    let Some(projection) = Projection::new(plane) else {
         return false;
     };
     if n == 3 {
@@ -84,8 +82,8 @@ fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
     [corners[0], corners[1], corners[2]].map(|v| points[v as usize])
 }
 
-/// Finds an edge that does not have one polygon on either side, each behind the other's plane (either is if
-/// the other is). An empty list counts as such an edge.
+/// Returns an edge that does not have one polygon on each side, each behind the other's plane (one implies the other).
+/// An empty list counts as such an edge.
 fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     // Sorting puts the two directions of an edge side by side: the smaller end first, then the direction.
     let mut edges: Vec<(u64, bool, u32)> = Vec::with_capacity(polygons.corners().len());
@@ -117,7 +115,7 @@ fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
 /// Returns whether the polygon beyond an edge of a flat polygon continues behind its plane.
 fn folds(points: &[DVec3], edge: [u32; 2], polygon: &[u32], beyond: &[u32]) -> bool {
     let plane = plane(points, polygon);
-    // The ends are in the plane, which the predicate would take longest to compute.
+    // The ends are in the plane: the predicate would be slowest for them.
     let others = beyond.iter().filter(|v| !edge.contains(v));
     let mut sides = others.map(|&v| side(plane, points[v as usize]));
     sides.find(|&side| side != Ordering::Equal) == Some(Ordering::Less)

@@ -1,15 +1,15 @@
-//! The dimension that points span: exact.
+//! The exact dimension of the span of points.
 
 use crate::exact::predicates::{is_degenerate, lexicographic, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// The span of points, with indices of points that span as much.
+/// The affine span of points, with indices of points that span it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Span {
     Nothing,
     Point(usize),
-    /// The two ends of the points on it.
+    /// The two extreme points.
     Line(usize, usize),
     Plane([usize; 3]),
     Volume,
@@ -17,7 +17,7 @@ pub(super) enum Span {
 
 impl Span {
     /// Computes the span of points at different places. O(n).
-    pub(super) fn of(points: &[DVec3]) -> Self {
+    pub(super) fn new(points: &[DVec3]) -> Self {
         let at = |k: usize| points[k];
         let by_order = |&v: &usize, &w: &usize| lexicographic(at(v), at(w));
         let first = (0..points.len()).min_by(by_order);

@@ -5,7 +5,7 @@ use rstest::rstest;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// The corners and planes by a test of all triples: a triple spans a facet when no point is in front.
+/// The corners and planes by testing all triples: a triple spans a facet if no point is in front.
 struct Twin {
     vertices: Vec<u32>,
     /// The points on each facet, corners or not.
@@ -51,7 +51,7 @@ fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     let in_segment =
         |a: DVec3, b: DVec3| is_degenerate([a, b, point]) && (a - point).dot(b - point) < 0.0;
     let in_triangle = |a: DVec3, b: DVec3, c: DVec3| {
-        Projection::of([a, b, c]).is_some_and(|plane| {
+        Projection::new([a, b, c]).is_some_and(|plane| {
             let edges = [(a, b), (b, c), (c, a)];
             edges
                 .iter()
@@ -234,7 +234,7 @@ fn near_planes_are_decided_exactly() {
 fn without_a_candidate_the_hull_is_exact() {
     for points in [cloud(60, 1), grid(4), ball(80, 3), cylinder(7, 4)] {
         let facets = computed(&points).expect("proven");
-        let cloud = DistinctPoints::of(&points);
+        let cloud = DistinctPoints::new(&points);
         let hull = cloud.named(facets, Method::Exact);
         assert_proper(&points, &hull);
         assert_eq!(hull.vertices, proper(&points).vertices);
@@ -280,11 +280,11 @@ fn refuted() {
     assert_eq!(prove(&points, twice), Err(Refutation::Edge(0, 1)));
     assert_eq!(
         prove(&points, Loops::from_iter([[0, 1]])),
-        Err(Refutation::Bent(0))
+        Err(Refutation::NotConvex(0))
     );
     assert_eq!(
         prove(&points, Loops::from_iter([[0, 2, 1, 3]])),
-        Err(Refutation::Bent(0))
+        Err(Refutation::NotConvex(0))
     );
     assert!(prove(&points, Loops::default()).is_err());
     let split = [

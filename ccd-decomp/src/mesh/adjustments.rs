@@ -1,4 +1,4 @@
-//! What is changed about a mesh on its way from its file.
+//! Adjustments of a mesh that is read from a file: unit, scale, mirroring.
 
 use super::affine::AffineMap;
 use super::unit::Unit;
@@ -6,7 +6,7 @@ use ccd_core::InputError;
 use ccd_core::glam::{DAffine3, DVec3};
 use std::fmt;
 
-/// What is changed about a mesh on its way from its file: what the file does not say, or says wrongly.
+/// Adjustments of a mesh that is read from a file: unit, scale, mirroring, and whether it is hollow.
 ///
 /// ```
 /// use ccd_decomp::{Adjustments, Axis, Unit};
@@ -22,7 +22,7 @@ use std::fmt;
 pub struct Adjustments {
     stated: Option<Unit>,
     wanted: Option<Unit>,
-    /// By which coordinates are multiplied: neither 0 nor infinite.
+    /// The factors of the coordinates, neither 0 nor infinite.
     factors: DVec3,
     is_hollow: bool,
 }
@@ -84,8 +84,8 @@ impl Adjustments {
         }
     }
 
-    /// Mirrors the mesh in the plane through the origin across an axis, and turns its triangles round, so that a solid
-    /// stays one. Exact.
+    /// Mirrors the mesh across the plane through the origin normal to an axis, and reverses its triangles, so that a
+    /// solid stays one. Exact.
     #[must_use]
     pub fn mirrored(self, axis: Axis) -> Self {
         let mut factors = self.factors;
@@ -93,8 +93,7 @@ impl Adjustments {
         Adjustments { factors, ..self }
     }
 
-    /// Makes a [surface](crate::Detail::Surface) of a closed mesh, whatever pieces are asked for: only its triangles are
-    /// touched.
+    /// Treats a closed mesh as a hollow [surface](crate::Detail::Surface), whatever the kind of pieces.
     #[must_use]
     pub fn hollow(self) -> Self {
         Adjustments {
@@ -103,10 +102,10 @@ impl Adjustments {
         }
     }
 
-    /// Returns both together: units of the other one take precedence.
+    /// Combines two adjustments: units of `other` take precedence.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for factors whose product is no number.
+    /// [`InputError::OutOfRange`] if the product of the factors is 0 or not finite.
     pub fn and(self, other: &Adjustments) -> Result<Self, InputError> {
         let mirrored = other.axes().fold(self, Adjustments::mirrored);
         let both = match other.scale() {
@@ -142,7 +141,7 @@ impl Adjustments {
         (self.factors != DVec3::ONE).then(map)
     }
 
-    /// Returns whether a body that is made already cannot have them.
+    /// Returns whether the adjustments apply to meshes only, not to prepared bodies.
     pub(crate) fn need_mesh(&self) -> bool {
         let others = Adjustments {
             wanted: None,
@@ -162,10 +161,10 @@ impl Adjustments {
         axes.filter(move |&axis| factors[axis as usize] < 0.0)
     }
 
-    /// Returns it with one more, as it is written after a file.
+    /// Adds the adjustment that a word after a file name describes.
     ///
     /// # Errors
-    /// The word means nothing here.
+    /// The word is no adjustment.
     pub(crate) fn with_word(self, word: &str) -> Result<Self, UnknownAdjustment> {
         let unknown = || UnknownAdjustment { word: word.into() };
         let (name, value) = match word.split_once('=') {
@@ -198,7 +197,7 @@ pub struct UnknownAdjustment {
     pub word: String,
 }
 
-/// What is wrong with a word, and what may be meant.
+/// The error in a word, and the accepted words.
 struct Advice<'a>(&'a str);
 
 impl fmt::Display for Advice<'_> {
@@ -222,7 +221,7 @@ impl Default for Adjustments {
     }
 }
 
-/// As it is written after a file; the unit that is converted to is not.
+/// Formats the adjustments as they follow a file name. The unit of conversion is omitted.
 impl fmt::Display for Adjustments {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(unit) = self.stated {

@@ -22,7 +22,7 @@ use ccd_core::glam::{DAffine3, DVec3};
 pub struct AffineMap(DAffine3);
 
 impl AffineMap {
-    /// Leaves all points in place.
+    /// The identity map.
     pub const IDENTITY: AffineMap = AffineMap(DAffine3::IDENTITY);
 
     /// Scales by a factor about the origin, then places at a pose.
@@ -34,7 +34,7 @@ impl AffineMap {
         ))
     }
 
-    /// The image of a point.
+    /// Returns the image of a point.
     ///
     /// # Guarantee
     /// Exact for the identity. Otherwise each coordinate is off by at most `4u (|m x| + |n y| + |o z| + |t|)`, where
@@ -47,14 +47,14 @@ impl AffineMap {
         }
     }
 
-    /// Returns whether the map turns a right hand into a left one: its determinant is negative. The sign is exact
-    /// for elements from 1e-45 to 1e45.
+    /// Returns whether the map reverses orientation: its determinant is negative. The sign is exact for elements from
+    /// 1e-45 to 1e45.
     pub fn mirrors(&self) -> bool {
         let matrix = self.0.matrix3;
         determinant([matrix.x_axis, matrix.y_axis, matrix.z_axis]).is_lt()
     }
 
-    /// The map that applies `first`, then this one. Rounded, unless either is the identity.
+    /// Returns the map that applies `first`, then this one. Rounded, unless either is the identity.
     pub(crate) fn after(&self, first: &AffineMap) -> AffineMap {
         match (self.is_identity(), first.is_identity()) {
             (true, _) => *first,
@@ -63,7 +63,7 @@ impl AffineMap {
         }
     }
 
-    /// Returns whether the map takes all points to one.
+    /// Returns whether the map takes all points to one point.
     #[cfg(feature = "gltf")]
     pub(crate) fn is_point(&self) -> bool {
         let matrix = self.0.matrix3;

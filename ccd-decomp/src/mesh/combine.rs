@@ -1,4 +1,4 @@
-//! Meshes made of meshes: moved, put together, measured.
+//! Transforms, merges and measures meshes.
 
 use super::TriangleMesh;
 use super::affine::AffineMap;
@@ -9,14 +9,14 @@ use crate::bounds::Bounds;
 use ccd_core::glam::DVec3;
 
 impl TriangleMesh {
-    /// The image of the mesh under an affine map. Vertices and faces keep their numbers.
+    /// Returns the image of the mesh under an affine map. Vertices and faces keep their numbers.
     ///
-    /// A map that [mirrors](AffineMap::mirrors) turns all triangles round, so that a solid stays one. A map that
-    /// flattens may make faces without area, or several faces of the same points: they are repaired as in a file.
+    /// A map that [mirrors](AffineMap::mirrors) reverses all triangles, so that a solid stays one. A map that flattens
+    /// may make faces without area, or several faces of the same points: they are repaired as in a file.
     ///
     /// # Guarantee
-    /// Every vertex is the image of a vertex, rounded as [`AffineMap::apply`] says. The triangles between them cover
-    /// the image of the surface up to that rounding: four flat corners may no longer be flat.
+    /// Every vertex is the image of a vertex, rounded as [`AffineMap::apply`] says. The triangles cover the image of
+    /// the surface up to that rounding: four coplanar corners may no longer be coplanar.
     ///
     /// # Errors
     /// [`MeshFault::NotFinite`] and [`MeshFault::TooLarge`] name a vertex whose image is out of range.
@@ -49,8 +49,8 @@ impl TriangleMesh {
         ))
     }
 
-    /// Puts meshes together, one after the other: the vertices and faces of each are numbered on from those of
-    /// the meshes before it. Faces that a repair dropped keep their numbers, which name nothing.
+    /// Merges meshes: vertices and faces of each mesh are numbered after those of the meshes before it. Numbers of
+    /// dropped faces are not reused.
     ///
     /// Faces with the same points are repaired as in a file. Meshes that touch in equal points are connected
     /// there; those that overlap are the sum of their solids.
@@ -95,7 +95,7 @@ impl TriangleMesh {
         ))
     }
 
-    /// The corner of least coordinates of the box about all triangles, and that of greatest.
+    /// Returns the lower and the upper corner of the bounding box of all triangles.
     ///
     /// ```
     /// use ccd_core::glam::DVec3;
@@ -108,7 +108,7 @@ impl TriangleMesh {
     /// ```
     pub fn bounding_box(&self) -> [DVec3; 2] {
         let corners = self.faces.iter().flatten();
-        let Bounds { lo, hi } = Bounds::of(corners.map(|&v| self.vertices[v as usize]));
+        let Bounds { lo, hi } = Bounds::enclosing(corners.map(|&v| self.vertices[v as usize]));
         [lo, hi]
     }
 }

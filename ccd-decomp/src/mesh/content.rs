@@ -1,4 +1,4 @@
-//! What a file holds: faces in groups, or shapes that are placed.
+//! The content of a mesh file: faces in groups, or shapes that are placed.
 
 pub(crate) mod allowance;
 pub(crate) mod assembly;
@@ -11,20 +11,20 @@ use super::unit::{Conversion, Unit};
 use assembly::Assembly;
 use groups::Groups;
 
-/// The content of a file, as a reader found it.
+/// The content of a mesh file, not yet checked.
 #[derive(Debug)]
 pub(crate) struct Content {
     /// The unit of the coordinates, if the file or its format says so.
     pub(crate) unit: Option<Unit>,
     pub(crate) layout: Layout,
-    /// What else is in the file.
+    /// Remarks about other content.
     pub(crate) remarks: Remarks,
 }
 
-/// The ways in which a file holds its faces.
+/// The layout of the faces in a file.
 #[derive(Debug)]
 pub(crate) enum Layout {
-    /// One list of vertices and faces. A part is a group of the faces.
+    /// A list of vertices and faces. A part is a group of the faces.
     List(Polygons, Groups),
     /// Shapes, each of which may be placed more than once.
     Assembly(Assembly),
@@ -47,7 +47,7 @@ impl Content {
         }
     }
 
-    /// The faces of one part, with its own numbers of vertices and faces.
+    /// Returns the faces of one part. Vertices and faces are numbered from 0.
     pub(crate) fn part(&self, part: usize, conversion: Conversion) -> Result<Polygons, MeshFault> {
         let faces = match &self.layout {
             Layout::List(polygons, groups) => converted(groups.part(polygons, part)?, conversion),
@@ -56,7 +56,7 @@ impl Content {
         Ok(self.remarked(faces))
     }
 
-    /// The faces of each part, in this way.
+    /// Returns the faces of each part, like [`Content::part`].
     pub(crate) fn all_parts(&self, conversion: Conversion) -> Result<Vec<Polygons>, MeshFault> {
         let parts: Vec<Polygons> = match &self.layout {
             Layout::List(polygons, groups) => {
@@ -73,7 +73,7 @@ impl Content {
         Ok(parts.into_iter().map(|part| self.remarked(part)).collect())
     }
 
-    /// All faces: those of a list with their numbers in the file, those of parts one part after the other.
+    /// Returns all faces: those of a list with the file's numbers, those of an assembly part by part.
     pub(crate) fn whole(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
         let mut faces = match self.layout {
             Layout::List(polygons, _) => converted(polygons, conversion),

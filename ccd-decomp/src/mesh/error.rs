@@ -20,10 +20,10 @@ pub struct MeshError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFault {
-    /// The operating system does not give the bytes.
+    /// The file cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// The path names a folder.
+    /// The path is a folder.
     #[error("is a folder; name a mesh in it, such as a .glb, .3mf, .obj, .stl, .ply or .off")]
     Folder,
     /// The file's extension names no known format.
@@ -40,8 +40,8 @@ pub enum MeshFault {
         /// The content that can be read instead.
         instead: &'static str,
     },
-    /// The file is of a CAD system, whatever its name says.
-    #[error("is a STEP file, whatever its name says: {STEP}")]
+    /// The file is a STEP file under another extension.
+    #[error("is a STEP file, whatever its name says: {}", cad_advice("step"))]
     Step,
     /// The format is known, but this build does not read it.
     #[error("is {format}, which this build cannot read; build it with the feature {feature:?}")]
@@ -53,13 +53,13 @@ pub enum MeshFault {
     },
     /// A file that the mesh refers to cannot be read.
     #[error("refers to the file {name:?}, which cannot be read: {reason}")]
-    Beside {
-        /// The file, as the mesh names it.
+    LinkedFile {
+        /// The file name in the mesh.
         name: String,
         /// The reason, and the remedy.
         reason: String,
     },
-    /// A fault of one element of a file of several.
+    /// A fault of one element of a scene.
     #[error("{place}: {fault}")]
     At {
         /// The element, such as a node, a mesh or an object.
@@ -70,12 +70,12 @@ pub enum MeshFault {
     /// The file has no part of that name or number.
     #[error("has no part {part:?}; {}", Parts(.parts))]
     NoSuchPart {
-        /// The name or number asked for.
+        /// The requested name or number.
         part: String,
-        /// The names of the parts that there are; a part may be without one.
+        /// The names of all parts; a part may have none.
         parts: Vec<Option<String>>,
     },
-    /// Several parts have that name.
+    /// Several parts have this name.
     #[error("has {} parts {part:?}; give the number of one: {}", .numbers.len(), Numbers(.numbers))]
     AmbiguousPart {
         /// The name.
@@ -83,20 +83,20 @@ pub enum MeshFault {
         /// The numbers of these parts, from 0.
         numbers: Vec<usize>,
     },
-    /// Instances multiply a few bytes to more than is taken.
+    /// Instances or repeated elements expand a small file beyond the limit.
     #[error(
         "repeats the same vertices and faces too often for its size, by instances or by naming them again: more than about {} triangles come of it; choose one of its parts, or split it", .limit / 3
     )]
     Repeats {
-        /// The most that a file of this size may make, in corners of faces.
+        /// The limit for a file of this size, in corners of faces.
         limit: u64,
     },
-    /// A compressed file unpacks to more than is taken.
+    /// A compressed file unpacks to more than the limit.
     #[error(
         "unpacks to more than {limit} bytes, which no mesh of this size does; unpack and pack it again"
     )]
     Unpacks {
-        /// The most bytes that a file of this size may unpack to.
+        /// The limit for a file of this size, in bytes.
         limit: u64,
     },
     /// The file is a pointer of Git LFS.
@@ -130,7 +130,7 @@ pub enum MeshFault {
         /// The line, in a text.
         line: Option<usize>,
     },
-    /// A coordinate is beyond the largest that is computed with.
+    /// A coordinate exceeds the supported range.
     #[error("{}vertex {vertex} has a coordinate beyond ±{MAX_COORDINATE:e}; use a larger unit of length", Line(*.line))]
     TooLarge {
         /// The vertex.
@@ -162,7 +162,7 @@ pub enum MeshFault {
         /// The number of its corners.
         corners: usize,
     },
-    /// There are more elements than an index can name.
+    /// There are more elements than an index can address.
     #[error("{count} {what} are too many; split the mesh into several")]
     TooMany {
         /// The kind of elements.
@@ -173,7 +173,7 @@ pub enum MeshFault {
 }
 
 impl MeshFault {
-    /// Makes a syntax error, and cuts long quotes of the file to a length that fits a message.
+    /// Creates a syntax error, with long quotes of the file truncated.
     pub(crate) fn syntax(line: Option<usize>, mut problem: String) -> Self {
         if let Some((end, _)) = problem.char_indices().nth(QUOTED) {
             problem.truncate(end);
@@ -182,7 +182,7 @@ impl MeshFault {
         MeshFault::Syntax { line, problem }
     }
 
-    /// Names the element that has the fault.
+    /// Adds the element that has the fault.
     pub(crate) fn at(self, place: impl Into<String>) -> Self {
         MeshFault::At {
             place: place.into(),
@@ -198,7 +198,7 @@ impl MeshFault {
     }
 }
 
-/// The most characters of a message about syntax.
+/// The maximum length of a syntax message, in characters.
 const QUOTED: usize = 200;
 
 impl From<MeshFault> for MeshError {
@@ -216,28 +216,24 @@ impl fmt::Display for Extension<'_> {
             other => write!(f, "{other:?} is not the extension of a mesh; ")?,
         }
         match conversion(self.0) {
-            Some(advice) => f.write_str(advice),
+            Some(advice) => f.write_str(&advice),
             None => write!(f, "use .gltf, .glb, .3mf, .obj, .stl, .ply or .off"),
         }
     }
 }
 
-/// How a STEP file becomes a mesh.
-const STEP: &str = "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
-                    `gmsh part.step -2 -o part.stl`";
+/// Returns advice on converting CAD surfaces to a mesh.
+fn cad_advice(extension: &str) -> String {
+    format!(
+        "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
+         `gmsh part.{extension} -2 -o part.stl`"
+    )
+}
 
-/// Says how a file of a well-known format becomes a mesh.
-fn conversion(extension: &str) -> Option<&'static str> {
-    Some(match extension {
-        "step" | "stp" => STEP,
-        "iges" | "igs" => {
-            "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
-             `gmsh part.iges -2 -o part.stl`"
-        }
-        "brep" => {
-            "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
-             `gmsh part.brep -2 -o part.stl`"
-        }
+/// Returns advice on converting a file of a well-known format to a mesh.
+fn conversion(extension: &str) -> Option<String> {
+    let advice = match extension {
+        "step" | "stp" | "iges" | "igs" | "brep" => return Some(cad_advice(extension)),
         "sldprt" | "ipt" | "catpart" | "prt" | "f3d" | "fcstd" | "x_t" | "jt" | "sat" | "dwg" => {
             "it is a file of a CAD system: export it there as .stl or .3mf"
         }
@@ -254,10 +250,11 @@ fn conversion(extension: &str) -> Option<&'static str> {
             "it holds a mesh for simulation: run `meshio convert part.msh part.stl`"
         }
         _ => return None,
-    })
+    };
+    Some(advice.into())
 }
 
-/// The most parts that a message names.
+/// The maximum number of parts in a message.
 const NAMED_PARTS: usize = 20;
 
 struct Parts<'a>(&'a [Option<String>]);
@@ -298,7 +295,7 @@ impl fmt::Display for Numbers<'_> {
     }
 }
 
-/// A name from a file, cut to a length that fits a message.
+/// A name from a file, truncated for messages.
 pub(crate) struct Quote<'a>(pub(crate) &'a str);
 
 impl fmt::Debug for Quote<'_> {
@@ -310,7 +307,15 @@ impl fmt::Debug for Quote<'_> {
     }
 }
 
-/// The most characters of a name in a message.
+/// Returns the name of an element for messages, such as `node 2 "lid"`.
+pub(crate) fn element_name(kind: &str, number: impl fmt::Display, name: Option<&str>) -> String {
+    match name {
+        Some(name) => format!("{kind} {number} {:?}", Quote(name)),
+        None => format!("{kind} {number}"),
+    }
+}
+
+/// The maximum length of a name in a message, in characters.
 const QUOTED_NAME: usize = 80;
 
 struct Line(Option<usize>);

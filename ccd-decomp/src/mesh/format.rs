@@ -1,4 +1,4 @@
-//! File formats: bytes to content, without access to files.
+//! File formats: readers of bytes, without access to files.
 
 #[cfg(feature = "gltf")]
 mod gltf;
@@ -16,19 +16,19 @@ use crate::messages::is_lfs_pointer;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// A format that a mesh can be read from. Texts are in UTF-8, or in UTF-16 with a byte order mark; their lines may end as
-/// those of any system. [`Remarks`](crate::Remarks) say what of a file was passed over that is no mere decoration.
+/// A mesh file format. Texts are in UTF-8, or in UTF-16 with a byte order mark; any line ending is accepted.
+/// [`Remarks`](crate::Remarks) list skipped content that may matter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// Wavefront OBJ: statements `v` and `f`, in f64. Normals, texture coordinates, colours and materials are passed over;
-    /// lines, points, curves and unknown statements, too, with a remark. A fourth number of a vertex divides the others,
+    /// Wavefront OBJ: statements `v` and `f`, in f64. Normals, texture coordinates, colours and materials are skipped;
+    /// lines, points, curves and unknown statements are skipped with a remark. A fourth number of a vertex divides the others,
     /// with a remark unless it is 1. Free-form surfaces and calls of other files are errors.
     ///
     /// Its parts are its objects (`o`) or, in a file without any, its groups (`g`).
     Obj,
-    /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in
-    /// the order they appear; the normals are passed over.
+    /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in order of
+    /// appearance; normals are passed over.
     Stl,
     /// PLY, binary or text: elements `vertex`, `face` and `tristrips`, strips of triangles, which −1 separates; others
     /// are passed over with a remark.
@@ -37,16 +37,15 @@ pub enum Format {
     Off,
     /// glTF 2.0, text (`.gltf`) or binary (`.glb`), in metres; with the feature `gltf`.
     ///
-    /// Numbers are read in f64, and rotations are made unit. The maps of nodes below each other are multiplied in f64
-    /// before they are applied: each product rounds as [`AffineMap::apply`](crate::AffineMap::apply) does.
+    /// Numbers are read in f64, and rotations are normalized. Transforms of nested nodes are multiplied in f64 before
+    /// they are applied: each product rounds as [`AffineMap::apply`](crate::AffineMap::apply) does.
     ///
-    /// Its parts are the nodes of its scene that have a mesh: of the scene that is shown first or, in a file without
-    /// scenes, of all nodes. A node without a name has that of its mesh. Every primitive of triangles, strips
-    /// or fans is read, with or without indices, from floats, quantized integers or sparse accessors. Materials and
-    /// animations are passed over; points, lines, skins and morph targets, too, with a remark: a mesh is as it is at rest,
-    /// without its skin. So is a node that is scaled to zero along all three axes, with all below it, as the
-    /// specification hides them so. Instances make about ten million triangles at most. Compression by Draco or meshopt, and any extension that the file requires and
-    /// that changes the shape, is an error.
+    /// Parts are the nodes with a mesh, of the default scene or, in a file without scenes, of all nodes. A node without
+    /// a name has that of its mesh. Primitives of triangles, strips and fans are read, with or without indices, from
+    /// floats, quantized integers or sparse accessors. Materials and animations are skipped; points, lines, skins and
+    /// morph targets are skipped with a remark, so that meshes are in their rest pose. A node scaled to zero along all
+    /// axes is hidden with its descendants, as specified. Instances make about ten million triangles at most.
+    /// Compression by Draco or meshopt, and required extensions that change the shape, are errors.
     Gltf,
     /// 3MF, in the unit that it states; with the feature `3mf`. Numbers and maps are as in a glTF.
     ///
@@ -57,20 +56,20 @@ pub enum Format {
     ThreeMf,
 }
 
-/// The files beside a mesh, by the names that it has for them.
-pub(crate) type Beside = BTreeMap<String, Vec<u8>>;
+/// The content of the files that a mesh refers to, by name.
+pub(crate) type LinkedFiles = BTreeMap<String, Vec<u8>>;
 
 /// A file that a mesh refers to.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Reference {
-    /// Its path, relative to the mesh, as the mesh writes it.
+    /// The path, relative to the mesh, as written in the mesh.
     pub(crate) name: String,
-    /// The number of bytes of it that are needed.
+    /// The number of bytes that the mesh needs.
     pub(crate) bytes: u64,
 }
 
 impl Format {
-    /// Finds the format of a file by its extension, in capitals or not.
+    /// Returns the format of a file by its extension, case-insensitively.
     ///
     /// # Errors
     /// [`MeshFault::UnknownExtension`] for any other extension.
@@ -93,7 +92,7 @@ impl Format {
         self == Format::Gltf
     }
 
-    /// Finds the files that a file's content refers to, which [`Format::parse`] needs.
+    /// Returns the files that the content refers to, which [`Format::parse`] needs.
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
@@ -104,8 +103,8 @@ impl Format {
         }
     }
 
-    /// Reads a file's content. All that it refers to is in `beside`.
-    pub(crate) fn parse(self, bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
+    /// Parses a file's content. `linked` holds the files that it refers to.
+    pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
         let unmarked = text::decoded(bytes);
         if is_lfs_pointer(&unmarked) {
             return Err(MeshFault::LfsPointer);
@@ -119,24 +118,24 @@ impl Format {
             Format::Ply => ply::parse(&unmarked).map(Content::from),
             Format::Off => off::parse(&text::plain(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
-            Format::Gltf => gltf::parse(&unmarked, beside),
+            Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]
-            Format::Gltf => Err(not_built(beside, "glTF", "gltf")),
+            Format::Gltf => Err(not_built(linked, "glTF", "gltf")),
             #[cfg(feature = "3mf")]
             Format::ThreeMf => threemf::parse(bytes),
             #[cfg(not(feature = "3mf"))]
-            Format::ThreeMf => Err(not_built(beside, "3MF", "3mf")),
+            Format::ThreeMf => Err(not_built(linked, "3MF", "3mf")),
         }
     }
 }
 
-/// Returns whether a file is of a CAD system, which no program takes for a mesh.
+/// Returns whether the bytes are a STEP file.
 fn is_step(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
 }
 
 #[cfg(not(all(feature = "gltf", feature = "3mf")))]
-fn not_built(_: &Beside, format: &'static str, feature: &'static str) -> MeshFault {
+fn not_built(_: &LinkedFiles, format: &'static str, feature: &'static str) -> MeshFault {
     MeshFault::NotBuilt { format, feature }
 }
 

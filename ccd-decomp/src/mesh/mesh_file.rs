@@ -2,18 +2,18 @@
 
 use super::TriangleMesh;
 use super::content::Content;
-use super::error::{MeshError, MeshFault, Quote};
-use super::format::{Beside, Format, Reference};
+use super::error::{MeshError, MeshFault, element_name};
+use super::format::{Format, LinkedFiles, Reference};
 use super::unit::{Conversion, Unit};
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// A mesh file that has been read: its parts, by name or number, and its unit.
+/// The content of a mesh file: parts, by name or number, and a unit.
 ///
 /// The parts of a glTF are its nodes with meshes, those of a 3MF the items of its build, those of an OBJ its objects or
-/// groups: [`Format`] says more. Any other file is one part. Parts are numbered from 0, and one without a face is left
-/// out.
+/// groups: [`Format`] says more. Any other file is one part. Parts are numbered from 0; parts without faces are
+/// omitted.
 ///
 /// ```
 /// use ccd_decomp::{Format, MeshFile};
@@ -36,14 +36,14 @@ pub struct MeshFile {
 /// A part of a file.
 #[derive(Clone, Debug)]
 pub struct NamedMesh {
-    /// The name, if it has one. Several parts of a file may have the same.
+    /// The name, if the part has one. Several parts of a file may have the same.
     pub name: Option<String>,
     /// The triangles. Vertices and faces are numbered from 0 in each part.
     pub mesh: TriangleMesh,
 }
 
 impl MeshFile {
-    /// Reads a file in the format of its extension, and the buffers that a glTF has in files beside it.
+    /// Reads a file in the format of its extension, with the buffer files of a glTF.
     ///
     /// # Errors
     /// [`MeshError`], which names the file and the element. No bytes panic, and few bytes take little memory.
@@ -53,18 +53,18 @@ impl MeshFile {
             let (format, bytes) = open(path)?;
             let references = format.references(&bytes)?.into_iter();
             let folder = path.parent().unwrap_or(Path::new(""));
-            let beside: Result<Beside, _> = references
+            let linked: Result<LinkedFiles, _> = references
                 .map(|reference| Ok((reference.name.clone(), neighbour(folder, &reference)?)))
                 .collect();
-            format.parse(&bytes, &beside?)
+            format.parse(&bytes, &linked?)
         };
         match read() {
-            Ok(content) => Ok(MeshFile::of(content, Some(path.into()))),
+            Ok(content) => Ok(MeshFile::new(content, Some(path.into()))),
             Err(fault) => Err(fault.in_file(path)),
         }
     }
 
-    /// Reads a file in a given format from any reader. All that it needs has to be in it.
+    /// Reads a self-contained file in a given format from any reader.
     ///
     /// # Errors
     /// [`MeshError`], which names the element. No bytes panic, and few bytes take little memory.
@@ -73,10 +73,13 @@ impl MeshFile {
         reader
             .read_to_end(&mut bytes)
             .map_err(MeshFault::Unreadable)?;
-        Ok(MeshFile::of(format.parse(&bytes, &Beside::new())?, None))
+        Ok(MeshFile::new(
+            format.parse(&bytes, &LinkedFiles::new())?,
+            None,
+        ))
     }
 
-    fn of(content: Content, path: Option<PathBuf>) -> Self {
+    fn new(content: Content, path: Option<PathBuf>) -> Self {
         MeshFile {
             unit: content.unit,
             content,
@@ -85,13 +88,13 @@ impl MeshFile {
         }
     }
 
-    /// The unit of the coordinates: the one that was [asked for](MeshFile::in_unit), else that of the file. OBJ, STL,
-    /// PLY and OFF have none.
+    /// Returns the unit of the coordinates: that of [`MeshFile::in_unit`], else that of the file. OBJ, STL, PLY and OFF
+    /// have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
     }
 
-    /// Takes the coordinates to be in a unit, whatever the file says.
+    /// Sets the unit of the file's coordinates, whatever the file states.
     ///
     /// ```
     /// use ccd_decomp::{Format, MeshFile, Unit};
@@ -109,12 +112,12 @@ impl MeshFile {
         self
     }
 
-    /// Converts the coordinates to a unit. Those of a file without a unit are taken to be in it already.
+    /// Converts the coordinates to a unit. Coordinates of a file without a unit are assumed to be in that unit already.
     ///
     /// # Guarantee
     /// Between metric units a coordinate is the exact product or quotient by a power of ten, rounded to nearest. It is
-    /// exact where a glTF is converted from metres to centimetres, millimetres or micrometres and no node moves the
-    /// mesh: its floats have room for it. From and to inches and feet it is rounded up to twice.
+    /// exact for a glTF converted to centimetres, millimetres or micrometres, if no node transforms the mesh. From and
+    /// to inches and feet it is rounded up to twice.
     ///
     /// ```
     /// use ccd_decomp::{Format, MeshFile, Unit};
@@ -134,16 +137,16 @@ impl MeshFile {
         self
     }
 
-    /// The names of the parts, in the order of their numbers.
+    /// Returns the names of the parts, by number.
     pub fn part_names(&self) -> impl ExactSizeIterator<Item = Option<&str>> {
         (0..self.content.parts()).map(|part| self.content.name(part))
     }
 
-    /// The triangles of the part of a name or, if no part has that name, of that number.
+    /// Returns the mesh of the part with a name or, if no part has that name, with that number.
     ///
     /// # Errors
-    /// [`MeshFault::NoSuchPart`] with all names, [`MeshFault::AmbiguousPart`] when several parts have the name; all
-    /// that is wrong with the part.
+    /// [`MeshFault::NoSuchPart`] with all names, [`MeshFault::AmbiguousPart`] if several parts have the name, and
+    /// faults of the part.
     pub fn part(&self, name_or_number: &str) -> Result<TriangleMesh, MeshError> {
         let made = || {
             let part = self.find(name_or_number)?;
@@ -155,10 +158,10 @@ impl MeshFile {
         made().map_err(|fault| self.error(fault))
     }
 
-    /// The triangles of each part.
+    /// Returns the mesh of each part.
     ///
     /// # Errors
-    /// [`MeshFault::At`] with the number and the name of a part, and what is wrong with it.
+    /// [`MeshFault::At`] with the number and name of a part, and its fault.
     pub fn into_parts(self) -> Result<Vec<NamedMesh>, MeshError> {
         let parts = self.content.all_parts(self.conversion);
         let parts = parts.map_err(|fault| self.error(fault))?.into_iter();
@@ -171,14 +174,12 @@ impl MeshFile {
         named.collect()
     }
 
-    /// The triangles of all parts together, one part after the other. Those of an OBJ keep the numbers of the
-    /// file.
+    /// Returns all parts as one mesh, one part after the other. Those of an OBJ keep the numbers of the file.
     ///
-    /// They are one mesh: of several solids, one that is wholly inside another one counts as a cavity of it. As parts
-    /// of their own they are two solids.
+    /// A solid wholly inside another one counts as its cavity. [`MeshFile::into_parts`] keeps them as two solids.
     ///
     /// # Errors
-    /// All that is wrong with the mesh.
+    /// The faults of the mesh.
     pub fn into_mesh(self) -> Result<TriangleMesh, MeshError> {
         let MeshFile {
             content,
@@ -216,10 +217,7 @@ impl MeshFile {
 
     /// The name of a part in messages.
     fn place(&self, part: usize) -> String {
-        match self.content.name(part) {
-            Some(name) => format!("part {part} {:?}", Quote(name)),
-            None => format!("part {part}"),
-        }
+        element_name("part", part, self.content.name(part))
     }
 
     fn error(&self, fault: MeshFault) -> MeshError {
@@ -227,7 +225,7 @@ impl MeshFile {
     }
 }
 
-/// The files that a mesh is read from: its own, and those that it refers to.
+/// Returns the paths that a mesh is read from: the file, and those that it refers to.
 pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
     let found = || {
         if !Format::from_path(path).is_ok_and(Format::refers_to_files) {
@@ -260,8 +258,7 @@ fn open(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
     Ok((format, bytes))
 }
 
-/// Reads a file that a mesh refers to: no more of it than the mesh needs, and only a regular file, as a pipe might
-/// never end.
+/// Reads a file that a mesh refers to, up to the needed length. Only regular files are read: a pipe might never end.
 fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault> {
     let Reference { name, bytes } = reference;
     let path = folder.join(relative(name)?);
@@ -273,20 +270,20 @@ fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault>
         File::open(&path)?.take(*bytes).read_to_end(&mut content)?;
         Ok(content)
     };
-    read().map_err(|error| MeshFault::Beside {
+    read().map_err(|error| MeshFault::LinkedFile {
         name: name.clone(),
         reason: format!("{error}; put it where the mesh is"),
     })
 }
 
-/// Checks that a reference stays in the folder of the mesh, or below it.
+/// Checks that a reference stays in the mesh's folder or below it.
 fn relative(name: &str) -> Result<PathBuf, MeshFault> {
     let path = PathBuf::from(name);
     let stays = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     if path.components().all(stays) && path.file_name().is_some() {
         Ok(path)
     } else {
-        Err(MeshFault::Beside {
+        Err(MeshFault::LinkedFile {
             name: name.into(),
             reason: "it is not in the folder of the mesh; put it there".into(),
         })

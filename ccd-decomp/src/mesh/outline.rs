@@ -1,4 +1,4 @@
-//! The triangulation of polygons that the fan about their first corner does not fit.
+//! Triangulates polygons that the fan about their first corner does not cover exactly.
 
 use crate::exact::predicates::is_without_area;
 use ccd_core::glam::DVec3;
@@ -25,10 +25,9 @@ impl HasPosition for Corner {
     }
 }
 
-/// Fills a polygon with triangles, by the numbers of its corners: two fewer than corners, oriented like the
-/// polygon, with each of its edges once.
+/// Triangulates a polygon: `n − 2` triangles for `n` corners, oriented like the polygon, by corner numbers.
 ///
-/// None for a polygon that has a corner twice, or that meets itself when projected along the coordinate axis
+/// Returns `None` if the polygon repeats a corner, or intersects itself when projected along the coordinate axis
 /// nearest to its normal.
 ///
 /// # Guarantee
@@ -36,8 +35,8 @@ impl HasPosition for Corner {
 /// triangles.
 ///
 /// # Complexity
-/// `n log n` for `n` corners, as expected over orders of insertion: the corners are inserted in one order that has
-/// nothing to do with their places, and so are the edges. A sweep takes `n²` for corners on or near a line.
+/// Expected `n log n` for `n` corners: corners and edges are inserted in a pseudorandom order. A sweep takes `n²` for
+/// corners on or near a line.
 pub(super) fn fill(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let places = projected(points)?;
     // A fault of the library may panic; the fan is used then.
@@ -47,7 +46,7 @@ pub(super) fn fill(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     (triangles.len() == points.len() - 2).then_some(triangles)
 }
 
-/// Projects the points along the coordinate axis nearest to their normal, so that they turn left.
+/// Projects the points along the coordinate axis nearest to their normal, counterclockwise.
 fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let first = *points.first()?;
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
@@ -64,7 +63,8 @@ fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     Some(points.iter().map(flat).collect())
 }
 
-/// Triangulates the points with the outline as edges, and returns where each point is; none where that is not possible.
+/// Triangulates the points with the outline as constraint edges. Returns the vertex of each point; `None` if that
+/// fails.
 fn triangulated(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>)> {
     let count = places.len();
     let order = order(places)?;
@@ -87,8 +87,8 @@ fn triangulated(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>
     (plane.num_constraints() == count).then_some((plane, at))
 }
 
-/// The order in which corners are inserted: three that span a triangle, as the library looks through all as long as they
-/// are on one line, and the others as if at random. None for corners on one line.
+/// Returns the order of insertion: three corners that span a triangle, because the library scans all while they are
+/// collinear, then the others in pseudorandom order. Returns `None` if all are collinear.
 fn order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
     let point = |k: usize| DVec3::new(places[k].x, places[k].y, 0.0);
     let second = (1..places.len()).find(|&k| places[k] != places[0])?;
@@ -105,7 +105,7 @@ fn order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
     Some(order)
 }
 
-/// A number that tells nothing of the one that it is made of: the end of the generator SplitMix64.
+/// Hashes a number: the finalizer of SplitMix64.
 fn mixed(number: u64) -> u64 {
     let mut bits = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -113,7 +113,7 @@ fn mixed(number: u64) -> u64 {
     bits ^ (bits >> 31)
 }
 
-/// Collects the triangles on the left of the outline.
+/// Collects the triangles to the left of the outline.
 fn within(plane: &Plane, at: &[FixedVertexHandle]) -> Option<Vec<[usize; 3]>> {
     let mut seen = vec![false; plane.num_all_faces()];
     let (mut stack, count) = (Vec::new(), at.len());

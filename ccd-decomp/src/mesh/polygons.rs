@@ -8,7 +8,7 @@ use crate::exact::predicates::is_without_area;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
 
-/// The vertices and faces of a file, as a reader found them.
+/// The vertices and faces of a file, not yet checked.
 #[derive(Debug, Default)]
 pub(crate) struct Polygons {
     pub(crate) vertices: Vec<DVec3>,
@@ -16,7 +16,7 @@ pub(crate) struct Polygons {
     pub(crate) corners: Vec<i64>,
     /// The end of each face's corners in `corners`.
     pub(crate) ends: Vec<usize>,
-    /// The lines of the vertices and of the faces, from 1; empty where the format has none.
+    /// The lines of vertices and faces in the file, from 1; empty if the format has no lines.
     pub(crate) vertex_lines: Vec<usize>,
     pub(crate) face_lines: Vec<usize>,
     pub(crate) remarks: Remarks,
@@ -37,7 +37,7 @@ impl Polygons {
         self.check_corners()
     }
 
-    /// Checks that every face has three corners or more, and that each of them is a vertex.
+    /// Checks that every face has at least three corners, and that each is a valid vertex.
     pub(super) fn check_corners(&self) -> Result<(), MeshFault> {
         let vertices = self.vertices.len();
         for (face, corners) in self.faces().enumerate() {
@@ -73,12 +73,12 @@ impl Polygons {
         &self.corners[start..self.ends[face]]
     }
 
-    /// Cuts every polygon into the fan about its first corner. If the fan has a triangle without area, or one
-    /// beyond the polygon, the polygon is filled with other triangles.
+    /// Triangulates every polygon as the fan about its first corner. If the fan has a degenerate triangle, or one
+    /// outside the polygon, it is triangulated otherwise.
     ///
-    /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon, convex or
-    /// not. It covers more than a polygon that is not convex. That is reported where the polygon cannot be filled
-    /// either, because it meets itself.
+    /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon, convex or not. For
+    /// a non-convex polygon it covers more; that is reported if the polygon intersects itself and cannot be
+    /// triangulated otherwise.
     pub(super) fn triangulate(&self, repairs: &mut Repairs) -> (Vec<[u32; 3]>, Vec<u32>) {
         let (mut faces, mut ids) = (Vec::new(), Vec::new());
         faces.reserve_exact(self.corners.len() - 2 * self.ends.len());
@@ -114,7 +114,7 @@ impl Polygons {
     }
 }
 
-/// Checks that there are no more elements than pieces can name.
+/// Checks that pieces can index all elements.
 pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFault> {
     // A fan makes less than one triangle per corner; pieces name corners by u32.
     if count < u32::MAX as usize / 12 {
@@ -124,7 +124,7 @@ pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFa
     }
 }
 
-/// Checks that all coordinates are in the range that is computed with.
+/// Checks that all coordinates are in the supported range.
 pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
     // Written so that NaN fails.
     let bad = |p: &DVec3| !(p.abs().max_element() <= MAX_COORDINATE && p.is_finite());
@@ -145,7 +145,7 @@ fn has_flat(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
         .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
 }
 
-/// Returns whether the normal of a triangle of a fan points away from the normal of the whole fan.
+/// Returns whether a triangle of a fan is oriented against the fan as a whole.
 fn overhangs(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     let normal = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| vertices[v as usize]);

@@ -1,17 +1,17 @@
-//! Remarks of readers: what they passed over, or did not take as it stands.
+//! Remarks of readers: content that was skipped or changed.
 
 use super::error::Quote;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What a reader passed over in a file, or did not take as it stands: kinds of elements, and how many there were of each.
+/// The content of a file that a reader skipped or changed: kinds of elements, each with a count.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Remarks(Vec<Remark>);
 
 /// One kind of elements.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Remark {
-    /// The elements, and what became of them, such as `lines passed over`.
+    /// The kind of elements and their treatment, such as `lines passed over`.
     pub what: String,
     /// Their number.
     pub count: usize,
@@ -19,7 +19,7 @@ pub struct Remark {
     pub line: Option<usize>,
 }
 
-/// The most kinds that are told apart: a report that names more becomes a list nobody reads.
+/// The maximum number of kinds listed separately, to keep the report short.
 const KINDS: usize = 8;
 
 impl Remarks {
@@ -28,7 +28,7 @@ impl Remarks {
         self.0.iter()
     }
 
-    /// Returns whether the whole file was read as it stands.
+    /// Returns whether the file was read completely and unchanged.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -47,7 +47,7 @@ impl Remarks {
         }
     }
 
-    /// Adds a kind that the file has a name for.
+    /// Adds elements of a kind with a name in the file.
     pub(crate) fn add_named(&mut self, kind: &str, name: &str, count: usize, line: Option<usize>) {
         let what = format!("{kind} {:?} passed over", Quote(name));
         self.add(&what, count, line);
@@ -61,7 +61,7 @@ impl Remarks {
     }
 }
 
-/// The kind of what is beyond [`KINDS`].
+/// The kind of all elements beyond [`KINDS`].
 const OTHERS: &str = "others passed over";
 
 impl fmt::Display for Remark {

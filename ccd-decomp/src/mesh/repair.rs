@@ -1,6 +1,7 @@
-//! Repairs of a mesh: the report of them, and the faces that are dropped.
+//! Repairs of a mesh: the report, and the choice of dropped faces.
 
 use super::remark::Remarks;
+use crate::hull::polygons::smallest_first;
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -12,14 +13,13 @@ use std::fmt;
 /// No repair removes a point of the surface.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repairs {
-    /// Faces of more than three corners, cut into the fan about their first corner or, where that does not fit,
-    /// into other triangles. The rim of a polygon that is not planar bounds several surfaces: these triangles
-    /// are one of them.
+    /// Faces of more than three corners, triangulated. A non-planar polygon bounds several surfaces: the triangles are
+    /// one of them.
     pub polygons: Tally<u32>,
-    /// Polygons among them that meet themselves, or are far from planar: the fan reaches beyond the face.
+    /// Polygons that intersect themselves or are far from planar: the fan extends beyond the face.
     pub overhanging: Tally<u32>,
-    /// Faces dropped because another face has the same three points in the same orientation. The same points
-    /// in the opposite orientation are kept: two faces back to back close what one would leave open.
+    /// Faces dropped because another face has the same three points in the same orientation. The same points in the
+    /// opposite orientation are kept: two faces back to back are a closed surface.
     pub duplicates: Tally<u32>,
     /// Faces dropped because two of their corners are the same point, and the remaining segment or point is
     /// on an edge of another face. Otherwise they are kept.
@@ -28,8 +28,8 @@ pub struct Repairs {
     pub zero_area: Tally<u32>,
     /// Vertices that no face uses.
     pub unreferenced: Tally<u32>,
-    /// What the file holds beside these vertices and faces.
-    // Stored bodies have it at their end, where older ones have nothing.
+    /// Remarks about other content of the file.
+    // Stored bodies have the remarks at their end; older files have none.
     #[serde(skip)]
     pub remarks: Remarks,
 }
@@ -40,8 +40,7 @@ impl Repairs {
         self == &Repairs::default()
     }
 
-    /// The repairs that were made before there were triangles, and those that dropped any: what making the triangles
-    /// into a mesh again does not find again.
+    /// Returns the repairs that rebuilding the mesh from its triangles would not find again.
     pub(crate) fn before_triangles(&self) -> Self {
         Repairs {
             zero_area: Tally::default(),
@@ -49,7 +48,7 @@ impl Repairs {
         }
     }
 
-    /// Adds the repairs of another mesh, whose vertices and faces are numbered on from these.
+    /// Adds the repairs of another mesh, with offsets of its vertex and face numbers.
     pub(crate) fn append(&mut self, other: &Self, vertex: u32, face: u32) {
         // Exhaustive: a new kind of repair does not compile until it is added here.
         let Repairs {
@@ -156,15 +155,4 @@ pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
         }
     }
     marked
-}
-
-/// Rotates a loop of corners so that the smallest comes first.
-fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
-    if a <= b && a <= c {
-        [a, b, c]
-    } else if b <= c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
 }

@@ -34,7 +34,7 @@ fn faces_back_to_back_are_both_kept() {
 
 #[test]
 fn a_collapsed_face_is_dropped_where_it_lies_on_an_edge() {
-    // A side, a side named by the twin of its corner, and a corner.
+    // Collapsed faces: a side, a side by a duplicate of its corner, and a corner.
     let mesh = mesh(&[[0, 0, 1], [0, 1, 2], [4, 1, 1], [2, 2, 2]]);
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
     assert_eq!(mesh.face_ids(), [1]);
@@ -43,7 +43,7 @@ fn a_collapsed_face_is_dropped_where_it_lies_on_an_edge() {
 
 #[test]
 fn a_collapsed_face_is_kept_where_nothing_else_holds_it() {
-    // A diagonal away from every edge, the same again, a point of it, and a point on its own.
+    // Collapsed faces: a diagonal off every edge, the same again, a point of it, and an isolated point.
     let kept = mesh(&[[3, 3, 3], [0, 1, 5], [1, 3, 3], [3, 1, 1], [2, 2, 2]]);
     assert_eq!(kept.face_ids(), [1, 2, 4]);
     assert_eq!(kept.repairs().collapsed.first(), [0, 3]);

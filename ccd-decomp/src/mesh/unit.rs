@@ -1,4 +1,4 @@
-//! Units of length, and the change from one to another.
+//! Units of length, and conversions between them.
 
 use ccd_core::glam::DVec3;
 use std::fmt;
@@ -46,7 +46,7 @@ impl Unit {
         Unit::Foot,
     ];
 
-    /// The usual sign, in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
+    /// Returns the symbol, in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
     pub fn symbol(self) -> &'static str {
         match self {
             Unit::Micrometre => "um",
@@ -58,7 +58,7 @@ impl Unit {
         }
     }
 
-    /// Its length in micrometres. All units have a whole number of them.
+    /// Returns the length in micrometres, a whole number for all units.
     fn micrometres(self) -> u32 {
         match self {
             Unit::Micrometre => 1,
@@ -86,11 +86,11 @@ impl FromStr for Unit {
     }
 }
 
-/// The change of coordinates from one unit to another: a product with a whole number, then a quotient by one.
+/// A conversion of coordinates: a multiplication by a whole number, then a division by one.
 ///
-/// Either is 1 between metric units, where a coordinate is therefore rounded once. A float of 32 bits stays exact
-/// towards a smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between
-/// metric units and inches or feet a coordinate is rounded up to twice.
+/// Between metric units one of them is 1, so that a coordinate is rounded once. A 32-bit float converts exactly to a
+/// smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between metric units and inches
+/// or feet a coordinate is rounded up to twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Conversion {
     times: f64,
@@ -112,7 +112,7 @@ impl Conversion {
         }
     }
 
-    /// Converts a point; exact where nothing is to be converted.
+    /// Converts a point; exact if the units are equal.
     pub(crate) fn apply(self, point: DVec3) -> DVec3 {
         point * self.times / self.over
     }

@@ -1,4 +1,4 @@
-//! Convex solids, which are one polytope.
+//! Convex solids as one polytope.
 
 use super::polytope::{CoveredFacet, polytope};
 use crate::hull::polygons::polygons;
@@ -37,7 +37,7 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
     Ok(polytope(manifold, &facets.collect::<Vec<_>>()))
 }
 
-/// Finds the first edge at which the solid has no convex or flat angle.
+/// Returns the first reflex or folded edge.
 fn bad_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
     let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
     (0..3 * manifold.faces().len() as u32)

@@ -19,7 +19,7 @@ use crate::work::Work;
 use growing_patch::{GrowingPatch, Join};
 use order::{Frontier, seeds};
 
-/// The surface of a mesh in convex patches.
+/// A decomposition of a mesh's surface into convex patches.
 #[derive(Clone, Debug)]
 pub struct Decomposition {
     /// The patches. Every triangle of the mesh is in exactly one.
@@ -28,9 +28,9 @@ pub struct Decomposition {
 
 /// Decomposes the surface of a solid into convex patches `[FAST06 §3.3]` `[SWIFT01]`.
 ///
-/// A patch grows over edges that are not reflex. A polygon joins when it and the patch's polygons stay on the
-/// boundary of their common hull, and that hull stays within the solid. A convex solid becomes one patch; other
-/// patches grow to a size for which oracles are fast.
+/// A patch grows over edges that are not reflex. A polygon joins if all polygons stay on the boundary of the common
+/// hull, and the hull stays within the solid. A convex solid becomes one patch; other patches grow to a size for which
+/// oracles are fast.
 ///
 /// # Guarantee
 /// Exact, by adaptive predicates on the mesh's own coordinates: the hull of every patch lies inside the
@@ -94,10 +94,9 @@ struct Grower<'a, 'm> {
     flats: &'a Flats,
     order: Order,
     work: &'a Work,
-    /// Polygons that belong to a patch.
+    /// Whether a polygon belongs to a patch.
     taken: Vec<bool>,
-    /// The last patch that each polygon was tried for. A polygon that was refused once always will be, because the
-    /// hull only grows.
+    /// The last patch that refused each polygon. A refusal is final, because the hull only grows.
     tried: Vec<u32>,
 }
 
@@ -107,8 +106,8 @@ impl Grower<'_, '_> {
         self.taken[seed as usize] = true;
         let mut frontier = Frontier::new(self.order);
         self.reach(&mut frontier, seed);
-        // A flat patch takes no polygon of its own plane, because their union need not be convex. Once it has
-        // volume, these polygons are tried again.
+        // A flat patch takes no coplanar polygon, because the union need not be convex. These are tried again once the
+        // patch has volume.
         let mut in_plane = Vec::new();
         // Polygons are pushed when another one joins, and each joins once.
         while let Some(next) = frontier.pop() {
@@ -134,7 +133,7 @@ impl Grower<'_, '_> {
         region
     }
 
-    /// Puts the neighbours of a polygon on the frontier, except those beyond reflex edges.
+    /// Adds the neighbours of a polygon to the frontier, except beyond reflex edges.
     fn reach(&self, frontier: &mut Frontier, flat: u32) {
         for &edge in &self.flats.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {

@@ -5,14 +5,14 @@ use ccd_core::{Face, Facet, Origin, Polytope};
 
 /// A facet, and the faces of the mesh that lie in it.
 pub(super) struct CoveredFacet {
-    /// Its corners by vertex, counter-clockwise seen from outside.
+    /// The corner vertices, counter-clockwise seen from outside.
     pub(super) corners: Vec<u32>,
     pub(super) faces: Vec<u32>,
-    /// True if the faces cover the facet.
+    /// Whether the faces cover the facet.
     pub(super) is_covered: bool,
 }
 
-/// Makes the polytope of some facets. Its points are the vertices of the mesh at their corners.
+/// Creates the polytope of some facets. Its points are the mesh vertices at their corners.
 pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[CoveredFacet]) -> Polytope {
     let mut vertices: Vec<u32> = facets.iter().flat_map(|f| &f.corners).copied().collect();
     vertices.sort_unstable();

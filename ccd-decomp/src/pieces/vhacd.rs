@@ -4,9 +4,8 @@
 //! mesh ─ voxels.rs ─ labels.rs (the library's V-HACD) ─ cover.rs ─ merge.rs ─► hulls ─ excess.rs ─► errors
 //! ```
 //!
-//! The library only assigns voxels to parts `[MAM16]`. Its hulls are not used, because they do not contain the
-//! mesh, and the library does not bound by how much they miss it. Each hull is computed anew, about everything
-//! that the solid has in the voxels of its part.
+//! The library only assigns voxels to parts `[MAM16]`. Its hulls are not used, because they need not contain the mesh.
+//! Each hull is computed anew, around the part of the solid in its voxels.
 
 mod cover;
 mod excess;
@@ -38,21 +37,21 @@ use voxels::Voxels;
 /// polytope, whose radius this is. No point of a polytope is farther than `sticks_out` from S.
 #[derive(Clone, Debug)]
 pub(crate) struct Approximation {
-    /// The hulls, at most as many as asked for. Their facets are no part of the mesh.
+    /// The hulls, at most the requested number. Their facets are no part of the mesh.
     pub(crate) polytopes: Vec<Polytope>,
     /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
     /// mesh's unit of length.
     pub(crate) uncovered: f64,
-    /// The number of hulls that the library got wrong, and that were computed exactly instead.
+    /// The number of hulls that the library computed wrongly, and that were recomputed exactly.
     pub(crate) rebuilt: usize,
-    /// A bound on how far the polytopes stick out of S, in the mesh's unit of length.
+    /// A bound on how far the polytopes extend beyond S, in the mesh's unit of length.
     pub(crate) sticks_out: f64,
 }
 
 /// The reason why a mesh cannot be approximated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum VhacdError {
-    /// No hulls were asked for.
+    /// The number of hulls is 0.
     #[error("a mesh cannot be approximated by no hulls")]
     NoHulls,
     /// A coordinate is too near to 0 for exact predicates.
@@ -67,7 +66,7 @@ pub enum VhacdError {
     /// A part's hull could not be computed.
     #[error("the hull of a part failed: {0}")]
     Hull(HullError),
-    /// The bound on how far the hulls stick out is too large to be useful.
+    /// The bound on the excess of the hulls is too large to be useful.
     #[error(
         "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
          diagonal; mend the mesh, or use triangles"
@@ -80,11 +79,11 @@ pub enum VhacdError {
     },
 }
 
-/// Approximates a mesh by a number of hulls or fewer. One hull is used for a convex solid, and for a mesh that no
-/// grid of voxels suits, because its triangles are large and many or its coordinates hardly differ.
+/// Approximates a mesh by at most a number of hulls. A convex solid gets one hull, and so does a mesh without a
+/// suitable voxel grid.
 ///
 /// # Errors
-/// [`VhacdError`] when no hulls are asked for, or none can be certified.
+/// [`VhacdError`] if `hulls` is 0, or none can be certified.
 ///
 /// # Complexity
 /// The library takes O(r³) in the resolution r. The bound on the errors takes a branch and bound of about
@@ -102,9 +101,9 @@ pub(crate) fn approximate(
             vertex: vertex as u32,
         });
     }
-    let target = Target::of(mesh, topology);
+    let target = Target::new(mesh, topology);
     let is_convex = is_convex(mesh, topology);
-    let voxels = Voxels::of(&target, hulls).filter(|_| hulls > 1 && !is_convex);
+    let voxels = Voxels::new(&target, hulls).filter(|_| hulls > 1 && !is_convex);
     let parts = match voxels {
         Some(voxels) => {
             let (contents, labels) = rayon::join(
@@ -119,7 +118,7 @@ pub(crate) fn approximate(
     let parts = parts.into_iter().filter(|points| !points.is_empty());
     let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
         .par_iter()
-        .map(|points| Part::of(points))
+        .map(|points| Part::hull_of(points))
         .collect::<Result<_, HullError>>()
         .map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(target.farthest_coordinate());

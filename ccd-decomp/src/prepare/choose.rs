@@ -1,4 +1,4 @@
-//! The choice of `Detail::Auto`: the fewest pieces that are exact.
+//! `Detail::Auto`: chooses the fewest exact pieces.
 
 use super::parts::Parts;
 use super::report::{Estimate, Why};
@@ -14,10 +14,10 @@ use crate::solid::topology::Topology;
 use crate::tolerance::{AUTO_WORK, FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
 use crate::work::Work;
 
-/// Chooses one hull where the solid is convex, else patches or triangles, whichever is estimated to be faster.
+/// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
 ///
-/// Finding intersections and decomposing take long: they are done only where the result would be used, and
-/// only within a [budget](AUTO_WORK).
+/// Intersection tests and decomposition are slow: they run only if the result would be used, within a
+/// [budget](AUTO_WORK).
 ///
 /// The edges are those between the mesh's welded vertices, if they are known.
 pub(super) fn choose(
@@ -25,7 +25,7 @@ pub(super) fn choose(
     topology: &Topology,
     edges: Option<Edges>,
 ) -> (Parts, Why) {
-    within(mesh, topology, edges, &Work::of(AUTO_WORK))
+    within(mesh, topology, edges, &Work::with_steps(AUTO_WORK))
 }
 
 fn within(
@@ -66,7 +66,7 @@ fn only_triangles(error: DecomposeError) -> (Parts, Why) {
 }
 
 impl PlanarRegion {
-    /// Estimates the time of a query, when this part rests on another body in some of the queries.
+    /// Estimates the time of a query, if this part rests on another body in some queries.
     fn estimate(self) -> Estimate {
         let cost = |of: PieceCost, count: usize| of.usual + FLAT_SHARE * of.resting * count as f64;
         Estimate {

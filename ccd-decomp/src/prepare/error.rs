@@ -5,11 +5,11 @@ use crate::solid::error::DecomposeError;
 use crate::tree::hull_tree::BuildError;
 use ccd_core::{HullTreeError, InputError};
 
-/// Why a mesh cannot be made into a body.
+/// The reason why a mesh cannot be made into a body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PrepareError {
-    /// The mesh cannot be made into the pieces that were asked for.
+    /// The mesh cannot be decomposed into the requested pieces.
     #[error(transparent)]
     Decompose(#[from] DecomposeError),
     /// The mesh cannot be approximated.
@@ -18,7 +18,7 @@ pub enum PrepareError {
     /// No hull tree can be built.
     #[error(transparent)]
     BuildHullTree(#[from] BuildError),
-    /// A hull tree does not belong to the pieces.
+    /// The hull tree does not match the pieces.
     #[error(transparent)]
     HullTree(#[from] HullTreeError),
     /// The core rejects the pieces.

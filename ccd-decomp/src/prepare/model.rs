@@ -1,4 +1,4 @@
-//! Models, which are stored, and the bodies that are built from them.
+//! Models, which can be stored, and bodies built from them.
 
 use super::error::PrepareError;
 use super::report::{PiecesKind, Report, Why};
@@ -12,37 +12,36 @@ use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, Round, Volume};
 pub struct Model {
     /// The convex pieces.
     pub pieces: Pieces,
-    /// A hierarchy over them.
+    /// A hierarchy over the pieces.
     pub hierarchy: Hierarchy,
-    /// True if a point inside the body counts as touching it.
+    /// Whether the body is solid: a point inside touches it.
     pub volume: Volume,
-    /// The tree of hulls over the pieces, for the schedules that use one.
+    /// The hull tree over the pieces, for the schedules that use one.
     pub hull_tree: Option<HullTree>,
-    /// The triangles of a convex solid's mesh, and a hierarchy over them. They replace the solid against
-    /// bodies of many triangles.
+    /// The triangles of a convex solid, and a hierarchy over them, used against bodies of many triangles.
     pub surface: Option<(Pieces, Hierarchy)>,
-    /// The kind of the pieces, and why they are of that kind.
+    /// The kind of the pieces, and the reason for it.
     pub report: Report,
 }
 
-/// A body, and the report of how it was made.
+/// A body, and the report of its preparation.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// The body, ready for queries.
     pub body: Body,
-    /// The kind of its pieces, and why they are of that kind.
+    /// The kind of the pieces, and the reason for it.
     pub report: Report,
-    /// The unit of its coordinates, if its file states one or one was asked for.
+    /// The unit of its coordinates, if stated by the file or requested.
     pub unit: Option<Unit>,
 }
 
 impl Model {
     /// Builds the body. O(n log n) in the number of pieces.
     ///
-    /// It [exceeds](Body::excess) its shape by what its report says that it sticks out by.
+    /// Its [excess](Body::excess) is [`Report::sticks_out`].
     ///
     /// # Errors
-    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] when the parts of the model do not belong together.
+    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] if the parts of the model do not match.
     pub fn body(&self) -> Result<Body, PrepareError> {
         let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
         if let Some((pieces, hierarchy)) = &self.surface {
@@ -56,10 +55,10 @@ impl Model {
         })
     }
 
-    /// Takes over the pieces of a body, to store them.
+    /// Creates a model from the pieces of a body, to store it.
     ///
-    /// The model has the same pieces, the same volume and the same [excess](Body::excess), so that queries have the same answers. Its tree is built anew,
-    /// without hulls, and without the surface of a convex solid.
+    /// The model has the same pieces, the same volume and the same [excess](Body::excess), so that answers are the
+    /// same. Its tree is rebuilt, without hulls and without the surface of a convex solid.
     ///
     /// # Errors
     /// [`PrepareError::Input`] when there are too many pieces for a hierarchy.
@@ -90,10 +89,10 @@ impl Model {
         Ok(self)
     }
 
-    /// Builds the body, and drops the rest except the report.
+    /// Builds the body and keeps the report.
     ///
     /// # Errors
-    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] when the parts of the model do not belong together.
+    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] if the parts of the model do not match.
     pub fn into_prepared(self) -> Result<Prepared, PrepareError> {
         Ok(Prepared {
             body: self.body()?,
@@ -104,7 +103,7 @@ impl Model {
 }
 
 impl Prepared {
-    /// Wraps a body that was not made of a mesh.
+    /// Wraps a body that was not made from a mesh.
     pub(crate) fn primitive(body: Body) -> Self {
         Prepared {
             report: Report::new(PiecesKind::Primitive, Why::Asked, body.volume()),
@@ -113,7 +112,7 @@ impl Prepared {
         }
     }
 
-    /// Makes the body of a cylinder or a cone, which its polytope exceeds by at most a length.
+    /// Creates the body of a cylinder or a cone with an upper bound on its excess.
     pub(crate) fn round(round: &Round, excess: Option<f64>) -> Result<Self, InputError> {
         let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()))?;
         let mut prepared = Prepared::primitive(enclosure.body()?);

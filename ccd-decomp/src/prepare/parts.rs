@@ -1,4 +1,4 @@
-//! The pieces of a mesh, and the model that is made of them.
+//! The pieces of a mesh, and the model made from them.
 
 use super::error::PrepareError;
 use super::model::Model;
@@ -18,13 +18,13 @@ pub(super) enum Parts {
     Vhacd(Approximation),
 }
 
-/// The pieces that were chosen for a mesh, and what was found on the way.
+/// The chosen pieces of a mesh, with its topology.
 pub(super) struct Choice {
     pub(super) volume: Volume,
     pub(super) parts: Parts,
     pub(super) why: Why,
     pub(super) topology: Topology,
-    /// The mesh with all shells turned the right way, if some were not.
+    /// The mesh with wrong shells reversed, if there are any.
     pub(super) turned: Option<TriangleMesh>,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct PieceTree {
 }
 
 impl Choice {
-    /// Makes the model. The triangles are those of the mesh before any shell is turned, if they are there.
+    /// Creates the model. `triangles` are those of the mesh before any shell is reversed, if computed.
     pub(super) fn into_model(
         self,
         mesh: &TriangleMesh,
@@ -82,7 +82,7 @@ impl Choice {
 }
 
 impl PieceTree {
-    /// Makes one piece of every triangle of a mesh.
+    /// Creates one piece for each triangle of a mesh.
     pub(super) fn of_triangles(mesh: &TriangleMesh) -> Result<Self, PrepareError> {
         PieceTree::over(triangles(mesh)?)
     }
@@ -96,7 +96,8 @@ impl PieceTree {
         Ok(PieceTree { pieces, hierarchy })
     }
 
-    /// Takes the triangles of a mesh that differs in the order of their corners, which no hierarchy depends on.
+    /// Replaces the triangles by those of a mesh that differs only in the order of corners. The hierarchy does not
+    /// change.
     fn with_corners_of(self, turned: &TriangleMesh) -> Result<Self, PrepareError> {
         let pieces = triangles(turned)?;
         Ok(PieceTree { pieces, ..self })

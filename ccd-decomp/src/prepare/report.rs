@@ -1,4 +1,4 @@
-//! The report: the kind of a body's pieces, and the reason for that kind.
+//! Reports: the kind of a body's pieces, and the reason for it.
 
 use crate::mesh::repair::Repairs;
 use crate::solid::error::DecomposeError;
@@ -7,34 +7,32 @@ use ccd_core::Volume;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The pieces that a body was made of, and the reason. Prints as one line for people.
+/// A report on the pieces of a body. Formats as one line of text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// The kind of its pieces.
     pub kind: PiecesKind,
-    /// Why its pieces are of that kind.
+    /// The reason for this kind.
     pub why: Why,
     /// The number of triangles of its mesh; 0 for shapes.
     pub triangles: usize,
     /// The number of its pieces.
     pub pieces: usize,
-    /// The number of facets of the pieces that are no part of the mesh.
+    /// The number of facets that are not part of the mesh.
     pub virtual_faces: usize,
     /// The number of nodes of the hierarchy over the pieces.
     pub tree_nodes: usize,
-    /// The radius that was added to the pieces so that they certainly cover the mesh, in its unit of length; 0
-    /// for all exact kinds.
+    /// The radius added to the pieces so that they certainly cover the mesh, in its unit of length; 0 for exact kinds.
     pub inflated_by: f64,
-    /// A bound on how far the pieces reach beyond the solid, or beyond the surface of an open mesh, in its unit of
-    /// length: the [excess](ccd_core::Body::excess) of the body. Contacts may be reported early by as much. 0 for all exact
-    /// kinds.
+    /// A bound on how far the pieces extend beyond the solid, or the open surface: the [excess](ccd_core::Body::excess)
+    /// of the body, in the mesh's unit of length. Contacts may be early by it. 0 for exact kinds.
     pub sticks_out: f64,
-    /// The number of hulls of approximate pieces that the library got wrong, and that were computed exactly
-    /// instead. 0 for all other kinds, whose hulls are exact from the start.
+    /// The number of approximate hulls that the library computed wrongly, and that were recomputed exactly. 0 for all
+    /// other kinds.
     pub rebuilt_hulls: usize,
-    /// True if a point inside the body counts as touching it, which is so when its mesh is closed.
+    /// Whether the body is solid: a point inside touches it. A closed mesh is solid.
     pub volume: Volume,
-    /// The edges of the mesh, which show why it is solid or not; none for shapes.
+    /// The topology of the mesh, which shows why it is solid or not; `None` for shapes.
     pub topology: Option<Topology>,
     /// The faults of the mesh that were repaired.
     pub repairs: Repairs,
@@ -43,13 +41,13 @@ pub struct Report {
 /// The kind of a body's pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PiecesKind {
-    /// The body is a box, sphere or capsule: exact; or a polytope about a cylinder or a cone.
+    /// A box, sphere or capsule (exact), or a polytope around a cylinder or cone.
     Primitive,
     /// The pieces are the triangles of the mesh: exact.
     Triangles,
     /// The pieces are convex patches of the surface, whose hulls lie inside the solid: exact.
     Patches,
-    /// The one piece is the solid itself, which is convex: exact.
+    /// One piece, the convex solid itself: exact.
     Hull,
     /// The pieces are hulls that cover the solid: approximate.
     Vhacd,
@@ -59,14 +57,14 @@ pub enum PiecesKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Why {
-    /// The caller asked for it.
+    /// The kind was requested.
     Asked,
-    /// The solid is convex: one piece is exact. Against a body of many triangles its own triangles are used,
-    /// because pairs of pieces as large as a solid are measured too often there.
+    /// The solid is convex: one piece is exact. Against bodies of many triangles its own triangles are used, which is
+    /// faster.
     Convex,
     /// Only triangles are exact.
     NothingElse(DecomposeError),
-    /// Finding out whether other pieces are exact takes longer than it is worth; they may be asked for.
+    /// Testing whether other pieces are exact exceeds the budget. They can be requested.
     TooLong,
     /// Queries are estimated to be faster over triangles than over patches.
     TrianglesFaster(Estimate),
@@ -85,7 +83,7 @@ pub struct Estimate {
 }
 
 impl Report {
-    /// Makes the report of exact pieces without virtual facets, of a body that was not made of a mesh.
+    /// Creates the report of a body that was not made from a mesh, with one exact piece.
     pub(super) fn new(kind: PiecesKind, why: Why, volume: Volume) -> Self {
         Report {
             kind,
@@ -106,14 +104,14 @@ impl Report {
     /// Returns whether the pieces cover the solid's surface, and nothing outside the solid.
     pub fn is_exact(&self) -> bool {
         match self.kind {
-            // A polytope about a cylinder or a cone sticks out of it.
+            // A polytope around a cylinder or cone exceeds it.
             PiecesKind::Primitive => self.sticks_out == 0.0,
             PiecesKind::Triangles | PiecesKind::Patches | PiecesKind::Hull => true,
             PiecesKind::Vhacd => false,
         }
     }
 
-    /// Describes the faults of the mesh, for people; empty when it has none.
+    /// Describes the faults of the mesh as text; empty if it has none.
     pub fn remarks(&self) -> String {
         let plain = |t: &Topology| {
             t.is_manifold() && t.is_solid() && t.wrong_way.is_empty() && t.signed_volume > 0.0

@@ -1,4 +1,4 @@
-//! Binary trees of boxes that are oriented like the triangles in them.
+//! Binary trees of oriented boxes.
 
 use super::element::Element;
 use super::oriented_box::OrientedBox;
@@ -22,13 +22,13 @@ pub(crate) struct BoxTree {
 struct Node {
     bounds: Bounds,
     oriented: OrientedBox,
-    /// The elements of a leaf; none of an inner node.
+    /// The elements of a leaf; empty for an inner node.
     elements: Range<u32>,
     /// The number of nodes of the subtree, with the node itself.
     count: u32,
 }
 
-/// The most elements of a leaf.
+/// The maximum number of elements of a leaf.
 const LEAF: usize = 2;
 
 impl BoxTree {
@@ -54,20 +54,20 @@ impl BoxTree {
         BoxTree { elements, nodes }
     }
 
-    /// The smallest box along the coordinate axes that holds all elements; none without elements.
+    /// Returns the axis-aligned bounding box of all elements; `None` without elements.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.nodes.first().map(|node| node.bounds)
     }
 
-    /// Calls back with the faces of all elements that may meet a region, and some that do not, until the answer is
-    /// no, or the work is spent.
+    /// Calls `holds` for the faces of all elements that may meet a region, and some others, until it returns false or
+    /// the work is spent.
     pub(crate) fn all_meeting(
         &self,
         region: &Region,
         work: &Work,
         holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        // Only where boxes along the coordinate axes leave too many elements.
+        // Used only if axis-aligned boxes leave too many elements.
         let (met, apart) = (Cell::new(0), OnceCell::new());
         let is_far = |bounds: &Bounds, oriented: &OrientedBox| {
             if !bounds.meets(region.bounds()) {
@@ -82,8 +82,8 @@ impl BoxTree {
         self.all_but(is_far, work, holds)
     }
 
-    /// Calls back with the faces of all elements, except those in boxes that are far, until the answer is no, or
-    /// the work is spent.
+    /// Calls `holds` for the faces of all elements, except in boxes that are far, until it returns false or the work is
+    /// spent.
     pub(super) fn all_but(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
@@ -93,8 +93,7 @@ impl BoxTree {
         self.all_elements_but(is_far, work, |element| holds(element.face))
     }
 
-    /// Calls back with all elements, except those in boxes that are far, until the answer is no, or the work is
-    /// spent.
+    /// Calls `holds` for all elements, except in boxes that are far, until it returns false or the work is spent.
     pub(super) fn all_elements_but(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
@@ -120,7 +119,7 @@ impl BoxTree {
         true
     }
 
-    /// The elements of a leaf, or the two nodes below an inner one.
+    /// Returns the elements of a leaf, or the two children of an inner node.
     pub(super) fn below(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
         let Some(node) = self.nodes.get(at) else {
             return (&[], None);
@@ -133,7 +132,7 @@ impl BoxTree {
         (elements, below)
     }
 
-    /// A lower bound, up to rounding, on the distance of a point from the elements of a node.
+    /// Returns a lower bound, up to rounding, of the distance of a point from the elements of a node.
     pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
         let node = &self.nodes[at];
         greater(node.bounds.distance(point), node.oriented.distance(point))
@@ -143,16 +142,16 @@ impl BoxTree {
 /// The number of elements above which subtrees are built in parallel.
 const SHARED: usize = 4096;
 
-/// Adds the nodes over some elements, and sorts the elements; `first` is the number of the first one.
+/// Adds the nodes over some elements, and sorts these; `first` is the index of the first one.
 ///
-/// Halves the count each time, so that the recursion is at most as deep as a count has bits.
+/// Each level halves the count: the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
     let oriented = OrientedBox::about(elements);
     let at = nodes.len();
     let split = elements.len() / 2;
     let is_leaf = elements.len() <= LEAF;
     nodes.push(Node {
-        bounds: Bounds::of(elements.iter().flat_map(|element| element.corners)),
+        bounds: Bounds::enclosing(elements.iter().flat_map(|element| element.corners)),
         elements: if is_leaf {
             first as u32..(first + elements.len()) as u32
         } else {

@@ -12,7 +12,7 @@ pub(super) struct Element {
 
 impl Element {
     pub(super) fn middle(&self) -> DVec3 {
-        let bounds = Bounds::of(self.corners);
+        let bounds = Bounds::enclosing(self.corners);
         0.5 * bounds.lo + 0.5 * bounds.hi
     }
 }

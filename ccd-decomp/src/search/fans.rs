@@ -12,7 +12,7 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Triangles with one vertex, the hub, in common. They are searched by their edges opposite to it.
+/// Triangles that share one vertex, the hub. They are searched by their edges opposite to it.
 pub(super) struct Fan {
     hub: DVec3,
     rim: BoxTree,
@@ -20,7 +20,7 @@ pub(super) struct Fan {
     plane: Option<[DVec3; 3]>,
 }
 
-/// Splits faces into those in no large fan, and the large fans. Each face is in one fan at most.
+/// Splits faces into large fans and single faces. Each face is in at most one fan.
 pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>) {
     let mut count = vec![0; points.len()];
     for &v in faces.iter().flatten() {
@@ -45,7 +45,7 @@ pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>
 }
 
 impl Fan {
-    /// Makes a fan. Where most faces are in one plane, it leaves out the others, and returns them.
+    /// Creates a fan. If most faces are coplanar, the others are returned instead.
     fn new(points: &[DVec3], faces: &[[u32; 3]], members: &[(u32, u32)]) -> (Self, Vec<u32>) {
         let number = members[0].0;
         let hub = points[number as usize];
@@ -76,7 +76,7 @@ impl Fan {
         (fan, others)
     }
 
-    /// Returns whether the fan is in a plane that has a hull on one side, so that none of it reaches inside.
+    /// Returns whether the fan is in a plane with a hull on one side, so that no part of it is inside the hull.
     fn is_beside(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
             let sides = hull.corners.iter().map(|&corner| side(plane, corner));
@@ -86,7 +86,7 @@ impl Fan {
         })
     }
 
-    /// Returns whether a triangle is in the plane of the fan, and the hub is not one of its corners.
+    /// Returns whether a triangle is in the fan's plane without the hub as a corner.
     fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
         let level = |plane: [DVec3; 3]| {
             let mut sides = corners.iter().map(|&corner| side(plane, corner));
@@ -96,11 +96,11 @@ impl Fan {
     }
 
     pub(super) fn bounds(&self) -> Bounds {
-        let hub = Bounds::of([self.hub]);
+        let hub = Bounds::enclosing([self.hub]);
         self.rim.bounds().map_or(hub, |rim| rim.union(hub))
     }
 
-    /// Calls back with the triangles that may meet a shape: a part of
+    /// Calls `holds` for the triangles that may meet a shape: a part of
     /// [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
     pub(super) fn all_meeting(
         &self,

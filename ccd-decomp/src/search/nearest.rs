@@ -1,15 +1,15 @@
-//! Triangles near a point or in a box.
+//! Searches for triangles near a point or in a box.
 
 use super::box_tree::BoxTree;
 use crate::bounds::Bounds;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 
-/// The work for a node in a search by distance, in units of that for a node in a search by region.
+/// The cost of a node in a search by distance, in nodes of a search by region.
 const NODE: usize = 4;
 
 impl BoxTree {
-    /// Finds the triangle of least distance; `measure` computes the distance of a triangle from the point.
+    /// Returns the nearest triangle; `measure` computes the distance of a triangle from the point.
     ///
     /// # Guarantee
     /// No other triangle is nearer, up to rounding of the order of a coordinate's.
@@ -31,7 +31,7 @@ impl BoxTree {
             let (elements, below) = self.below(at);
             for element in elements {
                 let distance = measure(element.corners);
-                // Written so that NaN is a distance only where there is no other.
+                // Written so that NaN is a distance only if there is no other.
                 if best.is_none_or(|(_, known)| distance < known) {
                     best = Some((element.face, distance));
                 }
@@ -49,7 +49,7 @@ impl BoxTree {
         best
     }
 
-    /// Calls back with the triangles whose boxes meet a box, until the answer is no, or the work is spent.
+    /// Calls `holds` for the triangles whose boxes meet a box, until it returns false or the work is spent.
     pub(crate) fn all_in(
         &self,
         bounds: &Bounds,
@@ -58,7 +58,7 @@ impl BoxTree {
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
         self.all_elements_but(is_far, work, |element| {
-            !Bounds::of(element.corners).meets(bounds) || holds(element.face)
+            !Bounds::enclosing(element.corners).meets(bounds) || holds(element.face)
         })
     }
 }

@@ -1,4 +1,4 @@
-//! Oriented boxes, which have axes of their own.
+//! Oriented boxes.
 
 use super::element::Element;
 use crate::tolerance::box_rounding;
@@ -7,20 +7,19 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::tolerance::U64;
 use ccd_core::vector::unit;
 
-/// A box along axes of its own: a centre, half a length along each axis, and a slack along the coordinate axes.
-/// The slack covers all rounding, and axes that are not quite at right angles or of unit length.
+/// An oriented box: centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers
+/// rounding, and axes that are not exactly orthonormal.
 pub(super) struct OrientedBox {
     pub(super) centre: DVec3,
     pub(super) axes: [DVec3; 3],
     pub(super) halves: DVec3,
     pub(super) slack: f64,
-    /// The largest coordinate of any point of it.
+    /// The largest coordinate of any point of the box.
     pub(super) reach: f64,
 }
 
 impl OrientedBox {
-    /// Makes the box about some elements: along the longest side, and across to the corner that is farthest from
-    /// the middle.
+    /// Creates the box of some elements, aligned with the longest side and the corner farthest from it.
     pub(super) fn about(elements: &[Element]) -> Self {
         let corners = || elements.iter().flat_map(|element| element.corners);
         let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
@@ -38,9 +37,9 @@ impl OrientedBox {
         let axes = [first, second, first.cross(second)];
         let (mut halves, mut slack, mut reach) = (DVec3::ZERO, 0.0, 0.0);
         for p in corners() {
-            let way = p - centre;
-            let along = along_each(&axes, way);
-            let rest = way - along.x * first - along.y * second - along.z * axes[2];
+            let offset = p - centre;
+            let along = along_each(&axes, offset);
+            let rest = offset - along.x * first - along.y * second - along.z * axes[2];
             halves = halves.max(along.abs());
             slack = greater(slack, rest.abs().max_element());
             reach = greater(reach, p.abs().max_element());
@@ -56,33 +55,33 @@ impl OrientedBox {
         }
     }
 
-    /// The axis along which the middles of some elements are spread most: the teeth of a comb are spread
-    /// across their length.
+    /// Returns the axis along which the middles of some elements spread most. For the teeth of a comb this is not their
+    /// longest axis.
     pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
-            let way = element.middle() - self.centre;
-            let along = along_each(&self.axes, way);
+            let offset = element.middle() - self.centre;
+            let along = along_each(&self.axes, offset);
             (lo, hi) = (lo.min(along), hi.max(along));
         }
         self.axes[(hi - lo).max_position()]
     }
 
-    /// A bound on the dot product of a vector with the vector from the centre to any point of the box.
+    /// Returns an upper bound of the dot product of a vector with any vector from the centre to the box.
     #[inline]
     pub(super) fn depth(&self, vector: DVec3) -> f64 {
         let along = along_each(&self.axes, vector).abs();
         along.dot(self.halves) + vector.abs().element_sum() * self.slack
     }
 
-    /// A lower bound, up to rounding, on the distance of a point from the box; negative inside. Takes each axis
-    /// separately, because they need not be at right angles.
+    /// Returns a lower bound, up to rounding, of the distance of a point from the box; negative inside. Each axis is
+    /// tested separately, because they need not be orthogonal.
     pub(super) fn distance(&self, point: DVec3) -> f64 {
         let along = along_each(&self.axes, point - self.centre).abs();
         (along - self.halves).max_element() - 2.0 * self.slack
     }
 
-    /// Returns whether one of its axes certainly separates the box from all of some points.
+    /// Returns whether an axis of the box certainly separates it from all points.
     pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.reach, greater);
@@ -98,8 +97,12 @@ impl OrientedBox {
 
 /// Computes the dot products of a vector with three axes.
 #[inline]
-fn along_each(axes: &[DVec3; 3], way: DVec3) -> DVec3 {
-    DVec3::new(axes[0].dot(way), axes[1].dot(way), axes[2].dot(way))
+fn along_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
+    DVec3::new(
+        axes[0].dot(offset),
+        axes[1].dot(offset),
+        axes[2].dot(offset),
+    )
 }
 
 /// The interval that a shape covers along a direction.
@@ -114,7 +117,7 @@ pub(super) struct Extent {
 
 impl Extent {
     /// Computes the interval of some points along a unit vector.
-    pub(super) fn of(points: &[DVec3], direction: DVec3) -> Self {
+    pub(super) fn along(points: &[DVec3], direction: DVec3) -> Self {
         let base = points[0];
         let none = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         let (lo, hi, reach) = points.iter().fold(none, |(lo, hi, reach), &p| {
@@ -134,7 +137,7 @@ impl Extent {
         }
     }
 
-    /// Returns whether a box is certainly before the shape, or after it.
+    /// Returns whether a box is certainly outside the interval.
     pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
         let along = self.direction.dot(oriented.centre - self.base);
         let reach = greater(self.reach, oriented.reach);

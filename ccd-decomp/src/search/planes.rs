@@ -1,4 +1,4 @@
-//! Planes with a shape on one side, which prove that boxes are on the other.
+//! Planes that separate boxes from a shape.
 
 use super::oriented_box::{Extent, OrientedBox};
 use super::region::{Hull, Shape};
@@ -8,13 +8,13 @@ use ccd_core::tolerance::height_rounding;
 use ccd_core::vector::unit;
 use std::cmp::Ordering;
 
-/// A plane, by a point of it and two vectors that span it, so that `u × v` looks to its front.
+/// A plane with a normal of any length, towards its front.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     foot: DVec3,
     normal: DVec3,
     far: f64,
-    /// A bound on the rounding error of heights, for every unit of the reach.
+    /// A bound on the rounding error of heights, per unit of reach.
     rounding: f64,
 }
 
@@ -24,21 +24,21 @@ impl Plane {
             foot,
             normal: u.cross(v),
             far: foot.abs().max_element(),
-            // Twice, because there are three axes.
+            // Twice, to cover three axes.
             rounding: 2.0 * height_rounding([u, v], 1.0),
         }
     }
 
-    fn of([a, b, c]: [DVec3; 3]) -> Self {
+    fn through([a, b, c]: [DVec3; 3]) -> Self {
         Plane::new(a, [b - a, c - a])
     }
 
     /// Returns whether a box is certainly in front.
     #[inline]
     pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
-        let way = oriented.centre - self.foot;
+        let offset = oriented.centre - self.foot;
         let reach = oriented.reach + 2.0 * self.far;
-        let height = self.normal.dot(way) - oriented.depth(self.normal);
+        let height = self.normal.dot(offset) - oriented.depth(self.normal);
         // Written so that NaN is not in front.
         height > self.rounding * reach + f64::MIN_POSITIVE
     }
@@ -47,19 +47,21 @@ impl Plane {
 /// The number of facets of a hull that boxes are tested with.
 const PLANES: usize = 16;
 
-/// Finds planes that exactly have all of a shape behind or in them, and a hub in front or in them. A triangle of
-/// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
+/// Returns planes with the shape on or behind them and the hub on or in front of them, exactly. A triangle of the hub
+/// and an edge in front of such a plane shares no point with the shape, except the hub.
 pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
-        Shape::Segment([p, q]) => vec![Plane::of([hub, *p, *q]), Plane::of([hub, *q, *p])],
+        Shape::Segment([p, q]) => {
+            vec![Plane::through([hub, *p, *q]), Plane::through([hub, *q, *p])]
+        }
         Shape::Inside(Hull { facets, .. }) => {
             let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
-            facets.map(|&facet| Plane::of(facet)).collect()
+            facets.map(|&facet| Plane::through(facet)).collect()
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
-            // A hub within the triangle is a common point, for any planes.
+            // A hub inside the triangle is a common point.
             if !corners.contains(&hub) && holds(*corners, hub) {
                 return planes;
             }
@@ -74,7 +76,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
             let [p, q, r] = *corners;
             for facet in [[p, q, r], [q, p, r]] {
                 if side(facet, hub) != Ordering::Less {
-                    planes.push(Plane::of(facet));
+                    planes.push(Plane::through(facet));
                 }
             }
             planes
@@ -82,7 +84,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     }
 }
 
-/// Tests that prove that a box is apart from a shape.
+/// Separation tests of boxes and a shape.
 pub(super) struct Apart<'a> {
     points: &'a [DVec3],
     extents: Vec<Extent>,
@@ -103,7 +105,7 @@ impl<'a> Apart<'a> {
                 planes: facets
                     .iter()
                     .take(PLANES)
-                    .map(|&facet| Plane::of(facet))
+                    .map(|&facet| Plane::through(facet))
                     .collect(),
                 ..apart(&[], Vec::new())
             },
@@ -125,12 +127,12 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
     let across = sides.map(|side| side.cross(normal));
     let directions = [normal].into_iter().chain(across).filter_map(unit);
     directions
-        .map(|direction| Extent::of(corners, direction))
+        .map(|direction| Extent::along(corners, direction))
         .collect()
 }
 
-/// Finds such planes for a triangle in one plane with the whole fan, where the planes of the hub and an edge prove
-/// nothing: planes upright on the coordinate planes, through the hub and a corner, and along the edges.
+/// Like [`planes_beside`], for a triangle coplanar with the fan: planes parallel to a coordinate axis, through the hub
+/// and a corner, and along the edges.
 pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     let mut planes = Vec::new();
     if holds(*corners, hub) {
@@ -144,8 +146,8 @@ pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     planes
 }
 
-/// Adds the upright planes along a line that have some points behind or in them, and the hub in front or in
-/// them.
+/// Adds the planes through a line, parallel to a coordinate axis, with some points on or behind them and the hub on or
+/// in front of them.
 fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
         let turn = |x: DVec3| turn_along(axis, [p, q], x);
@@ -159,20 +161,20 @@ fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: D
     }
 }
 
-/// Returns whether a triangle holds a point.
+/// Returns whether a triangle contains a point.
 fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
         edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)
     };
-    side(triangle, point) == Ordering::Equal && Projection::of(triangle).is_none_or(within)
+    side(triangle, point) == Ordering::Equal && Projection::new(triangle).is_none_or(within)
 }
 
-/// Adds the plane of the hub and an edge, if the rest of the triangle is behind that plane.
+/// Adds the plane through the hub and an edge, if the triangle's other corner is behind it.
 fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {
-            planes.push(Plane::of(plane));
+            planes.push(Plane::through(plane));
         }
     }
 }

@@ -40,11 +40,11 @@ fn slivers_are_near_few_others() {
     }
 }
 
-/// A triangle that is left out shares no point with the query: all pairs, exactly.
+/// An omitted triangle shares no point with the query: compared with all pairs, exactly.
 #[test]
 fn nothing_that_meets_is_left_out() {
     let mesh = star(64, 0.5);
-    // Turned and moved, so that slivers of the two pass through each other.
+    // Rotated and moved, so that slivers of the two intersect.
     let turn = ccd_core::glam::DQuat::from_rotation_x(0.7);
     let moved = |p: DVec3| turn * p + DVec3::new(0.3, 0.2, 0.1);
     let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
@@ -79,7 +79,7 @@ fn a_hub_that_touches_is_not_left_out() {
 }
 
 fn coordinate() -> impl Strategy<Value = f64> {
-    // On a grid, so that much touches or is in one plane, and anywhere.
+    // On a grid, with many contacts and coplanar triangles, and anywhere.
     prop_oneof![(-2i32..=2).prop_map(|x| 0.5 * f64::from(x)), -1.0..1.0f64]
 }
 
@@ -102,7 +102,7 @@ fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     })
 }
 
-/// All triangles are found that meet a triangle or a segment, or reach into a tetrahedron: compared with every
+/// All triangles that meet a triangle, a segment or the interior of a tetrahedron are found: compared with every
 /// triangle, exactly.
 #[test]
 fn skipped_triangles_meet_nothing() {
@@ -124,12 +124,12 @@ fn skipped_triangles_meet_nothing() {
             if is_degenerate([a, b, c]) {
                 continue;
             }
-            let facets = ExactHull::of(&probe);
+            let facets = ExactHull::new(&probe);
             let facets: Vec<[DVec3; 3]> = facets.map_or(Vec::new(), |hull| {
                 let facets = hull.facets().iter();
                 facets.map(|f| f.map(|v| probe[v as usize])).collect()
             });
-            let inside = Region::inside(probe.to_vec(), facets.clone(), Bounds::of(probe));
+            let inside = Region::inside(probe.to_vec(), facets.clone(), Bounds::enclosing(probe));
             let regions = [Region::triangle([a, b, c]), Region::segment([a, b]), inside];
             let found = regions.map(|region| found(&boxes, &region));
             asked += faces.len();
@@ -162,7 +162,7 @@ fn skipped_triangles_meet_nothing() {
     assert!(near < asked / 10 * 9, "{near} of {asked}");
 }
 
-/// The least distance is found, and all boxes that meet a box: compared with every triangle.
+/// The least distance and all boxes that meet a box are found: compared with every triangle.
 #[test]
 fn the_nearest_triangle_is_found() {
     let given = (soup(), prop::collection::vec([corner(), corner()], 40));
@@ -184,7 +184,7 @@ fn the_nearest_triangle_is_found() {
             let (face, found) = search.nearest(point, &Work::unbounded(), distance).unwrap();
             assert_eq!(distance(at(&faces[face as usize])), found);
             assert!(found <= least + 1e-12, "{found} {least}");
-            let bounds = Bounds::of([p, q]);
+            let bounds = Bounds::enclosing([p, q]);
             let mut within = Vec::new();
             let all = search.all_in(&bounds, &Work::unbounded(), |face| {
                 within.push(face);
@@ -192,7 +192,7 @@ fn the_nearest_triangle_is_found() {
             });
             assert!(all);
             within.sort_unstable();
-            let meets = |face: &[u32; 3]| Bounds::of(at(face)).meets(&bounds);
+            let meets = |face: &[u32; 3]| Bounds::enclosing(at(face)).meets(&bounds);
             let twin: Vec<u32> = (0..)
                 .zip(&faces)
                 .filter(|(_, f)| meets(f))

@@ -1,4 +1,4 @@
-//! Pairs of faces of a mesh that meet where they share nothing.
+//! Self-intersections of a mesh.
 
 mod plates;
 
@@ -9,17 +9,16 @@ use crate::tolerance::CROSSINGS;
 use crate::work::{OutOfWork, Work};
 use plates::Plates;
 
-/// Finds the pairs of faces that meet where they share nothing, touching or crossing: all, or the first
-/// [thousand](CROSSINGS).
+/// Returns the pairs of faces that meet outside shared vertices and edges, at most [a thousand](CROSSINGS).
 ///
 /// # Errors
-/// [`OutOfWork`] when the work does not suffice.
+/// [`OutOfWork`] if the work does not suffice.
 pub(crate) fn crossings(
     manifold: &Manifold<'_>,
     work: &Work,
 ) -> Result<Vec<(u32, u32)>, OutOfWork> {
     let mut found = Vec::new();
-    let plates = Plates::of(manifold);
+    let plates = Plates::find(manifold);
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::triangle(manifold.triangle(face));
         let mut pair = |other: u32| {
@@ -43,10 +42,10 @@ pub(crate) fn crossings(
     Ok(found)
 }
 
-/// The number of predicates that a pair takes, about.
+/// The approximate number of predicates for a pair.
 const PAIR: usize = 4;
 
-/// Returns whether two triangles meet elsewhere than in the corners they share.
+/// Returns whether two triangles meet outside their shared corners.
 fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
     let corners = [one, other].map(|f| manifold.faces()[f as usize]);
     meet(corners, [one, other].map(|f| manifold.triangle(f)))

@@ -11,26 +11,26 @@ use ccd_core::vector::{length, unit};
 use rayon::prelude::*;
 use std::cmp::{Ordering, Reverse};
 
-/// The faces of a mesh, in groups that are convex polygons.
+/// The faces of a mesh, grouped into convex polygons.
 pub(crate) struct Flats {
     flats: Vec<Flat>,
     /// The number of the polygon, by face.
     flat_of: Vec<u32>,
 }
 
-/// A convex polygon of a mesh's surface: faces in exactly one plane, without a hole between them.
+/// A convex polygon of a mesh's surface: exactly coplanar faces without holes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flat {
-    /// Its faces, in ascending order.
+    /// The faces, in ascending order.
     pub(crate) faces: Vec<u32>,
-    /// The half-edges around it, counter-clockwise.
+    /// The half-edges of the boundary, counter-clockwise.
     pub(crate) rim: Vec<HalfEdge>,
-    /// The polygon's corners: the vertices at which the rim turns.
+    /// The strict corners of the rim.
     pub(crate) corners: Vec<u32>,
 }
 
 impl Flats {
-    /// Merges neighbours, see [`Merger`].
+    /// Merges coplanar neighbours, see [`Merger`].
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
         Merger::merged(manifold).finish()
     }
@@ -43,40 +43,39 @@ impl Flats {
         &self.flats[flat as usize]
     }
 
-    /// The polygon that a face is part of.
+    /// Returns the polygon of a face.
     #[inline]
     pub(crate) fn of_face(&self, face: u32) -> u32 {
         self.flat_of[face as usize]
     }
 }
 
-/// The size of a plane part of the surface.
+/// The size of a planar part of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct PlanarRegion {
     pub(crate) triangles: usize,
-    /// The convex polygons that its triangles merge into: at least as many as there are patches in it.
+    /// The number of convex polygons: at least the number of patches in it.
     pub(crate) polygons: usize,
 }
 
-/// Regions that grow together. Two convex ones that do not overlap have a single stretch of edges in common, so
-/// that the union is convex if it is at the two ends of the stretch.
+/// Coplanar regions that merge. Two disjoint convex regions share a single run of edges, so that the union is convex if
+/// it is at both ends of the run.
 pub(crate) struct Merger<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    /// The half-edges after and before each one on the rim of its region.
+    /// The next and the previous half-edge on the rim of the region, by half-edge.
     next: Vec<HalfEdge>,
     previous: Vec<HalfEdge>,
     regions: DisjointSets,
-    /// The plane parts of the surface, which merging leaves in one or more polygons each.
+    /// The planar parts of the surface, each of one or more polygons.
     planes: DisjointSets,
 }
 
 impl<'a, 'm> Merger<'a, 'm> {
-    /// Merges neighbours as long as their union is convex, those with the longest common edge first:
-    /// a diagonal is removed before an edge of the outline `[HM83]`.
+    /// Merges neighbours while their union is convex, in order of the longest common edge: a diagonal is removed before
+    /// an edge of the outline `[HM83]`.
     ///
-    /// The triangles of the manifold may meet each other: two merged polygons are on either side of the
-    /// removed line, so that every group is a convex polygon, covered once, independent of the rest of the
-    /// mesh.
+    /// The mesh may intersect itself: merged polygons are on opposite sides of the removed line, so that every group
+    /// covers a convex polygon once.
     pub(crate) fn merged(manifold: &'a Manifold<'m>) -> Self {
         let mut merger = Merger::new(manifold);
         let mut edges = merger.flat_edges();
@@ -94,7 +93,7 @@ impl<'a, 'm> Merger<'a, 'm> {
         merger
     }
 
-    /// Finds the plane part of most triangles.
+    /// Returns the planar part with the most triangles.
     pub(crate) fn largest_plane(&mut self) -> PlanarRegion {
         let faces = self.manifold.faces().len();
         let mut planes = vec![PlanarRegion::default(); faces];
@@ -119,18 +118,17 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
     }
 
-    /// Collects one half-edge of every edge within a plane: the longest first, and equally long ones one
-    /// direction after the other. The cells of a grid thus become rows before rows become rectangles, for any
-    /// order of the mesh.
+    /// Collects one half-edge of every flat edge, sorted by descending length class, then by direction. Grid cells thus
+    /// merge to rows before rows merge to rectangles, for any order of the mesh.
     fn flat_edges(&self) -> Vec<HalfEdge> {
         let manifold = self.manifold;
         let rank = |h: HalfEdge| {
             let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
-            let way = b - a;
-            let length = (length(way).log2() * LENGTHS).round() as i32;
-            let way = unit(way).unwrap_or(DVec3::ZERO) * DIRECTIONS;
-            let way = way.to_array().map(|x| x.round() as i32);
-            (Reverse(length), way.max(way.map(|x| -x)), h)
+            let offset = b - a;
+            let length = (length(offset).log2() * LENGTHS).round() as i32;
+            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTIONS;
+            let offset = offset.to_array().map(|x| x.round() as i32);
+            (Reverse(length), offset.max(offset.map(|x| -x)), h)
         };
         let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)
             .into_par_iter()
@@ -144,15 +142,13 @@ impl<'a, 'm> Merger<'a, 'm> {
         self.regions.root(half_edge / 3)
     }
 
-    /// Merges the regions on either side of an edge if the union is convex. Returns whether they are one region
-    /// now.
+    /// Merges the regions beside an edge if the union is convex. Returns whether they are now one region.
     fn merge_over(&mut self, edge: HalfEdge) -> bool {
         let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region(h));
         if one == other {
             return true;
         }
-        // The stretch that both regions have in common, seen from the first. It is never a whole rim: only the
-        // edges of a convex polygon on one line can have another polygon beyond that line.
+        // The common run of edges, seen from the first region. It is never a whole rim: it lies on one line.
         let Some(first) = self.walk(edge, |merger, h| merger.previous[h as usize], other) else {
             return false;
         };
@@ -178,7 +174,7 @@ impl<'a, 'm> Merger<'a, 'm> {
         true
     }
 
-    /// Finds the last half-edge, from one on along its rim, that has a region beyond it; none where all have.
+    /// Follows the rim from an edge to the last half-edge with a given region beyond it; `None` if the whole rim has.
     fn walk(
         &mut self,
         edge: HalfEdge,
@@ -198,9 +194,9 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
     }
 
-    /// Returns whether a rim goes straight on or to the left from one half-edge to the next.
+    /// Returns whether a rim is straight or turns left between two half-edges.
     fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
-        let Some(plane) = Projection::of(self.manifold.triangle(before / 3)) else {
+        let Some(plane) = Projection::new(self.manifold.triangle(before / 3)) else {
             return false;
         };
         let ([a, b], [_, c]) = (self.manifold.ends(before), self.manifold.ends(after));
@@ -208,22 +204,13 @@ impl<'a, 'm> Merger<'a, 'm> {
         plane.turn(a, b, c) != Ordering::Less
     }
 
-    /// Lists the polygons.
+    /// Returns the polygons.
     pub(crate) fn finish(mut self) -> Flats {
-        const UNSEEN: u32 = u32::MAX;
-        let faces = self.manifold.faces().len() as u32;
-        let mut number_of = vec![UNSEEN; faces as usize];
-        let mut flat_of = vec![0; faces as usize];
-        let mut flats: Vec<Flat> = Vec::new();
-        for face in 0..faces {
-            let root = self.regions.root(face);
-            let number = &mut number_of[root as usize];
-            if *number == UNSEEN {
-                *number = flats.len() as u32;
-                flats.push(Flat::default());
-            }
-            flat_of[face as usize] = *number;
-            flats[*number as usize].faces.push(face);
+        let flat_of = self.regions.numbers();
+        let count = flat_of.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut flats = vec![Flat::default(); count];
+        for (face, &number) in (0..).zip(&flat_of) {
+            flats[number as usize].faces.push(face);
         }
         for (number, flat) in flats.iter_mut().enumerate() {
             let outer =
@@ -238,7 +225,7 @@ impl<'a, 'm> Merger<'a, 'm> {
             flat.rim = std::iter::successors(Some(start), onward)
                 .take(most)
                 .collect();
-            let plane = Projection::of(self.manifold.triangle(flat.faces[0]));
+            let plane = Projection::new(self.manifold.triangle(flat.faces[0]));
             let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
             let points = self.manifold.mesh().vertices();
             flat.corners = plane.map_or(starts.clone(), |p| strict_corners(points, &starts, p));

@@ -12,22 +12,22 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
-/// A closed 2-manifold of triangles: every half-edge has one twin that runs the other way.
+/// A closed 2-manifold of triangles: every half-edge has exactly one twin.
 ///
 /// # Invariants
-/// Vertices at one point are one vertex. No triangle is without area. Coordinates are fit for exact
-/// predicates. Of one that [bounds a solid](super::bounding_solid), no two triangles meet except in the
-/// vertices and edges they share, and behind each of them, against its normal, is the solid.
+/// Equal points are one vertex. No triangle is degenerate. Coordinates are in the range of exact predicates. Of one
+/// that [bounds a solid](super::bounding_solid), no two triangles meet except in the vertices and edges they share, and
+/// behind each of them, against its normal, is the solid.
 pub(crate) struct Manifold<'m> {
     mesh: &'m TriangleMesh,
     faces: Vec<[u32; 3]>,
     /// The twin, by half-edge.
     twins: Vec<HalfEdge>,
-    /// The boxes of the faces, made at the first use.
+    /// The boxes of the faces, created on demand.
     boxes: OnceLock<TriangleBoxes>,
 }
 
-/// The kind of angle between two faces at an edge, seen from outside.
+/// The kind of dihedral angle at an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dihedral {
     /// The solid's angle is less than half a turn.
@@ -41,8 +41,8 @@ pub(crate) enum Dihedral {
 }
 
 impl<'m> Manifold<'m> {
-    /// Makes the manifold of a mesh that is one by its edges. Triangles have an area, but may meet each other, and
-    /// parts may be inside out. Takes a tenth of the time of [`bounding_solid`](super::bounding_solid).
+    /// Creates the manifold of a mesh by its edges alone: triangles may intersect, and parts may be inside out. Takes a
+    /// tenth of the time of [`bounding_solid`](super::bounding_solid).
     pub(crate) fn unchecked(
         mesh: &'m TriangleMesh,
         topology: &Topology,
@@ -50,7 +50,7 @@ impl<'m> Manifold<'m> {
         Manifold::with_edges(mesh, topology, None)
     }
 
-    /// Makes the manifold like [`Manifold::unchecked`], of a mesh whose edges between welded vertices may be known.
+    /// Creates the manifold like [`Manifold::unchecked`], with the edges between welded vertices, if they are known.
     pub(crate) fn with_edges(
         mesh: &'m TriangleMesh,
         topology: &Topology,
@@ -75,9 +75,9 @@ impl<'m> Manifold<'m> {
         for face in flat_faces.collect::<Vec<u32>>() {
             flat.add(mesh.face_ids()[face as usize]);
         }
-        // The half-edges of faces that are turned have other numbers.
+        // Half-edges of reversed faces have other numbers.
         let edges = edges.filter(|_| !turned);
-        let edges = edges.unwrap_or_else(|| Edges::of(&faces));
+        let edges = edges.unwrap_or_else(|| Edges::new(&faces));
         match edges.twins(faces.len()) {
             Some(twins) if flat.is_empty() => Ok(Manifold {
                 mesh,
@@ -89,47 +89,47 @@ impl<'m> Manifold<'m> {
         }
     }
 
-    /// The mesh that it was made of.
+    /// Returns the mesh.
     pub(crate) fn mesh(&self) -> &'m TriangleMesh {
         self.mesh
     }
 
-    /// The corners of all faces, by vertex, counter-clockwise seen from outside.
+    /// Returns the vertices of all faces, counter-clockwise seen from outside.
     pub(crate) fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
-    /// The point of a vertex.
+    /// Returns the point of a vertex.
     #[inline]
     pub(crate) fn point(&self, vertex: u32) -> DVec3 {
         self.mesh.vertices()[vertex as usize]
     }
 
-    /// The corners of a face.
+    /// Returns the points of a face.
     #[inline]
     pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
         let [a, b, c] = self.faces[face as usize];
         [self.point(a), self.point(b), self.point(c)]
     }
 
-    /// The boxes of the faces.
+    /// Returns the boxes of the faces.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
         self.boxes
             .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))
     }
 
-    /// The half-edge that runs along the same edge the other way.
+    /// Returns the opposite half-edge of the same edge.
     #[inline]
     pub(crate) fn twin(&self, half_edge: HalfEdge) -> HalfEdge {
         self.twins[half_edge as usize]
     }
 
-    /// The three faces beyond the edges of a face.
+    /// Returns the three neighbours of a face.
     pub(crate) fn neighbours(&self, face: u32) -> [u32; 3] {
         [0, 1, 2].map(|k| self.twin(3 * face + k) / 3)
     }
 
-    /// The vertices at which a half-edge starts and ends.
+    /// Returns the start and end vertex of a half-edge.
     pub(crate) fn ends(&self, half_edge: HalfEdge) -> [u32; 2] {
         let face = self.faces[half_edge as usize / 3];
         let k = half_edge as usize % 3;
@@ -147,7 +147,7 @@ impl<'m> Manifold<'m> {
             Ordering::Equal => {
                 let [start, end] = self.ends(half_edge).map(|v| self.point(v));
                 let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
-                if Projection::of(triangle).is_some_and(beyond) {
+                if Projection::new(triangle).is_some_and(beyond) {
                     Dihedral::Flat
                 } else {
                     Dihedral::Folded

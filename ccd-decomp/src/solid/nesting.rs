@@ -1,4 +1,4 @@
-//! Shells within shells: the parts of a closed mesh that bound material, and those that bound a cavity.
+//! Nesting of shells: which parts of a closed mesh bound material, and which a cavity.
 
 mod closed_parts;
 mod shell_boxes;
@@ -19,7 +19,7 @@ use ccd_core::vector::unit;
 use closed_parts::closed_parts;
 use shell_boxes::ShellBoxes;
 
-/// The shells of a closed mesh whose orientation does not fit their surroundings.
+/// The shells of a closed mesh whose orientation contradicts their nesting.
 ///
 /// A shell is a closed part that is connected over edges. Among shells that do not cross, the outermost bound
 /// solids, those next within bound cavities, and so on, for any orientation. Outermost shells that cross make
@@ -27,21 +27,21 @@ use shell_boxes::ShellBoxes;
 /// orientation; otherwise they are unclear.
 #[derive(Debug, Default)]
 pub(crate) struct Nesting {
-    /// The faces to turn round, so that the solid is behind all faces, or in front of all.
+    /// The faces to reverse, so that the solid is behind all faces, or in front of all.
     pub(crate) turned: Vec<u32>,
-    /// A face of each shell of the wrong orientation, when others have the right one, by the file's number.
+    /// A face of each wrongly oriented shell, if other shells are right, by the file's number.
     pub(crate) wrong: Tally<u32>,
     /// A face of each shell that may bound a solid or a cavity, by the file's number.
     pub(crate) unclear: Tally<u32>,
 }
 
 impl Nesting {
-    /// Examines a closed mesh, given with its edges between welded vertices: along every edge as many faces run one
-    /// way as the other. A mesh in one part needs no turning.
+    /// Examines a closed mesh, with its edges between welded vertices: every edge has equally many faces in both
+    /// directions. A mesh of one part needs no reversal.
     ///
     /// Exact. O(n log n) where few boxes of triangles of different shells meet, and few boxes of shells overlap along
     /// the mesh's longest axis.
-    pub(crate) fn of(mesh: &TriangleMesh, edges: &Edges) -> Self {
+    pub(crate) fn new(mesh: &TriangleMesh, edges: &Edges) -> Self {
         let shell_of = closed_parts(mesh, edges);
         let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
         match count {
@@ -60,13 +60,13 @@ struct Shells<'m> {
     shell_boxes: ShellBoxes,
 }
 
-/// The other shells that surround a shell without crossing it.
+/// The nesting of one shell.
 #[derive(Clone, Debug, Default)]
 struct Surroundings {
     shells: Vec<u32>,
-    /// True if a surrounding shell crosses it.
+    /// Whether a surrounding shell crosses this one.
     crossed: bool,
-    /// True if the surroundings could not be found.
+    /// Whether the surrounding shells could not be determined.
     unknown: bool,
 }
 
@@ -136,7 +136,7 @@ impl<'m> Shells<'m> {
             ..Nesting::default()
         };
         let has_volume = |&shell: &usize| orientations[shell] != 0;
-        // A mesh that is inside out as a whole is consistent.
+        // A mesh that is entirely inside out is consistent.
         if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
             for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
                 nesting.wrong.add(self.name(shell));
@@ -146,12 +146,12 @@ impl<'m> Shells<'m> {
         nesting
     }
 
-    /// The first face of a shell, by the file's number, which names the shell in reports.
+    /// Returns the first face of a shell, by the file's number, as its name in reports.
     fn name(&self, shell: usize) -> u32 {
         self.mesh.face_ids()[self.faces_of[shell][0] as usize]
     }
 
-    /// Computes the orientation of a shell: 1 outward, −1 inward, 0 without volume.
+    /// Returns the orientation of a shell: 1 outward, −1 inward, 0 without volume.
     fn orientation(&self, faces: &[u32]) -> i32 {
         let near = self.mesh.triangle(faces[0])[0];
         let mut volume = SignedVolume::default();
@@ -184,7 +184,7 @@ impl<'m> Shells<'m> {
         }
     }
 
-    /// Finds the other shells that wind about one; none when every ray grazes something.
+    /// Returns the other shells that wind about a shell; `None` if every ray meets an edge or vertex.
     fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
@@ -193,17 +193,16 @@ impl<'m> Shells<'m> {
         }
         let size = self.boxes.reach(corner);
         let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
-        // Shells may touch at a corner, so that every try takes another one.
+        // Shells may touch at a corner: every attempt uses another one.
         let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
-        // The shells may touch at all corners, as shells that share faces do.
+        // Shells that share faces touch at all corners.
         let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
         corners
             .chain(middles)
             .find_map(|(k, from)| self.winding_before(shell, probe(from, size, k)))
     }
 
-    /// Computes the middle of a face, which is on the face up to rounding; none where another shell may come
-    /// between.
+    /// Returns the middle of a face, up to rounding; `None` if another shell is within that rounding.
     fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
         let (middle, across) = around_middle(face, size)?;
         let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
@@ -215,7 +214,7 @@ impl<'m> Shells<'m> {
         is_alone.then_some(middle)
     }
 
-    /// Finds the other shells that wind about the start of a ray; none when the ray grazes something.
+    /// Returns the other shells that wind about the start of a ray; `None` if the ray meets an edge or vertex.
     fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
@@ -239,11 +238,11 @@ impl<'m> Shells<'m> {
         })
     }
 
-    /// Finds the other shells that meet one elsewhere than in shared corners and edges.
+    /// Returns the other shells that intersect a shell outside shared corners and edges.
     fn crossed_by(&self, shell: u32) -> Vec<u32> {
         let mut crossed = Vec::new();
         let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
-        // A face without area is in an edge of its neighbours.
+        // A degenerate face lies on an edge of its neighbours.
         let faces = self.faces_of[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);
@@ -263,11 +262,11 @@ impl<'m> Shells<'m> {
     }
 }
 
-/// Computes the middle of a face, and a point on either side of the face next to it; none for a face without
-/// a normal. The size is that of the mesh.
+/// Returns the middle of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
+/// the mesh.
 fn around_middle([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
     let middle = (a + b + c) / 3.0;
-    // Far from the origin, coordinates are rounded by more than the mesh's size tells.
+    // Far from the origin, rounding exceeds that of the mesh's size.
     let size = size + middle.abs().max_element();
     let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
     Some((middle, [middle - off, middle + off]))

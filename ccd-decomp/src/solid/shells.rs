@@ -1,20 +1,21 @@
-//! The connected parts of a closed surface, and whether the solid is on the inner side of each.
+//! The shells of a closed surface, and the check of their orientation.
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
+use crate::disjoint_sets::DisjointSets;
 use crate::exact::rays::{crossing, probe};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
 use crate::tolerance::RAY_TRIES;
 use crate::work::Work;
 
-/// Checks that the solid, which is where the winding number is not 0, is behind every face.
+/// Checks that the solid, where the winding number is not 0, is behind every face.
 ///
 /// Faces meet only where they share an edge or vertex. One point of every shell is therefore enough: the other
 /// points of the shell have the same winding number in the rest.
 ///
 /// # Errors
-/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.
+/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) if the work does not suffice.
 pub(crate) fn check_orientation(
     manifold: &Manifold<'_>,
     work: &Work,
@@ -43,7 +44,7 @@ pub(crate) fn check_orientation(
         let Some(around) = around else {
             return Err(DecomposeError::Entangled { face });
         };
-        // An outward shell adds 1 within it; behind the faces of an inward one are its surroundings.
+        // An outward shell adds 1 inside; behind the faces of an inward shell is its outside.
         let behind = if outward { around + 1 } else { around };
         if behind == 0 {
             return Err(DecomposeError::InsideOut { face });
@@ -52,33 +53,19 @@ pub(crate) fn check_orientation(
     Ok(())
 }
 
-/// Numbers the shells, which are connected over edges: the number by face.
+/// Returns the shell of each face: shells are connected over edges.
 pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
-    const UNSEEN: u32 = u32::MAX;
-    let mut shell_of = vec![UNSEEN; manifold.faces().len()];
-    let mut count = 0;
-    let mut stack = Vec::new();
-    for seed in 0..shell_of.len() as u32 {
-        if shell_of[seed as usize] != UNSEEN {
-            continue;
+    let faces = manifold.faces().len();
+    let mut shells = DisjointSets::new(faces);
+    for face in 0..faces as u32 {
+        for next in manifold.neighbours(face) {
+            shells.join(face, next);
         }
-        shell_of[seed as usize] = count;
-        stack.push(seed);
-        // Each face is pushed once.
-        while let Some(face) = stack.pop() {
-            for next in manifold.neighbours(face) {
-                if shell_of[next as usize] == UNSEEN {
-                    shell_of[next as usize] = count;
-                    stack.push(next);
-                }
-            }
-        }
-        count += 1;
     }
-    shell_of
+    shells.numbers()
 }
 
-/// Computes the winding number of the other shells about the faces of one; none when all rays graze something.
+/// Returns the winding number of the other shells about one; `None` if every ray meets an edge or vertex.
 fn winding_of_others(
     manifold: &Manifold<'_>,
     shell_of: &[u32],
@@ -89,7 +76,7 @@ fn winding_of_others(
     let near = manifold.triangle(faces[0])[0];
     let size = manifold.boxes().reach(near);
     (0..RAY_TRIES).find_map(|k| {
-        // Shells may touch at a corner, so that every try takes another one.
+        // Shells may touch at a corner: every attempt uses another one.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
         let ray = probe(from, size, k);
         let mut windings = Some(0);

@@ -1,4 +1,4 @@
-//! Star-shaped solids, whose whole surface is visible from one point: no two of their faces meet.
+//! Star-shaped solids, whose whole surface is visible from one point.
 
 use super::manifold::Manifold;
 use crate::exact::predicates::side;
@@ -6,13 +6,12 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_COORDINATE;
 use std::cmp::Ordering;
 
-/// Returns whether a point was found from which the whole surface is visible: it is behind every face, and no
-/// face hides another one.
+/// Returns whether the whole surface is visible from one of a few points: the point is behind every face, and no face
+/// hides another.
 ///
 /// # Guarantee
-/// Exact where the answer is yes: faces then share no more than their vertices and edges, and the solid is behind
-/// them. A point behind all faces has all of them in the same orientation about it, so that every direction
-/// from it meets equally many faces: one, if a single direction does `[MEHLHORN96]`.
+/// Exact if true: faces then share only vertices and edges, and the solid is behind them. From a point behind all
+/// faces, every direction meets equally many faces: one, if a single direction does `[MEHLHORN96]`.
 ///
 /// # Complexity
 /// O(n).
@@ -24,7 +23,7 @@ pub(crate) fn is_star_shaped(manifold: &Manifold<'_>) -> bool {
     })
 }
 
-/// Computes points that are likely inside: the mean of all corners, and the solid's centre of mass.
+/// Returns points that are likely inside: the mean of all corners, and the centre of mass.
 fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
     let faces = 0..manifold.faces().len() as u32;
     let near = manifold.triangle(0)[0];
@@ -37,11 +36,11 @@ fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
         volume += six;
     }
     let mean = sum / (3 * faces.len()) as f64;
-    // A point that is not finite is behind no face.
+    // A non-finite point is behind no face.
     [mean, moment / (4.0 * volume)].map(|middle| predictable(near + middle))
 }
 
-/// Sets coordinates to 0 that are too near to 0 for exact predicates.
+/// Replaces coordinates too near to 0 for exact predicates by 0.
 fn predictable(p: DVec3) -> DVec3 {
     DVec3::select(
         p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),

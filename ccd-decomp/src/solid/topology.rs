@@ -1,4 +1,4 @@
-//! The edges of a mesh, and whether it is closed.
+//! The topology of a mesh: edges, closedness, orientation.
 
 use super::nesting::Nesting;
 use crate::half_edges::Edges;
@@ -8,48 +8,46 @@ use ccd_core::glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The edges of a mesh at which faces do not meet in pairs, and its shells of the wrong orientation. Vertices at
-/// exactly the same point count as one.
+/// The irregular edges of a mesh and its wrongly oriented shells. Equal points count as one vertex.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Topology {
-    /// Edges of one face only, which are the rims of holes.
+    /// Edges of one face only: the boundaries of holes.
     pub boundary: Tally<Edge>,
-    /// Edges of two faces that run along them the same way: one of the two has the wrong orientation.
+    /// Edges of two faces in the same direction: one of the two has the wrong orientation.
     pub flipped: Tally<Edge>,
-    /// Edges of more than two faces, with more faces running one way than the other.
+    /// Edges of more than two faces, with more in one direction than in the other.
     pub branching: Tally<Edge>,
-    /// Edges of more than two faces, with as many running one way as the other: closed parts touch there.
+    /// Edges of more than two faces, equally many in both directions: closed parts touch there.
     pub shared: Tally<Edge>,
-    /// Shells of the wrong orientation, when others have the right one, each by one of its faces. Bodies are made
-    /// with these shells turned round.
+    /// Wrongly oriented shells, if other shells are right, each by one of its faces. Bodies are made with these shells
+    /// reversed.
     pub wrong_way: Tally<u32>,
-    /// Shells within another one that cross a third, so that they may bound a solid or a cavity, each by one of
+    /// Shells that are inside one shell and cross another, so that they may bound a solid or a cavity; each by one of
     /// its faces.
     pub unclear: Tally<u32>,
-    /// The volume within the faces, once shells of the wrong orientation are turned; negative where all normals
-    /// point inward. Meaningful for a closed mesh only. In the cube of the mesh's unit of length.
+    /// The enclosed volume after wrong shells are reversed, in cubic units of length; negative if all normals point
+    /// inward. Meaningful for closed meshes only.
     pub signed_volume: f64,
 }
 
-/// An edge by the numbers of its vertices, the smaller first. The first of several vertices at one point
-/// represents them.
+/// An edge by its vertex numbers, the smaller first. The first of several vertices at one point represents them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Edge(pub u32, pub u32);
 
-/// The direction of a closed mesh's normals, on the whole.
+/// The overall orientation of a closed mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
     /// The normals point out of the solid.
     Outward,
     /// The normals point into the solid: the mesh is inside out.
     Inward,
-    /// The mesh holds no volume, or as much of either sign.
+    /// The mesh encloses no net volume.
     Neither,
 }
 
 impl Topology {
-    /// Examines every edge of a mesh, and the nesting of its shells. O(n log n) in the number of faces, where
-    /// few boxes of faces of different shells meet.
+    /// Computes the topology of a mesh: every edge, and the nesting of its shells. O(n log n) in the number of faces,
+    /// where few boxes of faces of different shells meet.
     ///
     /// ```
     /// use ccd_decomp::{Format, Topology, TriangleMesh};
@@ -61,13 +59,13 @@ impl Topology {
         Topology::and_turned(mesh).0
     }
 
-    /// Examines a mesh like [`Topology::of`], and turns the shells of the wrong orientation, if there are any.
+    /// Computes the topology like [`Topology::of`], and a mesh with wrong shells reversed, if there are any.
     pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
-        let edges = Edges::of(&mesh.welded_faces());
+        let edges = Edges::new(&mesh.welded_faces());
         Topology::by_edges(mesh, &edges)
     }
 
-    /// Examines a mesh like [`Topology::and_turned`], by its edges between welded vertices.
+    /// Computes the same as [`Topology::and_turned`], from the edges between welded vertices.
     pub(crate) fn by_edges(mesh: &TriangleMesh, edges: &Edges) -> (Self, Option<TriangleMesh>) {
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
@@ -87,7 +85,7 @@ impl Topology {
         if !topology.is_closed() {
             return (topology, None);
         }
-        let nesting = Nesting::of(mesh, edges);
+        let nesting = Nesting::new(mesh, edges);
         topology.wrong_way = nesting.wrong;
         topology.unclear = nesting.unclear;
         let turned = (!nesting.turned.is_empty()).then(|| mesh.turned(&nesting.turned));
@@ -97,14 +95,13 @@ impl Topology {
         (topology, turned)
     }
 
-    /// Returns whether the mesh bounds a solid: it is closed, and it is clear on which side of each shell the
-    /// solid is.
+    /// Returns whether the mesh bounds a solid: it is closed, and the nesting of its shells is clear.
     pub fn is_solid(&self) -> bool {
         self.is_closed() && self.unclear.is_empty()
     }
 
-    /// Returns whether along every edge as many faces run one way as the other. The winding number of a point
-    /// off the surface is then a whole number, which defines the inside.
+    /// Returns whether every edge has equally many faces in both directions. The winding number of a point off the
+    /// surface is then a whole number, which defines the inside.
     pub fn is_closed(&self) -> bool {
         self.boundary.is_empty() && self.flipped.is_empty() && self.branching.is_empty()
     }
@@ -114,7 +111,7 @@ impl Topology {
         self.is_closed() && self.shared.is_empty()
     }
 
-    /// The change that would make the mesh a manifold, for messages.
+    /// Returns the change that would make the mesh a manifold, for messages.
     pub(crate) fn advice(&self) -> &'static str {
         if !(self.boundary.is_empty() && self.branching.is_empty()) {
             "close the mesh"
@@ -125,7 +122,7 @@ impl Topology {
         }
     }
 
-    /// The direction of the normals, by the sign of the volume.
+    /// Returns the orientation, by the sign of the volume.
     pub fn orientation(&self) -> Orientation {
         if self.signed_volume > 0.0 {
             Orientation::Outward

@@ -8,7 +8,7 @@ use ccd_core::InputError;
 use ccd_core::limits::MAX_COORDINATE;
 use std::path::PathBuf;
 
-/// Why there is no body.
+/// The reason why a body cannot be created from a description.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BodyError {
@@ -63,10 +63,10 @@ pub enum SourceError {
         /// The number given.
         given: usize,
     },
-    /// What follows the file means nothing.
+    /// The text after a file name is no adjustment.
     #[error(transparent)]
     Adjustment(#[from] UnknownAdjustment),
-    /// A stored body stays as it was prepared.
+    /// Adjustments do not apply to a stored body.
     #[error("{}: {PREPARED}", .file.display())]
     Prepared {
         /// The file.

@@ -1,4 +1,4 @@
-//! Meshes, and parts of them, as they are named on a command line.
+//! Descriptions of meshes and their parts on a command line.
 
 use crate::file::is_stored;
 use crate::mesh::TriangleMesh;
@@ -15,8 +15,8 @@ use std::str::FromStr;
 
 /// A mesh file, or a part of one, with adjustments: `FILE`, `FILE#PART`, `FILE@mm`, `FILE#PART@scale=0.5@mirror=x`.
 ///
-/// The part is what follows the first `#` after an extension of a mesh, the adjustments what follows `@` there. Of a part,
-/// only words that are adjustments are none of its name. A file that has the whole text as its name is that file.
+/// The part follows the first `#` after a mesh extension, the adjustments follow `@`. After a part, only valid
+/// adjustments are not part of its name. If a file has the whole text as its name, it is that file.
 ///
 /// ```
 /// use ccd_decomp::MeshSource;
@@ -30,14 +30,14 @@ use std::str::FromStr;
 pub struct MeshSource {
     /// The path of the file.
     pub file: PathBuf,
-    /// The name of the part or its number, from 0; none for all parts together.
+    /// The name or number (from 0) of the part; `None` for all parts together.
     pub part: Option<String>,
-    /// What is changed about the mesh.
+    /// The adjustments of the mesh.
     pub adjustments: Adjustments,
 }
 
 impl MeshSource {
-    /// Reads the mesh, with its adjustments. Returns the unit of its coordinates too, if it is known.
+    /// Reads and adjusts the mesh. Also returns the unit of its coordinates, if known.
     ///
     /// # Errors
     /// [`MeshError`], which names the file.
@@ -66,7 +66,7 @@ impl MeshSource {
         }
     }
 
-    /// Returns the kind of pieces, where another one is asked for: a mesh that is to be hollow has its own.
+    /// Returns the kind of pieces: `asked`, or a surface if the mesh is hollow.
     pub fn detail(&self, asked: Detail) -> Detail {
         if self.adjustments.is_hollow() {
             Detail::Surface
@@ -84,7 +84,7 @@ impl MeshSource {
     }
 }
 
-/// The place in a text at which the name of a file ends, and what follows it.
+/// Splits a text into file name, mark, and rest.
 fn split(text: &str) -> Option<(&str, char, &str)> {
     let mut ends = text.match_indices(['#', '@']);
     let (at, mark) = ends.find(|&(at, mark)| {
@@ -127,14 +127,14 @@ impl FromStr for MeshSource {
     }
 }
 
-/// A path: all of a file, as it is.
+/// A whole file without adjustments.
 impl From<PathBuf> for MeshSource {
     fn from(file: PathBuf) -> Self {
         MeshSource::whole(file)
     }
 }
 
-/// A path that is no text names no part.
+/// A path that is not UTF-8 has no part.
 impl TryFrom<OsString> for MeshSource {
     type Error = UnknownAdjustment;
 

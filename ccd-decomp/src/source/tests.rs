@@ -101,7 +101,7 @@ fn files_are_taken_as_their_adjustments_say() {
     assert_eq!(along_x(&file.with("@scale=0.1")), [0.1, 3.0 * 0.1]);
     let mirrored = file.with("@mirror=x");
     assert_eq!(along_x(&mirrored), [-3.0, -1.0]);
-    // The triangles are turned round with it, so that nothing has to be repaired.
+    // The triangles are reversed with the mirroring, so that no repair is needed.
     assert_eq!(
         mirrored.report.to_string(),
         file.with("").report.to_string()
@@ -117,7 +117,7 @@ fn files_are_taken_as_their_adjustments_say() {
     let source: BodySource = text.parse().unwrap();
     let converted = source.load_in(Unit::Millimetre, Detail::Auto).unwrap();
     assert_eq!(along_x(&converted), [25.4, 76.2]);
-    // Beside those of all files.
+    // Combined with the adjustments of all files.
     let doubled = Adjustments::NONE.scaled(2.0).unwrap().mirrored(Axis::X);
     let both = source.load_adjusted(&doubled, Detail::Auto).unwrap();
     assert_eq!(along_x(&both), [-6.0, -2.0]);
@@ -136,7 +136,7 @@ fn a_closed_mesh_may_be_hollow() {
     assert_eq!(hollow.report.to_string(), "4 triangles, surface only");
 }
 
-/// A file of that very name wins.
+/// A file with the whole text as its name takes precedence.
 #[test]
 fn a_file_with_the_whole_text_as_its_name_is_that_file() {
     let (plain, at) = (
@@ -218,7 +218,7 @@ fn primitives_are_single_solid_pieces() {
     }
 }
 
-/// What a polytope exceeds its shape by is told, and is no more than was asked for.
+/// The excess of a polytope is reported, and is at most the requested one.
 #[rstest]
 #[case("cylinder:2,1", 2.0 / 4096.0)]
 #[case("cone:2,1,1e-5", 1e-5)]

@@ -1,4 +1,4 @@
-//! Hierarchies over pieces: medians split them into clusters, clusters are agglomerated, subtrees reinserted.
+//! Builds hierarchies over pieces: median splits into clusters, agglomeration, reinsertion of subtrees.
 
 mod agglomerate;
 mod nodes;
@@ -13,18 +13,18 @@ use nodes::{Below, Cuboid, Node};
 use rayon::prelude::*;
 use reinsert::reinsert;
 
-/// Builds a hierarchy over pieces: splits them at medians into clusters, agglomerates the clusters, and moves the
-/// worst subtrees to better places.
+/// Builds a hierarchy over pieces: splits them at medians into clusters, agglomerates each cluster, and reinserts the
+/// worst subtrees.
 ///
-/// Agglomeration alone (`[PLOC18]`) makes the best trees. On pieces that all have one centre, such as nested or
-/// equal ones, it merges a single pair per pass, which takes quadratic time and makes a chain. Clusters bound
-/// both.
+/// Agglomeration alone (`[PLOC18]`) makes the best trees. On pieces that all have one centre, such as nested or equal
+/// ones, it merges a single pair per pass, which takes quadratic time and makes a chain. Clusters bound both. The
+/// builder of `parry3d` is sequential and bounds neither.
 ///
 /// # Guarantee
 /// The same pieces give the same hierarchy, on any number of threads. Every piece appears once; no input panics.
 ///
 /// # Errors
-/// [`InputError::TooManyPieces`] when an index cannot name them.
+/// [`InputError::TooManyPieces`] if an index cannot address them.
 ///
 /// # Complexity
 /// O(n log n) in the number of pieces.
@@ -46,12 +46,12 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
     )
 }
 
-/// Makes leaves of all pieces, with boxes in single precision, moved and scaled so that the whole fills a unit:
-/// single precision would not separate pieces that are far from the origin, or tiny.
+/// Creates a leaf for each piece, with a box in single precision, scaled to the unit cube: otherwise pieces that are
+/// tiny or far from the origin would coincide.
 fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     let bounds = |piece: usize| {
         let piece = pieces.get(piece);
-        let Bounds { lo, hi } = Bounds::of(piece.points.iter().copied());
+        let Bounds { lo, hi } = Bounds::enclosing(piece.points.iter().copied());
         Bounds {
             lo: lo - piece.radius,
             hi: hi + piece.radius,
@@ -63,11 +63,11 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
         .with_min_len(SHARE)
         .map(bounds)
         .collect();
-    // Shares of one size are the same for any number of threads.
-    let corners = |share: &[Bounds]| Bounds::of(share.iter().flat_map(|b| [b.lo, b.hi]));
+    // Shares of fixed size do not depend on the number of threads.
+    let corners = |share: &[Bounds]| Bounds::enclosing(share.iter().flat_map(|b| [b.lo, b.hi]));
     let shares: Vec<Bounds> = boxes.par_chunks(SHARE).map(corners).collect();
     let Bounds { lo, hi } = corners(&shares);
-    // Too short a length has no reciprocal.
+    // A tiny length has no finite reciprocal.
     let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
     let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale.unwrap_or(1.0)).as_vec3a() };
     let leaf = |(piece, bounds): (usize, &Bounds)| {
@@ -81,12 +81,12 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     leaves.map(leaf).collect()
 }
 
-/// The pieces that one thread takes at a time: with fewer, sharing takes as long as the work.
+/// The number of pieces in a task; smaller tasks cost more than they gain.
 const SHARE: usize = 4096;
 
-/// Splits leaves at medians of their centres down to clusters, and agglomerates these. Returns the root first.
+/// Splits leaves at the medians of their centres into clusters, and agglomerates these. Returns the root first.
 fn split(leaves: &[Node]) -> Vec<Node> {
-    let mut centres: Vec<Centre> = leaves.iter().map(Centre::of).collect();
+    let mut centres: Vec<Centre> = leaves.iter().map(Centre::new).collect();
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
     let (root, below) = nodes.split_at_mut(1);
     let place = Place {
@@ -98,7 +98,7 @@ fn split(leaves: &[Node]) -> Vec<Node> {
     nodes
 }
 
-/// The middle of a piece's box.
+/// The centre of a piece's box.
 #[derive(Clone, Copy)]
 struct Centre {
     at: [f32; 3],
@@ -106,7 +106,7 @@ struct Centre {
 }
 
 impl Centre {
-    fn of(leaf: &Node) -> Self {
+    fn new(leaf: &Node) -> Self {
         Centre {
             at: leaf.cuboid.centre().to_array(),
             piece: leaf.below.index(),
@@ -114,12 +114,12 @@ impl Centre {
     }
 }
 
-/// The place of a subtree in the list of all nodes.
+/// The slot of a subtree in the list of all nodes.
 struct Place<'n> {
     node: &'n mut Node,
-    /// The nodes below: the two children, all below the second, all below the first.
+    /// The descendants: the two children, those of the second, those of the first.
     below: &'n mut [Node],
-    /// The index of the first node below.
+    /// The index of the first descendant.
     first: u32,
 }
 
@@ -128,7 +128,7 @@ struct Splitter<'l> {
 }
 
 impl Splitter<'_> {
-    /// Makes the subtree over some pieces, its two sides in parallel if there are many.
+    /// Builds the subtree over some pieces, in parallel if there are many.
     fn side_by_side(&self, centres: &mut [Centre], place: Place<'_>) {
         if centres.len() <= SHARE {
             return self.one_by_one(centres, place, &mut Workspace::default());
@@ -167,7 +167,7 @@ impl Splitter<'_> {
     }
 }
 
-/// Splits pieces at the median of their centres along the longest side, has both sides made, and joins them.
+/// Splits pieces at the median of their centres along the longest axis, builds both sides by `make`, and joins them.
 fn halve<'n>(
     centres: &mut [Centre],
     place: Place<'n>,

@@ -1,4 +1,4 @@
-//! Hull trees over pieces: pieces are split top down, hulls are built bottom up `[SWIFT01]`.
+//! Builds hull trees over pieces: top-down splits, bottom-up hulls `[SWIFT01]`.
 
 mod split;
 
@@ -10,8 +10,8 @@ use split::Splitter;
 
 /// Builds the convex hull tree of pieces.
 ///
-/// The pieces are split across the longest direction of the hull of their centres: at half its length or, where
-/// that leaves too few on one side, at the median. The hull of a node is that of its children's corners.
+/// Pieces are split across the longest direction of the hull of their centres: at the middle or, if that leaves too few
+/// on one side, at the median. The hull of a node is that of its children's corners.
 ///
 /// # Guarantee
 /// Every hull is exact. The depth is at most logarithmic in the number of pieces. The same pieces give
@@ -50,7 +50,7 @@ struct Grower<'a> {
     splitter: Splitter,
 }
 
-/// The slot of a subtree: its root, and the nodes below, with the number of the first one.
+/// The slot of a subtree: root, descendants, and the index of the first descendant.
 struct Slot<'a> {
     node: &'a mut HullNode,
     below: &'a mut [HullNode],
@@ -58,8 +58,8 @@ struct Slot<'a> {
 }
 
 impl Grower<'_> {
-    /// Makes the subtree over some pieces, every node before its children. Either side gets at least a fixed share
-    /// of the pieces, so that the depth is logarithmic.
+    /// Builds the subtree over some pieces, every node before its children. Each side gets at least a fixed share of
+    /// the pieces, so that the depth is logarithmic.
     fn grow(&self, pieces: &mut [u32], slot: Slot<'_>) -> Result<(), BuildError> {
         let Slot { node, below, first } = slot;
         if let [piece] = *pieces {
@@ -108,7 +108,7 @@ pub enum BuildError {
     /// A coordinate of a point is out of range for exact predicates.
     #[error("the point {0} has a coordinate that is out of range for exact predicates")]
     OutOfRange(DVec3),
-    /// A hull could not be proven to be one.
+    /// A hull could not be proven.
     #[error("the hull of {points} points could not be proven")]
     Unproven {
         /// The number of points.
@@ -126,7 +126,7 @@ fn corners<'a>(node: &'a HullNode, pieces: &'a Pieces) -> &'a [DVec3] {
     }
 }
 
-/// Computes the hull of some points, which the core proves when the tree is made.
+/// Computes the hull of some points. The core proves it when the tree is created.
 fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
     let point = |k: u32| points[k as usize];
     let lower = |points| Hull {

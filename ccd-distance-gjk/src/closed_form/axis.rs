@@ -1,5 +1,4 @@
-//! Separating axes computed from features, for pieces so near that their witnesses' difference is
-//! rounding.
+//! Separating axes of features, for pieces so near that the difference of their witnesses is mostly rounding.
 
 use super::nearest::Corners;
 use crate::lanes::{Lanes3, reciprocal, splat};
@@ -23,7 +22,7 @@ impl Axis {
     };
 }
 
-/// The support gap `min_Q n·y − max_P n·x` of two triangles along `n`, not divided by its length.
+/// Returns the support gap `min_Q n·y − max_P n·x` of two triangles along `n`, not divided by the length of `n`.
 #[inline(always)]
 pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
     let [a, b, c] = p.map(|x| n.dot(x));
@@ -31,12 +30,11 @@ pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
     lesser(lesser(d, e), f) - greater(greater(a, b), c)
 }
 
-/// The axes that may separate two triangles.
+/// Candidates for separating axes of two triangles.
 ///
-/// Nearest points differ by a vector `w` that is exact only up to rounding, so it may fall out of
-/// the cone of normals that it belongs to. The borders of that cone are candidates too: for a
-/// vertex and an edge, `w` made perpendicular to the edge; for two edges, their cross product; for
-/// a face, its normal; and in one plane, the normals of the edges within it.
+/// The difference `w` of the nearest points is rounded, so that it may leave the cone of normals that it belongs to.
+/// The borders of that cone are also candidates: for a vertex and an edge, `w` made perpendicular to the edge; for two
+/// edges, their cross product; for a face, its normal; and in one plane, the normals of the edges within it.
 #[derive(Debug)]
 pub(crate) struct Candidates<L: Simd> {
     directions: [Lanes3<L>; GROUPS],
@@ -98,7 +96,7 @@ impl<L: Simd> Candidates<L> {
     }
 }
 
-/// Turns each direction towards the larger gap, and returns that gap along the unit vector.
+/// Orients each direction towards the larger gap, and returns that gap along the unit vector.
 #[inline(always)]
 fn oriented<L: Simd>(p: &Corners, q: &Corners, n: Lanes3<L>) -> (Lanes3<L>, f64x4<L>) {
     let level = n.level();
@@ -123,8 +121,8 @@ fn edges([a, b, c]: &Corners) -> [DVec3; 3] {
     [b - a, c - b, a - c]
 }
 
-/// The normal of a triangle, made perpendicular to its longest edge. For a needle, the remaining
-/// rounding is a turn about that edge, across the needle's width.
+/// Returns the normal of a triangle, made perpendicular to its longest edge. For a needle, the remaining error is a
+/// rotation about that edge.
 fn normal(edges: &[DVec3; 3]) -> DVec3 {
     let n = edges[0].cross(edges[1]);
     let long = longest(edges);

@@ -26,8 +26,7 @@ impl Nearest {
 /// Returns the nearest points of two triangles that do not intersect `[ERICSON05 §5.1]`: those of their
 /// boundaries, and of corners and faces.
 ///
-/// Every candidate is a pair of points of the triangles, however ill-conditioned; the least
-/// distance decides.
+/// Every candidate is a valid pair of points, however ill-conditioned; the least distance decides.
 pub(crate) fn nearest(level: Level, p: &Corners, q: &Corners) -> Nearest {
     vectorize!(level, level => nearest_at(level, p, q))
 }
@@ -53,7 +52,7 @@ fn nearest_at<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
     }
 }
 
-/// The best partner of every edge of the second triangle among those of the first.
+/// The nearest edge of the first triangle for every edge of the second.
 struct EdgeEdge<L: Simd> {
     square: f64x4<L>,
     /// The edge of the first triangle.
@@ -75,7 +74,7 @@ impl<L: Simd> EdgeEdge<L> {
     }
 }
 
-/// The corner at which the edge in each lane begins; the fourth edge is the third corner alone.
+/// The start corner of the edge in each lane; the fourth lane repeats the third corner.
 const LANE_CORNER: [usize; 4] = [0, 1, 2, 2];
 
 #[inline(always)]
@@ -132,7 +131,7 @@ struct CornerFace<L: Simd> {
 }
 
 impl<L: Simd> CornerFace<L> {
-    /// The weights of the face's corners, and of the other triangle's.
+    /// Returns the weights of the face's corners, and of the other triangle's.
     #[inline(always)]
     fn weights(&self, lane: usize) -> ([f64; 3], [f64; 3]) {
         let (u, v) = (self.u[lane], self.v[lane]);
@@ -182,7 +181,7 @@ fn on_edge(start: usize, t: f64) -> [f64; 3] {
     out
 }
 
-/// The point with the given weights, which add up to one.
+/// Returns the point with the given weights, of sum one.
 #[inline(always)]
 pub(crate) fn at(corners: &Corners, [u, v, w]: [f64; 3]) -> DVec3 {
     u * corners[0] + v * corners[1] + w * corners[2]

@@ -1,4 +1,4 @@
-//! A common point of two triangles, where an edge of one passes through the other.
+//! Common points of two triangles, where an edge of one passes through the other.
 
 use super::nearest::{Corners, Nearest, at};
 use ccd_core::glam::DVec3;
@@ -7,10 +7,9 @@ use ccd_core::order::lesser;
 /// Returns the pair of points with the least distance among `near` and the six places where an
 /// edge's line meets the other triangle's plane.
 ///
-/// Two triangles that intersect across each other share a segment, which ends where an edge of one
-/// meets the other. Triangles in one plane have crossing edges or a corner inside, which `near`
-/// covers. Clamping to the edge and to the face replaces any inside test: a point that rounding
-/// moved out is moved back by as much.
+/// Two non-coplanar triangles that intersect share a segment, which ends where an edge of one meets the other.
+/// Triangles in one plane have crossing edges or a corner inside, which `near` covers. Clamping to edge and face
+/// replaces an inside test.
 pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
     let through_p = pierces(q, p).map(|(b, a)| Nearest { a, b });
     let through_q = pierces(p, q).map(|(a, b)| Nearest { a, b });
@@ -27,7 +26,7 @@ pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
         })
 }
 
-/// Cuts the edges of `of` with the plane of `face`: weights of the edge's triangle and of the face.
+/// Intersects the edges of `of` with the plane of `face`. Returns the weights of the edges' triangle and of the face.
 fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);
@@ -46,7 +45,7 @@ fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
     })
 }
 
-/// The weights of the corners of a face for the point of its plane below `x`, clamped to the face.
+/// Returns the weights of a face's corners for the projection of `x`, clamped to the face.
 fn foot(e: DVec3, f: DVec3, n: DVec3, x: DVec3) -> [f64; 3] {
     let per = n.length_squared().recip();
     let part = |weight: f64| match weight {

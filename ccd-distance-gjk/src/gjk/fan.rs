@@ -1,6 +1,6 @@
-//! The axes spanned by a few vertices of the Minkowski difference.
+//! Axes spanned by a few vertices of the Minkowski difference.
 
-use super::search::Found;
+use super::search::Best;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
@@ -16,8 +16,8 @@ pub(crate) struct Fan {
 }
 
 impl Fan {
-    /// Takes the vertices of the nearest point; none without one.
-    pub(crate) fn new(found: &Found) -> Option<Self> {
+    /// Takes the vertices of the nearest point; `None` if there are none.
+    pub(crate) fn new(found: &Best) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = Fan {
             point: DVec3::ZERO,
@@ -40,7 +40,7 @@ impl Fan {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex; `false` if it is there already, or there are too many.
+    /// Adds a vertex. Returns `false` if it is a duplicate, or there are too many.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| v.point == vertex.point;
         let room = self.len < SHARPEN_CAP && !self.vertices().iter().any(same);

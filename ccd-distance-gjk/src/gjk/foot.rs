@@ -9,13 +9,13 @@ pub(crate) struct Foot {
     pub(crate) weights: [f64; 4],
     /// The vertices' combination by these weights.
     pub(crate) point: DVec3,
-    /// The direction of `point`, of any length; none when the origin is inside. It is computed from
-    /// the feature, so that it stays exact for a short `point`.
+    /// The direction of `point`, of any length; `None` if the origin is inside. It is computed from the feature, so
+    /// that it is accurate for a short `point`.
     pub(crate) direction: Option<DVec3>,
 }
 
 impl Foot {
-    /// The corner with the given index.
+    /// Creates the foot at a corner.
     pub(crate) fn corner(point: DVec3, index: usize) -> Self {
         let mut weights = [0.0; 4];
         weights[index] = 1.0;
@@ -26,7 +26,7 @@ impl Foot {
         }
     }
 
-    /// Returns the foot on a sub-simplex in the indices of the whole: its vertex `k` is `indices[k]`.
+    /// Converts the foot on a sub-simplex to the indices of the whole simplex: vertex `k` is `indices[k]`.
     pub(crate) fn lifted(self, indices: &[usize]) -> Self {
         let mut weights = [0.0; 4];
         for (&index, &weight) in indices.iter().zip(&self.weights) {
@@ -35,7 +35,7 @@ impl Foot {
         Foot { weights, ..self }
     }
 
-    /// Returns the nearer one, `other` if they are equal.
+    /// Returns the nearer of two feet; `other` if they are equal.
     pub(crate) fn or_nearer(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if !(self.point.length_squared() < other.point.length_squared()) => other,

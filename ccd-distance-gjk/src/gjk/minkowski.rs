@@ -7,8 +7,8 @@ use ccd_core::{Piece, PiecePair};
 
 /// The difference of a pair's hulls in A's axes.
 ///
-/// Each piece's points are taken relative to its own first one: rounding is that of the pieces'
-/// sizes and of their distance, not of their positions.
+/// Points are relative to the first one of their piece: rounding depends on the sizes and the distance of the pieces,
+/// not on their positions.
 pub(crate) struct Difference<'a> {
     pair: &'a PiecePair<'a>,
     first_a: DVec3,
@@ -18,7 +18,7 @@ pub(crate) struct Difference<'a> {
 }
 
 impl<'a> Difference<'a> {
-    /// Creates the difference of a pair; none if a piece has no points.
+    /// Creates the difference of a pair; `None` if a piece has no points.
     pub(crate) fn new(pair: &'a PiecePair<'a>) -> Option<Self> {
         let (&first_a, &first_b) = (pair.a.points.first()?, pair.b.points.first()?);
         Some(Difference {
@@ -29,13 +29,13 @@ impl<'a> Difference<'a> {
         })
     }
 
-    /// A point of A's piece.
+    /// Returns a point of A's piece.
     #[inline]
     pub(crate) fn point_a(&self, index: u32) -> Option<DVec3> {
         Some(*self.pair.a.points.get(index as usize)? - self.first_a)
     }
 
-    /// A point of B's piece.
+    /// Returns a point of B's piece.
     #[inline]
     pub(crate) fn point_b(&self, index: u32) -> Option<DVec3> {
         let turned = *self.pair.b.points.get(index as usize)? - self.first_b;
@@ -64,7 +64,7 @@ impl<'a> Difference<'a> {
 
 /// Returns the index of a point of a piece that is farthest along a direction; points are never empty.
 ///
-/// Scans a few points relative to the first one; more are left to the piece.
+/// Scans up to [`SCANNED_POINTS`] points; for more, calls [`Piece::extremal`].
 #[inline]
 fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
     if piece.points.len() > SCANNED_POINTS {

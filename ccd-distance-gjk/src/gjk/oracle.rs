@@ -2,7 +2,7 @@
 
 use super::minkowski::Difference;
 use super::refine;
-use super::search::{Found, search};
+use super::search::{Best, search};
 use super::sharpen;
 use super::simplex::Simplex;
 use super::start::Cache;
@@ -14,11 +14,10 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 /// The distance of two hulls of any number of points, by GJK `[GJK88]`.
 ///
 /// # Guarantee
-/// For separated pieces of size s, both moved near the origin, the witnesses are within about 1e-13
-/// s of the nearest pair's distance. If that is less than 1e-7 s, the axis is computed from the
-/// features that contain them. The search ends after at most about 300 steps with the best result
-/// on the way. It never gives up on pieces that have points, and claims nothing for pieces without
-/// any.
+/// For separated pieces of size s, both moved near the origin, the witnesses are within about 1e-13 s of the nearest
+/// pair's distance. If that is less than 1e-7 s, the axis is computed from the features that contain them. The search
+/// ends after at most about 300 steps with the best result so far. It never gives up on pieces with points, and claims
+/// nothing for empty pieces.
 ///
 /// # Complexity
 /// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], without allocation. Each step scans every
@@ -49,22 +48,22 @@ impl DistanceOracle for Gjk {
             return Ok(NOTHING);
         };
         let found = solve_from(&difference, cache);
-        *cache = Cache::of(&found);
+        *cache = Cache::from_found(&found);
         Ok(claim(&found))
     }
 }
 
-/// The claim about a pair with a piece that has no points.
+/// The claim for a pair with an empty piece.
 pub(crate) const NOTHING: Claim = Claim {
     axis: DVec3::ZERO,
     a: Combination::EMPTY,
     b: Combination::EMPTY,
 };
 
-/// Searches for the nearest point, starting from what the last call left; anew if that leads to a poor result.
+/// Searches for the nearest point from the cached simplex, and again without it if the result is poor.
 ///
-/// Faces that have turned out of one plane by rounding leave a simplex from which no step gets nearer.
-pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Found {
+/// A cached simplex may be degenerate at the new positions, so that no step gets nearer.
+pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Best {
     let found = solve(difference, cache.simplex(difference));
     if found.gap > 0.0 && !certified(&found) {
         found.better(solve(difference, Cache::default().simplex(difference)))
@@ -75,10 +74,9 @@ pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Found {
 
 /// Searches for the nearest point, repeatedly if rounding stalls the search.
 ///
-/// A search that stalls short of the distance that its axis certifies continues from the vertices
-/// that the features' axes meet.
-pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found {
-    let mut found = Found::nothing();
+/// A search that stalls before its axis certifies the distance continues from the vertices found by axes of features.
+pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Best {
+    let mut found = Best::nothing();
     for _ in 0..ROUND_CAP {
         let before = found.square;
         let stop = search(difference, simplex, &mut found);
@@ -104,12 +102,12 @@ pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found 
 }
 
 /// Returns whether the axis certifies the distance as well as rounding permits.
-pub(crate) fn certified(found: &Found) -> bool {
+pub(crate) fn certified(found: &Best) -> bool {
     found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 
-/// Makes a claim of the result.
-pub(crate) fn claim(found: &Found) -> Claim {
+/// Converts the result to a claim.
+pub(crate) fn claim(found: &Best) -> Claim {
     let mut out = Claim {
         axis: found.axis,
         ..NOTHING

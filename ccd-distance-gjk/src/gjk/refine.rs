@@ -1,7 +1,7 @@
-//! Finds nearer witnesses than those of the search, in closed form.
+//! Refines the witnesses of the search in closed form.
 
 use super::minkowski::Difference;
-use super::search::Found;
+use super::search::Best;
 use super::simplex::Simplex;
 use crate::closed_form::nearest::{Corners, nearest};
 use ccd_core::Instructions;
@@ -13,7 +13,7 @@ use ccd_core::order::lesser;
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.
-pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Found) {
+pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Best) {
     let vertices = simplex.vertices();
     let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
     let q = Points::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));
@@ -36,7 +36,7 @@ struct Points {
 }
 
 impl Points {
-    /// Returns the distinct ones of the given points.
+    /// Creates the list of the first three distinct points.
     fn new(points: impl Iterator<Item = (u32, Option<DVec3>)>) -> Option<Self> {
         let mut out = Points {
             corners: [DVec3::ZERO; 3],
@@ -54,8 +54,7 @@ impl Points {
     }
 }
 
-/// Returns vertices of the difference, and weights. Their combination is that of the points on
-/// either side.
+/// Returns vertices of the difference and weights whose combination equals the points on both sides.
 fn coupled(
     difference: &Difference<'_>,
     p: &Points,

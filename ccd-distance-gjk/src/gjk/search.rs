@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 
 /// The best results for a pair so far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
+pub(crate) struct Best {
     /// The simplex of the nearest point, and its weights.
     pub(crate) simplex: Simplex,
     pub(crate) weights: [f64; 4],
@@ -16,14 +16,14 @@ pub(crate) struct Found {
     pub(crate) square: f64,
     /// The axis with the largest support gap, of any length.
     pub(crate) axis: DVec3,
-    /// That gap, along the unit vector.
+    /// The gap along the unit vector.
     pub(crate) gap: f64,
 }
 
-impl Found {
+impl Best {
     /// The start of a search: no simplex and no axis.
     pub(crate) fn nothing() -> Self {
-        Found {
+        Best {
             simplex: Simplex::EMPTY,
             weights: [0.0; 4],
             square: f64::INFINITY,
@@ -40,7 +40,7 @@ impl Found {
             self
         };
         let wider = if other.gap > self.gap { other } else { self };
-        Found {
+        Best {
             axis: wider.axis,
             gap: wider.gap,
             ..nearer
@@ -60,7 +60,7 @@ impl Found {
 
 /// Searches for the point of the difference that is nearest to the origin, starting from `simplex`;
 /// each step gets nearer. `found` keeps the best, however the search stops.
-pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Found) -> Stop {
+pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Best) -> Stop {
     for _ in 0..STEP_CAP {
         let Some(foot) = simplex.foot() else {
             return Stop::Stalled;

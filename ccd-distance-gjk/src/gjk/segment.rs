@@ -19,7 +19,7 @@ pub(crate) fn foot(a: DVec3, b: DVec3) -> Foot {
     Foot {
         weights: [1.0 - t, t, 0.0, 0.0],
         point,
-        // Made perpendicular once more: rounding takes that from a short difference.
+        // Made perpendicular again, to correct the rounding of a short difference.
         direction: Some(point - d * (point.dot(d) / square)),
     }
 }

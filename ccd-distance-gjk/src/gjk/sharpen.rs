@@ -1,8 +1,8 @@
-//! Better axes than the difference of the nearest points: those of the features that contain them.
+//! Axes of the features that contain the nearest points: more accurate than the points' difference.
 
 use super::fan::Fan;
 use super::minkowski::Difference;
-use super::search::Found;
+use super::search::Best;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
@@ -11,19 +11,18 @@ use ccd_core::vector::unit;
 /// Searches for an axis that certifies the distance, among those spanned by the difference's
 /// vertices near the origin.
 ///
-/// Returns the four vertices seen that are least along the best axis. The nearest point should be a
-/// combination of them.
+/// Returns the four vertices that are least along the best axis. The nearest point should be a combination of them.
 ///
 /// An axis in the cone of normals at the nearest vertex f has f as its least vertex. Rounding tilts
 /// the nearest point's direction out of that cone when the point is short. The axis is therefore
 /// made perpendicular to one or two of the edges `x − f` towards vertices x below it, repeatedly,
 /// until no vertex is below it.
-pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Found) -> Simplex {
+pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Best) -> Simplex {
     let Some(mut fan) = Fan::new(found) else {
         return Simplex::EMPTY;
     };
     if found.axis == DVec3::ZERO {
-        // The pieces touched at once: any axis will do to find the first vertices.
+        // The search found no axis: any axis finds the first vertices.
         let axis = unit(difference.between).unwrap_or(DVec3::X);
         fan.push(found.probe(difference, axis).0);
     }
@@ -41,8 +40,8 @@ pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Found) -> Sim
     fan.least(found.axis)
 }
 
-/// Tries the faces of a simplex that encloses the origin: the axes of the shortest way out of it.
-pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Found) {
+/// Tries the face normals of a simplex that encloses the origin, as axes of least penetration.
+pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Best) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {
         return;

@@ -20,7 +20,7 @@ pub(crate) struct Simplex {
 }
 
 impl Simplex {
-    /// No vertex yet.
+    /// The empty simplex.
     pub(crate) const EMPTY: Self = Simplex {
         vertices: [Vertex {
             point: DVec3::ZERO,
@@ -30,12 +30,12 @@ impl Simplex {
         len: 0,
     };
 
-    /// The vertices.
+    /// Returns the vertices.
     pub(crate) fn vertices(&self) -> &[Vertex] {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex; `false` if the pair is there already, or there are four.
+    /// Adds a vertex. Returns `false` if it is a duplicate, or there are four.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| (v.a, v.b) == (vertex.a, vertex.b);
         let room = self.len < 4 && !self.vertices().iter().any(same);
@@ -46,7 +46,7 @@ impl Simplex {
         room
     }
 
-    /// Returns the point of the hull that is nearest to the origin; none for the empty simplex.
+    /// Returns the point of the hull that is nearest to the origin; `None` for the empty simplex.
     pub(crate) fn foot(&self) -> Option<Foot> {
         let point = |k: usize| self.vertices[k].point;
         match self.len {

@@ -1,12 +1,12 @@
-//! The first simplex: the end of the last call on the pair, or the vertex along an axis.
+//! The first simplex: that of the last call on the pair, or a support vertex.
 
 use super::minkowski::Difference;
-use super::search::Found;
+use super::search::Best;
 use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// The end of a search, as a start for the next one on the same pair.
+/// The result of a search, as a warm start for the next one on the same pair.
 ///
 /// Its vertices are recomputed from the pieces' current positions. The end of another pair's
 /// search, or an index out of range, costs steps, not accuracy.
@@ -19,7 +19,7 @@ pub struct Cache {
 
 impl Cache {
     /// Creates a cache from the end of a search.
-    pub(crate) fn of(found: &Found) -> Self {
+    pub(crate) fn from_found(found: &Best) -> Self {
         let mut cache = Cache {
             axis: found.axis,
             ..Cache::default()

@@ -1,4 +1,4 @@
-//! The end of a search: reasons and tests.
+//! Termination of a search: reasons and tests.
 
 use super::foot::Foot;
 use super::simplex::Simplex;
@@ -8,7 +8,7 @@ use ccd_core::order::greater;
 /// The reason why a search stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
-    /// The support gap has met the distance.
+    /// The support gap equals the distance, up to rounding.
     Converged,
     /// The nearest point does not differ from the origin by more than rounding.
     Touching,
@@ -26,17 +26,16 @@ pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
     foot.point.length_squared() <= rounding * rounding * reach(simplex)
 }
 
-/// Returns whether a support gap has met the distance of the nearest point, whose square is given.
+/// Returns whether a support gap equals the distance of the nearest point, whose square is given.
 ///
-/// They meet if they differ by at most `share` units in the last place of the distance, and
-/// rounding.
+/// They may differ by `share` units in the last place of the distance, plus rounding.
 pub(crate) fn meets(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
     let distance = square.sqrt();
     let rounding = TOUCHING_ULPS * f64::EPSILON * reach(simplex).sqrt();
     distance - gap <= share * f64::EPSILON * distance + rounding
 }
 
-/// The square of the largest vertex, to which rounding is relative.
+/// Returns the square of the largest vertex, to which rounding is relative.
 fn reach(simplex: &Simplex) -> f64 {
     let squares = simplex.vertices().iter().map(|v| v.point.length_squared());
     squares.fold(f64::MIN_POSITIVE, greater)

@@ -5,7 +5,7 @@ use super::foot::Foot;
 use super::minkowski::Difference;
 use super::oracle::{certified, solve, solve_from};
 use super::refine::Couple;
-use super::search::{Found, search};
+use super::search::{Best, search};
 use super::simplex::{Simplex, Vertex};
 use super::start::Cache;
 use super::termination::Stop;
@@ -31,7 +31,7 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
         _ => [a, a, b, b],
     };
     if rng.random_bool(0.5) {
-        // A point inside, or as good as, becomes the origin.
+        // A point inside, up to rounding, becomes the origin.
         let inside = 0.3 * out[0] + 0.3 * out[1] + 0.2 * out[2] + 0.2 * out[3];
         let off = scene::magnitude(rng, -17.0, 0.0) * scene::vector(rng);
         out = out.map(|corner| corner - inside + off);
@@ -144,7 +144,7 @@ fn a_simplex_takes_no_pair_twice_and_no_fifth() {
 /// The axis allowed by all edges of a pyramid's apex is found edge by edge.
 #[test]
 fn a_fan_finds_the_axis_between_its_edges() {
-    let mut found = Found::nothing();
+    let mut found = Best::nothing();
     let vertex = |x: f64, y: f64, z: f64, a| Vertex {
         point: DVec3::new(x, y, z),
         a,
@@ -175,7 +175,7 @@ fn stalled_searches_are_taken_up_again() {
         let pair = scene.pair();
         let difference = Difference::new(&pair).expect("pieces with points");
         let start = || Cache::default().simplex(&difference);
-        let mut alone = Found::nothing();
+        let mut alone = Best::nothing();
         let stop = search(&difference, start(), &mut alone);
         stalled += u32::from(stop == Stop::Stalled);
         short += u32::from(alone.gap < 0.5 * alone.square.sqrt());
@@ -215,7 +215,7 @@ fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
             stalled += u32::from(!certified(&warm));
             let found = solve_from(&difference, &cache);
             assert!(certified(&found), "{height} {t}: {found:?}");
-            cache = Cache::of(&found);
+            cache = Cache::from_found(&found);
         }
     }
     assert!(stalled > 20, "{stalled}");

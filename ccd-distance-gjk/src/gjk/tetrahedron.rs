@@ -27,10 +27,10 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> Foot {
         .fold(first, |best, foot| foot.or_nearer(Some(best)))
 }
 
-/// Each corner with those of the opposite face.
+/// Each corner with the corners of the opposite face.
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
-/// Returns the weights of the origin, if rounding permits.
+/// Returns the foot at the origin with its weights; `None` if rounding prevents it.
 fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
     let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);
@@ -42,8 +42,8 @@ fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
         weights.map(|weight| weight / total)
     };
     let mut weights = normalised(heights.map(|height| height.of_origin / height.of_apex));
-    // Heights over a flat tetrahedron's faces have few correct digits. The residual of the weights
-    // is known exactly enough, and each round of correcting it gains as many digits again.
+    // Heights over a flat tetrahedron's faces have few correct digits. The residual of the weights is accurate, and
+    // each round of correction gains as many digits again.
     for _ in 0..INSIDE_ROUNDS {
         let missed = combined(weights);
         let correction = heights.map(|height| height.normal.dot(missed) / height.of_apex);
@@ -72,7 +72,7 @@ struct Height {
 }
 
 impl Height {
-    /// Measures both heights; none unless both are certainly on the same side of the face.
+    /// Measures both heights; `None` unless both are certainly on the same side of the face.
     fn certain(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);

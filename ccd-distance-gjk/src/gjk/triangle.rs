@@ -38,13 +38,13 @@ fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
     let end = (start + 1) % 3;
     let (edge, length2) = (corners[end] - corners[start], square(start));
-    // In a needle, rounding turns normal and areas. That is corrected along the longest edge;
-    // across it the needle has no width to err by.
+    // In a needle, rounding tilts the normal and changes the areas. That is corrected along the longest edge; across it
+    // errors are at most the needle's width.
     let n = n - edge * (n.dot(edge) / length2);
     let total = areas[0] + areas[1] + areas[2];
     let mut weights = areas.map(|area| area / total);
     let back = combined(corners, weights).dot(edge) / length2;
-    // No farther than to the edges.
+    // Clamped to the edges.
     let back = lesser(weights[end], greater(-weights[start], back));
     weights[start] += back;
     weights[end] -= back;
@@ -56,11 +56,10 @@ fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     }
 }
 
-/// Returns the normal, on the face's side of the origin, or the foot: the one that rounding turns
-/// less.
+/// Returns the normal, oriented from the origin to the face, or the foot: whichever rounding tilts less.
 ///
-/// Rounding turns the normal by its share of the triangle's height relative to the longest edge, and the
-/// foot by its share of the foot's length relative to the corners'.
+/// The tilt of the normal is inverse to the triangle's height relative to the longest edge, that of the foot to its
+/// length relative to the corners'.
 fn straighter(corners: [DVec3; 3], n: DVec3, point: DVec3, length2: f64) -> DVec3 {
     let reach = corners
         .iter()

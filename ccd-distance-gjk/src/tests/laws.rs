@@ -43,8 +43,8 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
     }
 }
 
-/// The axis certifies the witnesses' distance of separated pieces: to rounding if they are well apart,
-/// and half of it if they are not.
+/// The axis certifies the witnesses' distance of separated pieces: up to rounding if they are well apart, else at least
+/// half of it.
 pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> Checked {
     let checked = check(scene, &cold::<O>(scene));
     let Checked { distance, gap } = checked;

@@ -66,8 +66,8 @@ impl Scene {
         self
     }
 
-    /// The same pair seen from other frames, each body from its own, whose origins are `far` away.
-    /// The points move by the rounding of that.
+    /// The same pair in other frames, one for each body, with origins `far` away. The points move by the rounding of
+    /// that.
     pub(crate) fn reframed(self, rng: &mut Pcg64, far: f64) -> Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
@@ -124,7 +124,7 @@ pub(crate) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     Scene::new(a, b).reframed(rng, 1.0)
 }
 
-/// The same, pressed flat across one direction and perhaps another, down to 1e-12 of their size.
+/// The same, flattened along one or two directions, down to 1e-12 of their size.
 pub(crate) fn pressed(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (mut a, mut b) = crossing(rng, a, b);
     let thin = DVec3::new(1.0, magnitude(rng, -12.0, 0.0), magnitude(rng, -12.0, 0.0));
@@ -244,7 +244,7 @@ pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
     Scene::new(piece(rng), b).reframed(rng, 1.0)
 }
 
-/// Boxes whose faces are parallel up to a tilt below rounding's reach, at the distance `gap`.
+/// Boxes whose faces are parallel up to a tilt below rounding, at the distance `gap`.
 pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
     let cuboid = |half: DVec3| -> Vec<DVec3> {
         let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };

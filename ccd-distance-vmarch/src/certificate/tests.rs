@@ -48,7 +48,7 @@ fn touching_features_have_an_axis(
         a: corner(DVec3::ONE),
         b: corner(DVec3::new(-1.0, -1.0, -1.0)),
     };
-    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
+    let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
 }
 
@@ -60,7 +60,7 @@ fn crossing_edges_and_flat_pieces_have_an_axis() {
         a: Feature::Edge(edge(&cube, DVec3::Y + DVec3::Z)),
         b: Feature::Edge(0),
     };
-    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
+    let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
     // Two squares side by side in one plane, and two needles on one line.
     let square = prepared(&shape::polygon(4));
@@ -70,7 +70,7 @@ fn crossing_edges_and_flat_pieces_have_an_axis() {
         a: Feature::Edge(edge(&square, DVec3::new(0.5, 0.5, 0.0))),
         b: Feature::Edge(edge(&square, DVec3::new(-0.5, -0.5, 0.0))),
     };
-    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
+    let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
     let line = needle(DVec3::X);
     let placed = moved(&line, &line, 2.0 * DVec3::X);
@@ -78,6 +78,6 @@ fn crossing_edges_and_flat_pieces_have_an_axis() {
         a: Feature::Vertex(vertex(&line, DVec3::X)),
         b: Feature::Vertex(vertex(&line, -DVec3::X)),
     };
-    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
+    let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
 }

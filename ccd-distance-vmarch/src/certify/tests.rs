@@ -1,4 +1,4 @@
-//! Every recovery, entered on purpose.
+//! Tests of every recovery.
 
 use super::certify;
 use crate::counters::Counters;
@@ -22,7 +22,7 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             }
             let pair = Pair { a: one, b: other };
             // A stop is only examined if rounding could hide a nearer pair.
-            let close = Witness::of(placed, pair).distance() < FAR * placed.scale.size;
+            let close = Witness::new(placed, pair).distance() < FAR * placed.scale.size;
             let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
             let ends = [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)];
             for end in ends.into_iter().chain(tie) {

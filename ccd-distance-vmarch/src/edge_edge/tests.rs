@@ -2,7 +2,7 @@
 
 use super::{nearest, next};
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next, Whose};
+use crate::feature::{Feature, Next, Which};
 use crate::placed::Line;
 use crate::tests::setting::{cube, edge, face, moved, needle, vertex};
 use crate::tests::shape::{Pcg64, RngExt, SeedableRng, direction, magnitude};
@@ -33,7 +33,7 @@ const ACROSS: DVec3 = DVec3::new(0.3, 2.0, -2.0);
 #[case(ACROSS, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
 // Across and along one face.
 #[case(2.0 * DVec3::Y, DVec3::new(0.0, 1.0, 1.5), Tied)]
-// Parallel, on the bisector and above the border of a face.
+// Parallel needles, on the bisector and above the border of a face.
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.5, 1.5), Sure)]
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.0, 1.5), Tied)]
 // Touching.
@@ -70,15 +70,15 @@ fn goes_on_to_the_face_on_whose_side_it_is() {
 
 #[test]
 fn finds_edges_below_both_faces() {
-    let Next::Behind(whose, behind) = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9)) else {
+    let Next::Behind(which, behind) = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9)) else {
         panic!("it is within the cube");
     };
-    assert_eq!((whose, behind.feature), (Whose::Y, Feature::Edge(0)));
+    assert_eq!((which, behind.feature), (Which::Y, Feature::Edge(0)));
     assert!(behind.point.distance(DVec3::new(0.0, 0.9, 0.9)) < 1e-15);
 }
 
-/// No point of one segment, and no end of the other, is nearer than the nearest ones by more than
-/// rounding, from crossing ones to such as are parallel to the last bit.
+/// No other points of two segments are nearer by more than rounding, for angles from crossing to parallel up to the
+/// last bit.
 #[test]
 fn nearest_points_are_nearest_at_every_angle() {
     let mut rng = Pcg64::seed_from_u64(5);
@@ -98,7 +98,7 @@ fn nearest_points_are_nearest_at_every_angle() {
         };
         let [s, t] = nearest(&one, &other).parameters;
         let distance = one.at(s).distance(other.at(t));
-        // The limit of alternating feet from there, and from every end.
+        // Alternating projections from there and from every end, to the limit.
         let mut best = distance;
         for start in [s, 0.0, one.length, 0.5 * one.length] {
             let mut s = start;

@@ -1,7 +1,7 @@
 //! Needles over, through and next to the top of a cube.
 
 use super::next;
-use crate::feature::{Feature, Next, Whose};
+use crate::feature::{Feature, Next, Which};
 use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -53,18 +53,18 @@ fn goes_on_to_the_nearest_side_from_outside() {
 // One end on the face, to the bit.
 #[case(DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.25, 0.25, 1.5))]
 fn finds_edges_that_go_through(#[case] half: DVec3, #[case] at: DVec3) {
-    let Next::Pierced(whose, crossing) = of_needle(half, at) else {
+    let Next::Pierced(which, crossing) = of_needle(half, at) else {
         panic!("it goes through the top");
     };
-    assert_eq!((whose, crossing.face), (Whose::X, face(&cube(), DVec3::Z)));
+    assert_eq!((which, crossing.face), (Which::X, face(&cube(), DVec3::Z)));
 }
 
 #[test]
 fn finds_features_behind() {
-    let Next::Behind(whose, behind) = of_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO) else {
+    let Next::Behind(which, behind) = of_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO) else {
         panic!("it is below the top");
     };
-    assert_eq!((whose, behind.feature), (Whose::X, Feature::Edge(0)));
+    assert_eq!((which, behind.feature), (Which::X, Feature::Edge(0)));
     // The end that is higher.
     assert!(behind.point.distance(DVec3::new(0.5, 0.0, 0.1)) < 1e-15);
 }

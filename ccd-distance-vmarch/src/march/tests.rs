@@ -9,7 +9,7 @@ use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// Wherever it begins, it ends at the same distance.
+/// Every start ends at the same distance.
 #[test]
 fn every_start_leads_to_the_nearest_features() {
     let shapes = [
@@ -38,12 +38,12 @@ fn every_start_leads_to_the_nearest_features() {
     let (mut starts, mut others) = (0, 0);
     for one in &shapes {
         for other in &shapes {
-            for (turn, way) in turns
+            for (turn, offset) in turns
                 .iter()
                 .zip(ways)
                 .chain(turns.iter().zip(ways.into_iter().rev()))
             {
-                let placed = turned(one, other, *turn, way);
+                let placed = turned(one, other, *turn, offset);
                 let mut least: Option<f64> = None;
                 for a in features(one) {
                     for b in features(other) {
@@ -55,7 +55,7 @@ fn every_start_leads_to_the_nearest_features() {
                             others += 1;
                             continue;
                         };
-                        let distance = Witness::of(&placed, pair).distance();
+                        let distance = Witness::new(&placed, pair).distance();
                         let first = *least.get_or_insert(distance);
                         assert!(
                             (distance - first).abs() < 1e-14,

@@ -16,7 +16,7 @@ fn the_nearest_pair_has_no_nearer_pair_around() {
         a: Feature::Vertex(vertex(&cube, DVec3::ONE)),
         b: Feature::Vertex(vertex(&cube, -DVec3::ONE)),
     };
-    let distance = Witness::of(&placed, pair).distance();
+    let distance = Witness::new(&placed, pair).distance();
     assert_eq!(nearer(&placed, pair, distance), None);
 }
 
@@ -40,11 +40,11 @@ fn slow_approaches_are_found() {
         b: Feature::Vertex(vertex(&other, DVec3::new(0.9, 0.9, -0.9))),
         ..high
     };
-    let [far, near] = [high, low].map(|pair| Witness::of(&placed, pair).distance());
+    let [far, near] = [high, low].map(|pair| Witness::new(&placed, pair).distance());
     assert!((far - near).abs() > 1e-10);
     let (above, pair) = if far > near { (far, high) } else { (near, low) };
     let found = nearer(&placed, pair, above).expect("the other end is nearer");
-    let distance = Witness::of(&placed, found).distance();
+    let distance = Witness::new(&placed, found).distance();
     assert!((distance - lesser(far, near)).abs() < 1e-15, "{found:?}");
 }
 
@@ -57,7 +57,7 @@ fn all_kinds_of_features_are_found() {
     };
     let placed = moved(&cube, &cube, DVec3::new(0.5, 0.5, 3.0));
     let found = nearer(&placed, top, 9.0).expect("the faces are nearer");
-    assert!((Witness::of(&placed, found).distance() - 1.0).abs() < 1e-15);
+    assert!((Witness::new(&placed, found).distance() - 1.0).abs() < 1e-15);
     let single = prepared(&shape::few(&[DVec3::ZERO]));
     let placed = moved(&cube, &single, DVec3::new(0.2, 0.1, 3.0));
     let pair = Pair {

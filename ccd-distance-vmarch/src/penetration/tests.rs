@@ -49,8 +49,8 @@ fn both_sides_name_the_same_point() {
         let squeeze = DVec3::new(1.0, thin, 1.0);
         let triangle = [(); 3].map(|()| squeeze * vector(&mut rng));
         let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-        let way = direction(&mut rng);
-        let edge = [middle - 0.7 * way, middle + 0.4 * way];
+        let offset = direction(&mut rng);
+        let edge = [middle - 0.7 * offset, middle + 0.4 * offset];
         if !passes(edge, triangle) {
             continue;
         }

@@ -13,8 +13,8 @@ fn corners(tape: &mut Tape) -> [DVec3; 3] {
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// The difference of two placed corners against fractions. The rotation and the way between the origins are as
-/// they are: an error of theirs moves all corners alike.
+/// The difference of two placed vertices against exact fractions. Errors of the rotation and translation are excluded:
+/// they move all vertices alike.
 #[test]
 fn worst_placing() {
     let found = Worst::of("PLACING", 6_000).search(|tape| {
@@ -30,7 +30,7 @@ fn worst_placing() {
         let placed = PlacedPair::new(&a, &b, &frame);
         // Corners keep the order of the points that have them.
         let (i, j) = (tape.pick(a.vertices.len()), tape.pick(b.vertices.len()));
-        let way = placed.b.vertex(j as u32) - placed.a.vertex(i as u32);
+        let offset = placed.b.vertex(j as u32) - placed.a.vertex(i as u32);
         let given = |of: &Polytope, k: usize, all: &[DVec3; 3]| {
             let at = of.vertices[k].point + of.origin;
             let nearer = |p: &&DVec3, q: &&DVec3| p.distance(at).total_cmp(&q.distance(at));
@@ -47,9 +47,9 @@ fn worst_placing() {
             let row = Exact3([0, 1, 2].map(|l| columns[l].0[k].clone()));
             row.dot(&y) + &to.0[k] - &x.0[k]
         });
-        let off = [0, 1, 2].map(|k| (exact(way[k]) - &truth[k]).to_f64().value());
+        let off = [0, 1, 2].map(|k| (exact(offset[k]) - &truth[k]).to_f64().value());
         let off = DVec3::from(off).length();
-        // Points that coincide up to rounding may be named one for the other.
+        // Points that coincide up to rounding may be swapped.
         let size = placed.scale.size;
         let apart = |p: [DVec3; 3]| [p[0] - p[1], p[1] - p[2], p[2] - p[0]].map(DVec3::length);
         let least = points.map(|p| {

@@ -1,12 +1,11 @@
-//! Lays outlines out as flat lists.
+//! Assembles polytopes from outlines of faces.
 
 use super::facets::{Plane, turn, unit};
 use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Assembles a polytope: the faces of a closed surface, or, without faces, the edge between two
-/// points, or a point.
+/// Assembles a polytope from the outlines of a closed surface or, without faces, from the ends of an edge or a point.
 pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Polytope {
     let mut numbers: Vec<u32> = loops.iter().flatten().copied().collect();
     if numbers.is_empty() {
@@ -45,7 +44,7 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
     for outline in &loops {
         let named: Vec<u32> = outline.iter().map(|&v| numbers[v as usize]).collect();
         out.faces.push(Face {
-            normal: Plane::of(points, &named).normal,
+            normal: Plane::new(points, &named).normal,
             first_side: 0,
             end_side: 0,
         });
@@ -67,7 +66,7 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
     out
 }
 
-/// The middle of some points' box: near all of them, and the same for the same points.
+/// Returns the centre of the bounding box of some points.
 fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
     let used = numbers.iter().map(|&v| points[v as usize]);
     let low = used.clone().reduce(DVec3::min).unwrap_or_default();
@@ -75,7 +74,7 @@ fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
     low + 0.5 * (high - low)
 }
 
-/// Returns every side once, from its lower corner to its higher one, in order.
+/// Returns every edge once, from its lower to its higher vertex, in order.
 fn edges_of(loops: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> {
     let sides = loops.iter().flat_map(|outline| turn(outline));
     let mut edges: Vec<(u32, u32)> = sides.filter(|(v, w)| v < w).collect();

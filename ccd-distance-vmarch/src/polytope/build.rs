@@ -36,8 +36,8 @@ impl Polytope {
             _ => Facets::new(points, piece.facets.iter()),
         };
         let facets = facets.ok_or(GiveUp::BadFacets)?;
-        // For needles thinner than 1e-10, facets within rounding of one plane need not form a
-        // convex polygon; they are then faces of their own.
+        // For needles thinner than 1e-10, facets within rounding of one plane need not form a convex polygon; they are
+        // then separate faces.
         let merged = [rounding, 0.0].into_iter().find_map(|coplanar| {
             let loops = merge::merge(points, &facets, coplanar)?;
             let polytope = Self::assembled(points, &ends, &loops);
@@ -55,14 +55,14 @@ impl Polytope {
     }
 }
 
-/// The extent of points: none, a line, or more; with the numbers of points far from each other.
+/// The dimension of points up to rounding: a point, a line, or more; with two points far from each other.
 enum Spread {
     Point,
     Line([u32; 2]),
     Wide([u32; 2]),
 }
 
-/// Points within `rounding` of one point, or of one line, are a point or an edge.
+/// Classifies points: within `rounding` of one point or of one line, or more.
 fn spread(points: &[DVec3], rounding: f64) -> Spread {
     let farthest = |from: DVec3| {
         let distances = points.iter().map(|p| p.distance(from)).zip(0..);

@@ -1,4 +1,4 @@
-//! Decides whether faces enclose a convex polytope, once.
+//! Tests whether faces enclose a convex polytope exactly once.
 
 use super::{NO_FACE, Polytope, Side, unit};
 use crate::tolerance::{CONVEX, COPLANAR, LINES};
@@ -9,9 +9,8 @@ use ccd_core::order::greater;
 /// Returns whether a closed surface is that of a convex polytope, up to the rounding of its
 /// corners.
 ///
-/// It is if it is connected, locally convex, and goes around once `[TIE28]`: polygons turn left at
-/// every corner, and once; across every edge the neighbour falls away; and a line from inside
-/// leaves through one face.
+/// It is if it is connected, locally convex, and winds once `[TIE28]`: polygons turn left at every corner, once around;
+/// neighbours are behind each face; and a ray from inside leaves through one face.
 pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) -> bool {
     let edges = &polytope.edges;
     if polytope.faces.len() < 2 || edges.iter().any(|edge| edge.faces.contains(&NO_FACE)) {
@@ -29,7 +28,7 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
 struct Check<'a> {
     points: &'a [DVec3],
     polytope: &'a Polytope,
-    /// The allowance for rounded corners off each face's plane.
+    /// The allowed distance of rounded corners from each face's plane.
     slacks: Vec<f64>,
     /// The position of each edge among the sides of either of its faces.
     positions: Vec<[usize; 2]>,
@@ -56,7 +55,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Returns whether a face is plane, and turns left all the way around, once.
+    /// Returns whether a face is planar, and turns left at every corner, once around.
     fn is_polygon(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         let sides = self.polytope.sides_of(face);
@@ -78,7 +77,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Returns whether the neighbours' corners next to the common edges are behind a face.
+    /// Returns whether the neighbours' vertices next to the common edges are behind a face.
     fn falls_away(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         self.polytope.sides_of(face).iter().all(|side| {
@@ -113,15 +112,15 @@ impl<'a> Check<'a> {
         reached.into_iter().all(|reached| reached)
     }
 
-    /// Returns whether a line from the middle of all corners leaves through no more than one face,
-    /// by exact signs; lines that meet an edge are skipped.
+    /// Returns whether a ray from the mean of all vertices leaves through at most one face, by exact signs; rays that
+    /// meet an edge are skipped.
     fn goes_around_once(&self) -> bool {
         let vertices = 0..self.polytope.vertices.len() as u32;
         let middle =
             vertices.clone().map(|v| self.corner(v)).sum::<DVec3>() / vertices.len() as f64;
         let targets = (0..self.polytope.faces.len() as u32).map(|f| {
             let sides = self.polytope.sides_of(f);
-            // Avoids the lines that regular shapes have through their middles.
+            // Avoids the symmetry lines of regular shapes.
             let parts = [0.47, 0.33, 0.2].into_iter().zip(sides);
             parts
                 .map(|(part, side)| part * self.corner(side.vertex))
@@ -133,8 +132,7 @@ impl<'a> Check<'a> {
         layers.is_none_or(|layers| layers <= 1)
     }
 
-    /// Counts the faces through which the line from one point towards another one leaves; none if
-    /// it meets the edge of one.
+    /// Counts the faces through which the ray from one point through another leaves; `None` if it meets an edge.
     fn left_through(&self, from: DVec3, to: DVec3) -> Option<usize> {
         let mut layers = 0;
         for face in 0..self.polytope.faces.len() as u32 {
@@ -159,7 +157,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// A face's area over its extent from its first corner: at least a quarter of its width.
+/// Returns a face's area over its extent from its first vertex: at least a quarter of its width.
 fn width(polytope: &Polytope, face: u32) -> f64 {
     let sides = polytope.sides_of(face);
     let first = polytope.vertex(sides[0].vertex).point;

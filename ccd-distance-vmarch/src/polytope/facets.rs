@@ -1,11 +1,11 @@
-//! A piece's facets as given: welded, with their planes, and joined along their sides.
+//! The given facets of a piece: welded, with planes, and connected along their sides.
 
 use crate::double_double::DoubleDoubleVector;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector;
 
-/// Polygons that close a surface: every side has its twin.
+/// Polygons of a closed surface: every side has its twin.
 #[derive(Debug)]
 pub(crate) struct Facets {
     pub(crate) loops: Vec<Vec<u32>>,
@@ -25,8 +25,8 @@ pub(crate) struct Plane {
 }
 
 impl Facets {
-    /// Welds equal points, drops facets that are left with fewer than three corners, and joins the
-    /// rest; none if they are no closed surface.
+    /// Welds equal points, drops facets with fewer than three remaining corners, and connects the rest; `None` if the
+    /// surface is not closed.
     pub(crate) fn new<'a>(
         points: &[DVec3],
         loops: impl Iterator<Item = &'a [u32]>,
@@ -47,7 +47,7 @@ impl Facets {
         Self::joined(points, kept)
     }
 
-    /// The front and the back of a triangle.
+    /// Creates the front and the back of a triangle.
     pub(crate) fn of_triangle(points: &[DVec3]) -> Option<Self> {
         Self::joined(points, vec![vec![0, 1, 2], vec![0, 2, 1]])
     }
@@ -73,7 +73,7 @@ impl Facets {
             across: loops.iter().map(across).collect::<Option<Vec<_>>>()?,
             planes: loops
                 .iter()
-                .map(|corners| Plane::of(points, corners))
+                .map(|corners| Plane::new(points, corners))
                 .collect(),
             loops,
         })
@@ -82,7 +82,7 @@ impl Facets {
 
 impl Plane {
     /// Computes the plane from the polygon's area vector, with exact differences of corners.
-    pub(crate) fn of(points: &[DVec3], corners: &[u32]) -> Self {
+    pub(crate) fn new(points: &[DVec3], corners: &[u32]) -> Self {
         let at = |k: usize| points[corners[k] as usize];
         let mut sum = DoubleDoubleVector::default();
         for k in 1..corners.len() - 1 {
@@ -101,7 +101,7 @@ impl Plane {
     }
 }
 
-/// A loop's sides, as pairs of corners.
+/// Iterates over the sides of a loop, as pairs of vertices.
 pub(crate) fn turn(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(next.copied())
@@ -112,7 +112,7 @@ pub(crate) fn unit(v: DVec3) -> DVec3 {
     vector::unit(v).unwrap_or(DVec3::ZERO)
 }
 
-/// The distance of a point from the line through two others; from the first one, if they are equal.
+/// Returns the distance of a point from the line through two others, or from the first if they are equal.
 pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     let along = DoubleDoubleVector::difference(end, start);
     let area = DoubleDoubleVector::difference(p, start)

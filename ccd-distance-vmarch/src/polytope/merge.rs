@@ -3,8 +3,7 @@
 use super::facets::{Facets, off_line, turn};
 use ccd_core::glam::DVec3;
 
-/// Returns the outlines of the faces that facets form; none if one of them has more than one
-/// outline, or an outline of less than three corners.
+/// Returns the outlines of the merged faces; `None` if a face has several outlines, or one of less than three corners.
 ///
 /// A face grows from its largest facet over neighbours with all corners within `rounding` of that
 /// facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped. In
@@ -70,7 +69,7 @@ fn grouped(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) 
     (faces, count)
 }
 
-/// The sides between different faces, chained to one loop for each face.
+/// Chains the sides between different faces to one loop for each face.
 fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option<Vec<Vec<u32>>> {
     const NONE: u32 = u32::MAX;
     let mut members = vec![Vec::new(); count as usize];
@@ -107,11 +106,11 @@ fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option
     Some(out)
 }
 
-/// Leaves out corners within `rounding` of the line between those before and after them.
+/// Removes corners within `rounding` of the line between their neighbours.
 fn without_straight(points: &[DVec3], outline: &[u32], rounding: f64) -> Vec<u32> {
     let at = |v: u32| points[v as usize];
     let mut kept: Vec<u32> = Vec::with_capacity(outline.len());
-    // Starts from an extreme corner, which is certainly a corner.
+    // Starts at an extreme point, which is certainly a corner.
     let far = |v: &&u32| at(**v).distance_squared(at(outline[0]));
     let start = outline.iter().max_by(|v, w| far(v).total_cmp(&far(w)));
     let first = outline.iter().position(|v| Some(v) == start).unwrap_or(0);

@@ -3,10 +3,10 @@
 use super::Polytope;
 use ccd_core::glam::DVec3;
 
-/// The corners that are farthest along directions all around.
+/// The extremal vertices in directions all around.
 ///
-/// A direction belongs to one of sixteen squares on one of six sides of a cube, which comparisons
-/// find. In most polytopes the square's corner is one or two edges away from the extremal one.
+/// A direction belongs to one of sixteen squares on one of six sides of a cube. In most polytopes the vertex of the
+/// square is one or two edges from the extremal one.
 #[derive(Clone, Debug)]
 pub(crate) struct DirectionTable([u32; 6 * SQUARES * SQUARES]);
 
@@ -14,7 +14,7 @@ pub(crate) struct DirectionTable([u32; 6 * SQUARES * SQUARES]);
 const SQUARES: usize = 4;
 
 impl DirectionTable {
-    /// Fills the table, going from square to square, with a climb for each.
+    /// Fills the table by hill climbing, from square to square.
     pub(crate) fn new(polytope: &Polytope) -> Self {
         let mut corners = [0; 6 * SQUARES * SQUARES];
         let mut at = 0;
@@ -25,13 +25,13 @@ impl DirectionTable {
         DirectionTable(corners)
     }
 
-    /// Returns the corner for a direction of any length; some corner if it is not finite.
-    fn of(&self, direction: DVec3) -> u32 {
+    /// Returns the vertex for a direction of any length; any vertex if it is not finite.
+    fn vertex_towards(&self, direction: DVec3) -> u32 {
         self.0[square_of(direction)]
     }
 }
 
-/// The square that a direction belongs to.
+/// Returns the square of a direction.
 fn square_of(direction: DVec3) -> usize {
     let size = direction.abs();
     let axis = match (size.x >= size.y, size.x >= size.z, size.y >= size.z) {
@@ -49,7 +49,7 @@ fn square_of(direction: DVec3) -> usize {
     (side * SQUARES + step(u)) * SQUARES + step(v)
 }
 
-/// The direction in the middle of a square.
+/// Returns the direction at the centre of a square.
 fn middle_of(square: usize) -> DVec3 {
     let (side, u, v) = (
         square / (SQUARES * SQUARES),
@@ -69,7 +69,7 @@ impl Polytope {
     /// Returns a corner that is farthest along a direction, except for rounding.
     pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(table) = &self.directions {
-            return self.climbed(table.of(direction), direction);
+            return self.climbed(table.vertex_towards(direction), direction);
         }
         let heights = self
             .vertices
@@ -88,7 +88,7 @@ impl Polytope {
     fn climbed(&self, start: u32, direction: DVec3) -> u32 {
         let height = |v: u32| self.vertex(v).point.dot(direction);
         let (mut at, mut highest) = (start, height(start));
-        // Every round is higher than the last one.
+        // Every round climbs.
         for _ in 0..self.vertices.len() {
             let before = at;
             for spoke in self.spokes_of(before) {

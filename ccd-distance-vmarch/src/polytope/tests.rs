@@ -1,4 +1,4 @@
-//! Pieces as they are prepared, and pieces that are refused.
+//! Preparation of pieces, and refused pieces.
 
 use super::{NO_FACE, Polytope};
 use crate::tests::setting::prepared;
@@ -21,8 +21,8 @@ fn is_sound(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
         for spoke in polytope.spokes_of(v) {
-            let way = polytope.vertex(spoke.to).point - vertex.point;
-            assert!((way - way.length() * spoke.along).length() <= slack);
+            let offset = polytope.vertex(spoke.to).point - vertex.point;
+            assert!((offset - offset.length() * spoke.along).length() <= slack);
             assert!(polytope.edge(spoke.edge).ends.contains(&v));
         }
     }
@@ -72,7 +72,7 @@ fn is_sound(polytope: &Polytope) {
 #[case(shape::few(&[DVec3::X]), [1, 0, 0])]
 #[case(shape::few(&[DVec3::X, DVec3::Y]), [2, 1, 0])]
 #[case(shape::few(&[DVec3::X, DVec3::Y, DVec3::Z]), [3, 3, 2])]
-// Less than they seem.
+// Pieces of lower dimension than their number of points suggests.
 #[case(shape::few(&[DVec3::X, DVec3::X]), [1, 0, 0])]
 #[case(shape::few(&[DVec3::X, DVec3::Y, DVec3::X]), [2, 1, 0])]
 #[case(shape::few(&[DVec3::X, 2.0 * DVec3::X, 5.0 * DVec3::X]), [2, 1, 0])]
@@ -84,7 +84,7 @@ fn features_follow_from_points_and_facets(#[case] shape: Shape, #[case] expected
     is_sound(&polytope);
 }
 
-/// A cube whose edges and faces have corners within, as meshes have them: 27 points, 48 triangles.
+/// A cube with points inside its edges and faces, as in meshes: 26 points, 48 triangles.
 fn subdivided() -> Shape {
     let cube = shape::cuboid(DVec3::ONE);
     let mut points = Vec::new();
@@ -128,7 +128,7 @@ fn coplanar_facets_are_one_face_and_corners_within_are_none() {
     }
 }
 
-/// Twin points, facets without area along an edge, and points inside are all left out.
+/// Duplicate points, degenerate facets along an edge, and inner points are all dropped.
 #[test]
 fn superfluous_points_are_left_out() {
     let mut cube = shape::cuboid(DVec3::ONE);
@@ -136,8 +136,7 @@ fn superfluous_points_are_left_out() {
     cube.points.push(0.5 * DVec3::X);
     cube.loops[0][0] = 8;
     assert_eq!(counts(&prepared(&cube)), [8, 12, 6]);
-    // A corner in the middle of an edge that only one of its faces knows, and the gap closed by a
-    // facet without area.
+    // A T-junction: a vertex on an edge of only one face, with a degenerate facet that closes the gap.
     let mut cube = shape::cuboid(DVec3::ONE);
     cube.points.push(DVec3::new(-1.0, -1.0, 0.0));
     cube.loops[0] = vec![0, 8, 4, 6, 2];

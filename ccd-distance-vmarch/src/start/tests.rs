@@ -26,7 +26,7 @@ fn invalid_states_are_no_start(#[case] a: Feature, #[case] b: Feature) {
     assert_eq!(cache.start(&placed), corners);
 }
 
-/// A part takes the place of one polytope; the other one's feature is kept.
+/// One polytope is replaced by a part of it; the other's feature is reused.
 #[test]
 fn a_part_is_begun_with_along_the_last_axis() {
     let (cube, point) = (cube(), point());

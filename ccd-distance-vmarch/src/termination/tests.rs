@@ -1,4 +1,4 @@
-//! States that come again are noticed.
+//! Repeated states are detected.
 
 use super::Brent;
 use crate::feature::{Feature, Pair};

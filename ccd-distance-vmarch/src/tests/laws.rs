@@ -10,8 +10,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
 use rstest::rstest;
 
-/// Claims about pieces that intersect by next to nothing, touch, or are apart by next to nothing are
-/// true to rounding.
+/// Claims about pieces that barely intersect, touch, or are barely apart are true up to rounding.
 #[rstest]
 fn touching_is_exact_up_to_rounding(
     #[values(-1e-9, -1e-13, -1e-16, 0.0, 1e-16, 1e-13, 1e-9)] gap: f64,
@@ -65,7 +64,7 @@ fn touching_is_exact_up_to_rounding(
     }
 }
 
-/// A small one inside of a large one has a common point with it, though their surfaces are apart.
+/// A small polytope inside a large one has a common point with it, though the surfaces are apart.
 #[test]
 fn pieces_inside_intersect() {
     let (large, small) = (
@@ -110,7 +109,7 @@ fn pieces_inside_intersect() {
     assert_eq!(oracle.counters().penetrations, 1000);
 }
 
-/// Frames that map nothing anywhere, and pieces that are nothing, end like all others.
+/// Degenerate frames and empty pieces end like all others.
 #[test]
 fn nonsense_ends() {
     let shapes = [
@@ -206,17 +205,17 @@ fn changes_of_features_are_exact_to_the_last_bit() {
     let (mut oracle, mut tally) = (Vmarch::default(), Tally::default());
     for _ in 0..cases() / 4 {
         let tilt = DQuat::from_scaled_axis(magnitude(&mut rng, -12.0, 0.0) * direction(&mut rng));
-        let pose = |way: DVec3| Frame {
+        let pose = |offset: DVec3| Frame {
             rotation: DMat3::from_quat(tilt),
-            translation: way,
+            translation: offset,
         };
         let far = |rng: &mut Pcg64| 4.0 * direction(rng);
         let (mut from, mut to) = (far(&mut rng), far(&mut rng));
-        let mut ask = |way: DVec3, cache: &mut Cache| {
+        let mut ask = |offset: DVec3, cache: &mut Cache| {
             let scene = Scene {
                 a: &cube,
                 b: &cube,
-                b_to_a: pose(way),
+                b_to_a: pose(offset),
                 gap: 0.1,
             };
             let answer = oracle.separation(&scene.pair(), cache);
@@ -243,7 +242,7 @@ fn changes_of_features_are_exact_to_the_last_bit() {
     assert!(tally.claims > cases() && tally.give_ups == 0, "{tally:?}");
 }
 
-/// Powers of two scale everything, to the bit.
+/// Scaling by powers of two scales answers exactly.
 #[test]
 fn size_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(6);
@@ -347,7 +346,7 @@ fn other_oracles_take_over_and_counts_are_kept() {
         assert_eq!(counted.counters().calls, calls);
     }
     assert_eq!(counted.effort().steps, counted.counters().steps);
-    // Once it knows where, it stays there.
+    // A converged cache does not change.
     let before = counted.counters().steps;
     assert!(counted.separation(&known.pair(), &mut cache).is_ok());
     assert_eq!(counted.counters().steps, before + 1);

@@ -71,8 +71,7 @@ pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
             out
         }
     };
-    // Most pieces are in frames of their own; some kinds lose their special property if they are
-    // turned.
+    // Most pieces have separate frames; some kinds lose their special property if they are turned.
     let kept = matches!(kind, Kind::Grid | Kind::Coplanar | Kind::Sliver);
     let placed = shapes.into_iter().map(|shape| {
         let (turn, shift) = (rotation(rng), vector(rng));
@@ -199,7 +198,7 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
         0 => DMat3::IDENTITY,
         _ => quarter_turns(rng),
     };
-    // Turned so that a face of B is towards a face of A, then off that by next to nothing.
+    // Rotated so that a face of B is parallel to a face of A, up to a tiny tilt.
     if kind == Kind::NearParallel {
         if let (Some(n), Some(m)) = (normal(a, rng), normal(b, rng)) {
             let facing = DMat3::from_quat(DQuat::from_rotation_arc(m, -n));

@@ -1,4 +1,4 @@
-//! Small polytopes at simple places, and their features by where they are.
+//! Small polytopes at simple positions, and their features by position.
 
 use super::shape::{self, Shape};
 use crate::feature::Feature;

@@ -45,7 +45,7 @@ fn goes_on_to_the_end_it_is_beyond(#[case] at: DVec3, #[case] corner: DVec3) {
 #[case(DVec3::new(0.0, 1.0 - f64::EPSILON, 2.0), DVec3::Z)]
 #[case(DVec3::new(0.0, -5.0, 2.0), DVec3::Z)]
 #[case(DVec3::new(0.0, 2.0, 0.0), DVec3::Y)]
-// Below both faces: on to the one it is less far below.
+// Behind both faces: the march goes on to the face that it is less far behind.
 #[case(DVec3::new(0.0, 0.9, 0.5), DVec3::Y)]
 #[case(DVec3::new(0.0, 0.5, 0.9), DVec3::Z)]
 fn goes_on_to_the_face_on_whose_side_it_is(#[case] at: DVec3, #[case] normal: DVec3) {

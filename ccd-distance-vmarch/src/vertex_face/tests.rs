@@ -2,7 +2,7 @@
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next, Whose};
+use crate::feature::{Feature, Next, Which};
 use crate::tests::setting::{cube, edge, face, moved, needle, point, turned};
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
@@ -34,7 +34,7 @@ fn stops_above(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) 
 
 #[rstest]
 #[case(DVec3::new(1.0 + f64::EPSILON, 0.0, 2.0), DVec3::new(1.0, 0.0, 1.0))]
-// Beyond two planes: on to the edge of the one violated most.
+// Beyond two planes: the march goes on to the edge of the most violated one.
 #[case(DVec3::new(3.0, 2.0, 2.0), DVec3::new(1.0, 0.0, 1.0))]
 #[case(DVec3::new(-2.0, -3.0, 2.0), DVec3::new(0.0, -1.0, 1.0))]
 #[case(DVec3::new(0.0, 5.0, -9.0), DVec3::new(0.0, 1.0, 1.0))]
@@ -50,13 +50,13 @@ fn goes_on_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) 
 #[case(DVec3::new(0.0, 0.0, 0.9))]
 #[case(DVec3::new(0.0, 0.0, -7.0))]
 fn finds_features_behind(#[case] at: DVec3) {
-    let Next::Behind(whose, behind) = of_point(at) else {
+    let Next::Behind(which, behind) = of_point(at) else {
         panic!("it is below the top");
     };
     let top = face(&cube(), DVec3::Z);
     assert_eq!(
-        (whose, behind.feature, behind.face),
-        (Whose::X, Feature::Vertex(0), top)
+        (which, behind.feature, behind.face),
+        (Which::X, Feature::Vertex(0), top)
     );
 }
 

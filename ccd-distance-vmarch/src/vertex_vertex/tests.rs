@@ -27,7 +27,7 @@ fn of_point(at: DVec3) -> Next {
 #[case(DVec3::new(1.0, 2.0, 2.0), Tied)]
 #[case(DVec3::new(1.0, 1.0, 2.0), Tied)]
 #[case(DVec3::new(1.0, 1.0, 1.0), Tied)]
-// Before the plane by rounding, and not by rounding.
+// In front of the plane within rounding, and beyond rounding.
 #[case(DVec3::new(1.0 + 1e-15, 2.0, 2.0), Tied)]
 #[case(DVec3::new(1.0 + 1e-12, 2.0, 2.0), Sure)]
 fn stops_in_the_corners_region(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) {

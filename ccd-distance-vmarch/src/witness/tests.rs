@@ -15,7 +15,7 @@ fn witness(
 ) -> Witness {
     let (one, other) = (prepared(a), prepared(b));
     let placed = moved(&one, &other, at);
-    let witness = Witness::of(&placed, of(&one, &other));
+    let witness = Witness::new(&placed, of(&one, &other));
     let claim = witness.claim(&placed);
     let on_a = claim.a.of(&a.points).expect("a point of A");
     let on_b = claim.b.of(&b.points).expect("a point of B") + at;
@@ -39,20 +39,20 @@ fn features_have_nearest_points() {
         a: Feature::Edge(edge(a, DVec3::Y + DVec3::Z)),
         b: Feature::Vertex(0),
     });
-    assert_eq!(side.way(), DVec3::new(0.0, 2.0, 3.0));
-    assert_eq!(side.axis, side.way());
+    assert_eq!(side.offset(), DVec3::new(0.0, 2.0, 3.0));
+    assert_eq!(side.axis, side.offset());
     let top = witness(&cuboid, &single, DVec3::new(0.25, -0.5, 4.0), |a, _| Pair {
         a: Feature::Face(face(a, DVec3::Z)),
         b: Feature::Vertex(0),
     });
-    assert_eq!((top.way(), top.axis), (3.0 * DVec3::Z, DVec3::Z));
+    assert_eq!((top.offset(), top.axis), (3.0 * DVec3::Z, DVec3::Z));
     let back = witness(&single, &cuboid, DVec3::new(0.25, -0.5, -4.0), |_, b| {
         Pair {
             a: Feature::Vertex(0),
             b: Feature::Face(face(b, DVec3::Z)),
         }
     });
-    assert_eq!((back.way(), back.axis), (-3.0 * DVec3::Z, -DVec3::Z));
+    assert_eq!((back.offset(), back.axis), (-3.0 * DVec3::Z, -DVec3::Z));
     let across = shape::few(&[-DVec3::Y, DVec3::Y]);
     let crossed = witness(
         &shape::few(&[-DVec3::X, DVec3::X]),
@@ -64,7 +64,7 @@ fn features_have_nearest_points() {
         },
     );
     assert_eq!(
-        (crossed.way(), crossed.axis.normalize()),
+        (crossed.offset(), crossed.axis.normalize()),
         (2.0 * DVec3::Z, DVec3::Z)
     );
 }
@@ -86,7 +86,7 @@ fn axes_are_those_of_the_features() {
                 a: Feature::Edge(0),
                 b: Feature::Edge(0),
             };
-            let axis = Witness::of(&placed, pair).axis.normalize();
+            let axis = Witness::new(&placed, pair).axis.normalize();
             assert!(axis.distance(side) < 1e-15, "{gap}: {axis} {side}");
         }
     }
@@ -100,7 +100,7 @@ fn pairs_that_are_never_a_stop_have_points() {
         a: Feature::Face(0),
         b: Feature::Face(1),
     };
-    assert!(Witness::of(&placed, pair).distance() >= 2.0);
+    assert!(Witness::new(&placed, pair).distance() >= 2.0);
     assert_eq!(point.reach, 0.0);
 }
 
@@ -165,16 +165,16 @@ fn axes_certify_edges_that_cross_at_any_angle() {
             magnitude(&mut rng, -9.0, 0.0),
             magnitude(&mut rng, -9.0, 0.0),
         );
-        let way = shape::direction(&mut rng);
-        let normal = way.any_orthonormal_vector();
-        let other = ccd_core::glam::DQuat::from_axis_angle(normal, angle) * way;
-        let (one, other) = (needle(0.9 * way), needle(0.8 * other));
-        let placed = moved(&one, &other, gap * normal + 0.1 * way);
+        let offset = shape::direction(&mut rng);
+        let normal = offset.any_orthonormal_vector();
+        let other = ccd_core::glam::DQuat::from_axis_angle(normal, angle) * offset;
+        let (one, other) = (needle(0.9 * offset), needle(0.8 * other));
+        let placed = moved(&one, &other, gap * normal + 0.1 * offset);
         let pair = Pair {
             a: Feature::Edge(0),
             b: Feature::Edge(0),
         };
-        let witness = Witness::of(&placed, pair);
+        let witness = Witness::new(&placed, pair);
         let gap = crate::certificate::gap(&placed, witness.axis.normalize());
         let short = witness.distance() - gap;
         assert!(short <= 2e-15, "{short:e} at {angle:e}, {gap:e}");

@@ -20,7 +20,7 @@ fn meshes_decode_to_their_numbers_even_far_away() {
     // At this place single precision has steps of 64.
     let far = DVec3::new(1e9, -1e9, 5e8);
     let mesh = tetrahedron(far);
-    let stored = Stored::of(&mesh);
+    let stored = Stored::new(&mesh);
     let numbers = decoded(&stored.vertices)
         .into_iter()
         .map(f32::from_le_bytes);
@@ -47,6 +47,6 @@ fn equal_meshes_are_stored_once() {
 
 #[test]
 fn a_mesh_of_nothing_is_stored() {
-    let stored = Stored::of(&DrawnMesh::default());
+    let stored = Stored::new(&DrawnMesh::default());
     assert_eq!((stored.middle, stored.vertices.as_str()), ([0.0; 3], ""));
 }

@@ -12,7 +12,7 @@ fn page(title: &str) -> Page<'_> {
     let hostile = "</script><b>\u{2028}{{title}}";
     let view = View {
         bodies: vec![ShownBody::new(hostile, mesh, "#000", &Motion::STILL)],
-        ..View::of(hostile, hostile, 1.0)
+        ..View::new(hostile, hostile, 1.0)
     };
     let groups = vec![Group {
         name: hostile.to_owned(),

@@ -11,7 +11,7 @@ fn every_part_bounds_a_solid_that_is_drawn_where_it_is() {
             .sum();
         assert!(volume > 0.0, "{name} is inside out");
         let prepared = body_from_mesh(&drawn, Detail::Auto).unwrap();
-        // The poles of a capsule are drawn as many corners at one place.
+        // The poles of a capsule are drawn as many equal points.
         let is_mesh = matches!(name, "knot" | "slot");
         assert!(
             !is_mesh || prepared.report.to_string().contains("solid"),

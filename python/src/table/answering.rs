@@ -6,12 +6,12 @@ use super::pieces::{Pace, Piece, Pieces, check};
 use super::results;
 use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
-use rigid_ccd::batch::{Bodies, Found, Question, Questions, on_threads};
+use rigid_ccd::batch::{Bodies, Question, on_threads};
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow};
 use rigid_ccd::table::motions::{RowError, RowProblem, TableError};
 use rigid_ccd::table::results::{Compared, ResultRow};
-use rigid_ccd::{Answer, Config, InputError, Limit, Remark, Solver};
+use rigid_ccd::{Answer, InputError, Limit, Remark, Settings, Solver};
 use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -22,7 +22,7 @@ use std::time::Instant;
 pub(crate) struct Asked<'a> {
     pub(crate) bodies: Bodies<'a>,
     pub(crate) question: Question,
-    pub(crate) config: Config,
+    pub(crate) settings: &'a Settings,
     /// The number of threads; none for one on each core.
     pub(crate) threads: Option<u16>,
     pub(crate) micros: Micros,
@@ -56,8 +56,12 @@ pub(crate) fn answer(
     let columns = check(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable)?);
-    let create = || Solver::new().with_config(asked.config).with_stop(stop);
-    let mut solver = on_threads(asked.threads, create);
+    let settings = stopped_by(asked, stop);
+    let asked = Asked {
+        settings: &settings,
+        ..asked
+    };
+    let mut solver = on_threads(asked.threads, Solver::new);
     let (pace, source) = (Pace::new(solver.threads()), (reader, columns.form()));
     let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &pace, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
@@ -118,7 +122,12 @@ pub(crate) fn each(
     let columns = check(&reader)?;
     let (pace, source) = (Pace::new(1), (reader, columns.form()));
     let mut pieces = Pieces::of(source, asked.question, Names::Read, &pace, stop)?;
-    let mut solver = Solver::new().with_config(asked.config).with_stop(stop);
+    let settings = stopped_by(asked, stop);
+    let asked = Asked {
+        settings: &settings,
+        ..asked
+    };
+    let mut solver = Solver::new();
     let mut number = 0;
     for piece in pieces.by_ref() {
         for row in piece.courses(&columns) {
@@ -135,6 +144,14 @@ pub(crate) fn each(
     pieces.fault.map_or(Ok(()), Err)
 }
 
+/// Returns the settings with a flag that ends queries.
+fn stopped_by(asked: Asked<'_>, stop: &Arc<AtomicBool>) -> Settings {
+    Settings {
+        stop: Some(Arc::clone(stop)),
+        ..asked.settings.clone()
+    }
+}
+
 fn unreadable(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
@@ -145,7 +162,7 @@ type Told<'r> = Result<Timed<'r>, &'r RowError>;
 /// An answer, and what it took.
 struct Timed<'r> {
     course: &'r Course,
-    answer: Result<Answer<Found>, InputError>,
+    answer: Result<Answer, InputError>,
     micros: f64,
 }
 
@@ -156,7 +173,8 @@ fn tell<'r>(asked: Asked<'_>, row: &'r CourseRow, solver: &mut Solver) -> Option
         Err(error) => return Some(Err(error)),
     };
     let start = Instant::now();
-    let answer = solver.ask(asked.question, asked.bodies, course, &asked.config);
+    let query = course.query(asked.question, asked.bodies, asked.settings);
+    let answer = query.and_then(|query| solver.answer(asked.question, &query));
     let micros = start.elapsed().as_secs_f64() * 1e6;
     match &answer {
         Ok(answer) if answer.outcome.limit() == Some(Limit::Stopped) => None,
@@ -174,11 +192,16 @@ fn result(asked: Asked<'_>, told: &Told<'_>) -> ResultRow {
         Ok(timed) => timed,
         Err(error) => return ResultRow::error(&error.id, &error.problem),
     };
-    let compared = Compared::of(asked.bodies, asked.config.clearance);
+    let compared = Compared::of(asked.bodies, asked.settings.clearance);
     match &timed.answer {
         Ok(answer) => ResultRow {
             micros: (asked.micros == Micros::Told).then_some(timed.micros),
-            ..ResultRow::new(timed.course, answer, timed.micros, compared)
+            ..ResultRow::new(
+                timed.course,
+                (asked.question, answer),
+                timed.micros,
+                compared,
+            )
         },
         Err(error) => ResultRow::error(timed.course.id(), &RowProblem::from(error.clone())),
     }

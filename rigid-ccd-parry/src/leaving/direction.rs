@@ -3,11 +3,11 @@
 use crate::Prepared;
 use crate::form::Form;
 use crate::order::length;
+use ccd_core::Outcome;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use ccd_core::{Piece, Pose};
 use rigid_ccd::Solver;
-use rigid_ccd::schedule::ClosestApproach;
 
 /// The most products of edges that are tried.
 const MOST_EDGES: usize = 4096;
@@ -67,9 +67,11 @@ fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) 
         .distance((a.body(), poses[0]), (b.body(), poses[1]))
         .ok()?;
     match found.outcome {
-        ClosestApproach::Nearest { lower, contact, .. } if lower > 0.0 => {
-            Some(contact.separation.normal)
-        }
+        Outcome::Measured {
+            lower,
+            at: Some((_, contact)),
+            ..
+        } if lower > 0.0 => Some(contact.separation.normal),
         _ => None,
     }
 }

@@ -9,7 +9,7 @@ use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions
 use crate::Recording;
 use crate::cast::{Cast, Ready};
 use crate::interval::Interval;
-use crate::{CastError, Settings};
+use crate::{CastError, Options};
 use ccd_core::{InputError, Motion, StartPolicy};
 use rigid_ccd::Solver;
 
@@ -59,13 +59,13 @@ impl Question {
     pub(super) fn answer(
         &self,
         shapes: [&Ready; 2],
-        settings: &Settings,
+        options: &Options,
         solver: &mut Solver,
     ) -> Result<Option<ShapeCastHit>, CastError> {
         let Some(interval) = self.interval else {
             return Ok(None);
         };
-        let found = self.cast(interval, shapes, settings).answer(solver)?;
+        let found = self.cast(interval, shapes, options).answer(solver)?;
         Ok(found.as_ref().map(hit))
     }
 
@@ -74,26 +74,21 @@ impl Question {
     pub(super) fn recorded(
         &self,
         shapes: [&Ready; 2],
-        settings: &Settings,
+        options: &Options,
     ) -> Result<Recording, CastError> {
         let interval = self.interval.ok_or(CastError::NoTime)?;
-        let cast = self.cast(interval, shapes, settings);
+        let cast = self.cast(interval, shapes, options);
         cast.posed(|scene| Ok(Recording::of(scene)))
     }
 
-    fn cast<'a>(
-        &self,
-        interval: Interval,
-        shapes: [&'a Ready; 2],
-        settings: &Settings,
-    ) -> Cast<'a> {
+    fn cast<'a>(&self, interval: Interval, shapes: [&'a Ready; 2], options: &Options) -> Cast<'a> {
         Cast {
             operands: shapes.map(Ready::operand),
             motions: self.motions,
             interval,
             target: self.target,
             start: self.start,
-            settings: *settings,
+            options: *options,
             contact: CONTACT,
         }
     }

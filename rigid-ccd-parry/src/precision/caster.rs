@@ -8,7 +8,7 @@ use super::shapes::{body, half_space};
 #[cfg(feature = "record")]
 use crate::Recording;
 use crate::cast::Ready;
-use crate::{CastError, Prepared, Settings, ShapeError};
+use crate::{CastError, Options, Prepared, ShapeError};
 use rigid_ccd::Solver;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Default)]
 pub struct Caster {
-    settings: Settings,
+    options: Options,
     solver: Solver,
     shapes: HashMap<usize, (SharedShape, Ready)>,
     /// The number of bodies after the last look for those that nobody else holds.
@@ -46,9 +46,9 @@ pub struct Caster {
 
 impl Caster {
     /// Creates a caster.
-    pub fn new(settings: Settings) -> Self {
+    pub fn new(options: Options) -> Self {
         Caster {
-            settings,
+            options,
             ..Caster::default()
         }
     }
@@ -136,7 +136,7 @@ impl Caster {
         let times = [start_time, end_time];
         let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
         let [a, b] = self.both([g1, g2])?;
-        question.recorded([&a, &b], &self.settings)
+        question.recorded([&a, &b], &self.options)
     }
 
     /// Returns the body of a shape, for other questions, and to have it made ahead.
@@ -168,7 +168,7 @@ impl Caster {
         }
         let ready = match shape.as_typed_shape() {
             TypedShape::HalfSpace(plane) => Ready::HalfSpace(half_space(plane)?),
-            _ => Ready::Body(Arc::new(body(&**shape, &self.settings)?)),
+            _ => Ready::Body(Arc::new(body(&**shape, &self.options)?)),
         };
         if self.shapes.len() >= 2 * self.seen + FEW {
             self.forget_unused();
@@ -184,7 +184,7 @@ impl Caster {
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
         let [a, b] = self.both(shapes)?;
-        question.answer([&a, &b], &self.settings, &mut self.solver)
+        question.answer([&a, &b], &self.options, &mut self.solver)
     }
 
     fn both(&mut self, [g1, g2]: [&SharedShape; 2]) -> Result<[Ready; 2], CastError> {

@@ -7,7 +7,7 @@ use super::library::shape::{Shape, TypedShape};
 use super::shapes::{form, half_space};
 use crate::cast::Ready;
 use crate::shelf::Shelf;
-use crate::{CastError, Settings, ShapeError};
+use crate::{CastError, Options, ShapeError};
 use rigid_ccd::Solver;
 use std::cell::Cell;
 
@@ -131,11 +131,11 @@ thread_local! {
 }
 
 fn answer(question: &Question, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
-    let settings = Settings::default();
+    let options = Options::default();
     // A thread that ends keeps nothing any more.
     let kept = KEPT.try_with(Cell::take).ok().flatten();
     let mut kept = kept.unwrap_or_default();
-    let found = kept.answer(question, shapes, &settings);
+    let found = kept.answer(question, shapes, &options);
     let _ = KEPT.try_with(|place| place.set(Some(kept)));
     found
 }
@@ -145,20 +145,20 @@ impl Kept {
         &mut self,
         question: &Question,
         [g1, g2]: [&dyn Shape; 2],
-        settings: &Settings,
+        options: &Options,
     ) -> Result<Option<ShapeCastHit>, CastError> {
         let mut ready = |which, shape| {
             let named = |error| CastError::Shape { which, error };
-            self.ready(shape, settings).map_err(named)
+            self.ready(shape, options).map_err(named)
         };
         let (a, b) = (ready(1, g1)?, ready(2, g2)?);
-        question.answer([&a, &b], settings, &mut self.solver)
+        question.answer([&a, &b], options, &mut self.solver)
     }
 
-    fn ready(&mut self, shape: &dyn Shape, settings: &Settings) -> Result<Ready, ShapeError> {
+    fn ready(&mut self, shape: &dyn Shape, options: &Options) -> Result<Ready, ShapeError> {
         match shape.as_typed_shape() {
             TypedShape::HalfSpace(plane) => half_space(plane).map(Ready::HalfSpace),
-            _ => self.shelf.body(form(shape, settings)?).map(Ready::Body),
+            _ => self.shelf.body(form(shape, options)?).map(Ready::Body),
         }
     }
 }

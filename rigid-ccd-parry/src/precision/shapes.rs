@@ -11,7 +11,7 @@ use crate::half_space::HalfSpace;
 use crate::limits::{DEEPEST, FARTHEST_VOXEL};
 use crate::order::{greater, length};
 use crate::tolerance::GRID;
-use crate::{Meshes, Prepared, Settings, ShapeError};
+use crate::{Meshes, Options, Prepared, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{InputError, Round};
 
@@ -27,25 +27,25 @@ use ccd_core::{InputError, Round};
 #[doc = concat!("use ", parry!(), "::shape::{Cuboid, Cylinder};")]
 #[doc = concat!("use ", parry!(), "::math::Vector;")]
 #[doc = concat!("use rigid_ccd_parry::", precision!(), "::body;")]
-/// use rigid_ccd_parry::Settings;
-/// let block = body(&Cuboid::new(Vector::splat(0.5)), &Settings::default())?;
+/// use rigid_ccd_parry::Options;
+/// let block = body(&Cuboid::new(Vector::splat(0.5)), &Options::default())?;
 /// assert_eq!(block.excess(), 0.0);
-/// let wheel = body(&Cylinder::new(0.1, 0.5), &Settings::default())?;
+/// let wheel = body(&Cylinder::new(0.1, 0.5), &Options::default())?;
 /// assert!(wheel.excess() > 0.0 && wheel.excess() < 0.5 / 4000.0);
 /// # Ok::<(), rigid_ccd_parry::ShapeError>(())
 /// ```
-pub fn body(shape: &dyn Shape, settings: &Settings) -> Result<Prepared, ShapeError> {
-    Prepared::new(&form(shape, settings)?)
+pub fn body(shape: &dyn Shape, options: &Options) -> Result<Prepared, ShapeError> {
+    Prepared::new(&form(shape, options)?)
 }
 
 /// Returns the geometry of a shape.
-pub(super) fn form(shape: &dyn Shape, settings: &Settings) -> Result<Form, ShapeError> {
-    let form = nested(shape, settings, 0)?;
+pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeError> {
+    let form = nested(shape, options, 0)?;
     let TypedShape::TriMesh(mesh) = shape.as_typed_shape() else {
         return Ok(form);
     };
     let oriented = mesh.flags().contains(TriMeshFlags::ORIENTED);
-    if settings.meshes == Meshes::SolidIfOriented && oriented {
+    if options.meshes == Meshes::SolidIfOriented && oriented {
         form.filled()
     } else {
         Ok(form)
@@ -58,7 +58,7 @@ pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError
 }
 
 /// Returns the geometry of a shape that is that deep in others.
-fn nested(shape: &dyn Shape, settings: &Settings, depth: usize) -> Result<Form, ShapeError> {
+fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
     let mut form = Form::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
@@ -91,16 +91,16 @@ fn nested(shape: &dyn Shape, settings: &Settings, depth: usize) -> Result<Form, 
         TypedShape::Polyline(line) => push_polyline(&mut form, line),
         TypedShape::HeightField(field) => push_heights(&mut form, field),
         TypedShape::Voxels(voxels) => push_voxels(&mut form, voxels)?,
-        TypedShape::Compound(compound) => push_parts(&mut form, compound, settings, depth)?,
+        TypedShape::Compound(compound) => push_parts(&mut form, compound, options, depth)?,
         TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
         TypedShape::Custom(_) => return Err(ShapeError::Custom),
-        typed => return round(&typed, settings),
+        typed => return round(&typed, options),
     }
     Ok(form)
 }
 
 /// Returns the geometry of a cylinder or a cone.
-fn round(shape: &TypedShape<'_>, settings: &Settings) -> Result<Form, ShapeError> {
+fn round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
     type Made = fn(f64, f64) -> Result<Round, InputError>;
     let (made, half_height, radius, grown): (Made, _, _, _) = match shape {
         TypedShape::Cylinder(s) => (Round::cylinder, s.half_height, s.radius, 0.0),
@@ -119,7 +119,7 @@ fn round(shape: &TypedShape<'_>, settings: &Settings) -> Result<Form, ShapeError
     };
     let half_height = size("half height", half_height)?;
     let round = made(size("radius", radius)?, half_height).map_err(ShapeError::Body)?;
-    Ok(Form::of_round(round, border(grown)?, settings.excess))
+    Ok(Form::of_round(round, border(grown)?, options.excess))
 }
 
 fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
@@ -202,7 +202,7 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
 fn push_parts(
     form: &mut Form,
     compound: &Compound,
-    settings: &Settings,
+    options: &Options,
     depth: usize,
 ) -> Result<(), ShapeError> {
     if depth >= DEEPEST {
@@ -213,7 +213,7 @@ fn push_parts(
             part,
             error: Box::new(error),
         };
-        let inner = nested(&**shape, settings, depth + 1).map_err(named)?;
+        let inner = nested(&**shape, options, depth + 1).map_err(named)?;
         let at = pose(at).map_err(|error| named(ShapeError::Body(error)))?;
         form.push_placed(&at, &inner, part).map_err(named)?;
     }

@@ -2,7 +2,7 @@
 
 use crate::RecordError;
 use crate::f64::Caster;
-use ccd_core::{Config, StartPolicy};
+use ccd_core::{Settings, StartPolicy};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{NonlinearRigidMotion, ShapeCastHit};
 use parry3d_f64::shape::SharedShape;
@@ -37,22 +37,23 @@ fn answered(folder: &Path, command: &str) -> Option<f64> {
             .map(|k| words[k + 1])
     };
     let number = |name| option(name).and_then(|text| text.parse().ok()).expect(name);
-    let config = Config {
+    let config = Settings {
         tolerance: number("--tolerance"),
         margin: number("--margin"),
         start: match option("--start") {
             Some("leave") => StartPolicy::Leave,
             _ => StartPolicy::Report,
         },
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let [a, b] = ["a.ccd", "b.ccd"].map(|name| load(folder.join(name)).expect("a body"));
     let table = MotionTable::read(File::open(folder.join("motions.csv")).expect("a table"));
     let (_, query) = &table.expect("motions").rows[0];
-    let mut solver = Solver::new().with_config(config);
+    let mut solver = Solver::new().with_settings(config);
     let bodies = [(&a, query.a), (&b, query.b)];
     let hit = solver.first_contact(bodies[0], bodies[1], query.duration);
-    hit.expect("answered").map(|hit| hit.time)
+    let hit = hit.expect("answered").hit().expect("within the budget");
+    hit.map(|hit| hit.time)
 }
 
 fn shapes() -> Vec<SharedShape> {

@@ -3,7 +3,7 @@
 use crate::double::make;
 use crate::scenes::{Moves, Recipe, motions, number, random, shape, vector};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::{Body, Config, Motion, Pieces, Pose, Solver, Volume};
+use rigid_ccd::{Body, Motion, Pieces, Pose, Settings, Solver, Volume};
 use rigid_ccd_parry::f64::cast_shapes_nonlinear;
 
 fn wide(v: [f32; 3]) -> [f64; 3] {
@@ -55,13 +55,13 @@ fn casts_are_the_engines_answers() {
         ];
         let recipes = kinds.map(|kind| shape(&mut rng, kind));
         let moves = motions(&mut rng);
-        let config = Config {
+        let config = Settings {
             tolerance: 1e-9,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let [a, b] = [0, 1].map(|k| body(&recipes[k]));
         let [m, n] = [0, 1].map(|k| motion(&moves[k]));
-        let mut solver = Solver::new().with_config(config);
+        let mut solver = Solver::new().with_settings(config);
         let engine = solver
             .first_contact((&a, m), (&b, n), 2.0)
             .expect("resolved");
@@ -72,7 +72,10 @@ fn casts_are_the_engines_answers() {
         let shapes = [0, 1].map(|k| make::shape(&recipes[k]));
         let [p, q] = moves.map(|moves| make::motion(&moves));
         let hit = cast_shapes_nonlinear(&p, &*shapes[0], &q, &*shapes[1], 0.0, 2.0, true);
-        match (engine, hit.expect("served")) {
+        match (
+            engine.hit().expect("within the budget"),
+            hit.expect("served"),
+        ) {
             (Some(engine), Some(hit)) => {
                 hits += 1;
                 // At the rate of a tangential approach, too, tolerances of 1e-9 are passed in that time.

@@ -6,7 +6,7 @@ use ccd_core::order::greater;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Shape, SharedShape, TypedShape};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd_parry::{Prepared, Settings};
+use rigid_ccd_parry::{Options, Prepared};
 
 /// Returns how far a body reaches in a direction.
 fn reach(body: &Prepared, direction: DVec3) -> f64 {
@@ -79,7 +79,7 @@ fn bodies_hold_their_shapes_and_exceed_them_by_what_they_say() {
         for seed in 0..20 {
             let recipe = shape(&mut random(seed), kind);
             let theirs = double::make::shape(&recipe);
-            let ours = rigid_ccd_parry::f64::body(&*theirs, &Settings::default()).expect("served");
+            let ours = rigid_ccd_parry::f64::body(&*theirs, &Options::default()).expect("served");
             exact &= ours.excess() == 0.0;
             for direction in directions(seed) {
                 let v = Vector::new(direction.x, direction.y, direction.z);
@@ -110,11 +110,11 @@ fn single_precision_makes_the_same_bodies() {
     for kind in (0..KINDS).filter(|kind| ![7, 8, 10, 15].contains(kind)) {
         for seed in 0..20 {
             let recipe = shape(&mut random(seed), kind);
-            let settings = Settings::default();
+            let options = Options::default();
             let single = crate::single::make::shape(&recipe);
-            let single = rigid_ccd_parry::f32::body(&*single, &settings).expect("served");
+            let single = rigid_ccd_parry::f32::body(&*single, &options).expect("served");
             let double = double::make::shape(&recipe);
-            let double = rigid_ccd_parry::f64::body(&*double, &settings).expect("served");
+            let double = rigid_ccd_parry::f64::body(&*double, &options).expect("served");
             // parry keeps voxels in no order.
             let sorted = |body: &Prepared| {
                 let points = body.body().pieces().points().iter().map(|p| p.to_array());

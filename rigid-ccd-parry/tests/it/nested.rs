@@ -8,7 +8,7 @@ use parry3d::query::{
 };
 use parry3d::shape::{Ball, Compound, FeatureId, Shape, ShapeType, SharedShape, TypedShape};
 use rigid_ccd_parry::f32::{body, cast_shapes_nonlinear};
-use rigid_ccd_parry::{Settings, ShapeError};
+use rigid_ccd_parry::{Options, ShapeError};
 
 #[test]
 fn parts_of_compounds_may_nest_and_not_without_end() {
@@ -28,9 +28,9 @@ fn parts_of_compounds_may_nest_and_not_without_end() {
     // The ball is at −9 + 3.
     let found = hit.expect("served").expect("they meet").time_of_impact;
     assert!(found <= 4.0 && found > 3.99999, "{found}");
-    let settings = Settings::default();
-    assert!(body(&*nested(16), &settings).is_ok());
-    let mut error = body(&*nested(17), &settings).expect_err("refused");
+    let options = Options::default();
+    assert!(body(&*nested(16), &options).is_ok());
+    let mut error = body(&*nested(17), &options).expect_err("refused");
     while let ShapeError::Part { error: inner, .. } = error {
         error = *inner;
     }

@@ -4,7 +4,7 @@ use parry3d::math::{Pose, Vector};
 use parry3d::query::{NonlinearRigidMotion, ShapeCastOptions, ShapeCastStatus};
 use parry3d::shape::{Ball, Cuboid, SharedShape, TriMesh, TriMeshFlags};
 use rigid_ccd_parry::f32::{Caster, cast_shapes, cast_shapes_nonlinear, try_cast_shapes};
-use rigid_ccd_parry::{CastError, Excess, Meshes, Settings, ShapeError};
+use rigid_ccd_parry::{CastError, Excess, Meshes, Options, ShapeError};
 
 fn at(x: f32) -> Pose {
     Pose::translation(x, 0.0, 0.0)
@@ -174,9 +174,9 @@ fn a_limit_is_a_hit_at_a_time_that_is_safe() {
     let [rests, mut flies] = [slides(0.0, 0.0), slides(-3.0, 4.0)];
     flies.angvel = Vector::new(1.0, 7.0, 3.0);
     let cast = |budget| {
-        let mut caster = Caster::new(Settings {
+        let mut caster = Caster::new(Options {
             budget,
-            ..Settings::default()
+            ..Options::default()
         });
         let [a, b] = &shapes;
         let hit = caster.cast_shapes_nonlinear(&flies, a, &rests, b, 0.0, 1.0, true);
@@ -215,9 +215,9 @@ fn mesh(flags: TriMeshFlags, faces: usize) -> SharedShape {
 fn a_mesh_is_a_surface_unless_it_is_asked_to_be_a_solid() {
     let ball = SharedShape::ball(0.5);
     let inside = |meshes, flags| {
-        let mut caster = Caster::new(Settings {
+        let mut caster = Caster::new(Options {
             meshes,
-            ..Settings::default()
+            ..Options::default()
         });
         let flies = slides(0.0, 1.0);
         let hit = caster.cast_shapes_nonlinear(
@@ -248,9 +248,9 @@ fn a_mesh_is_a_surface_unless_it_is_asked_to_be_a_solid() {
         inside(Meshes::SolidIfOriented, oriented),
         Some((0.0, status))
     );
-    let mut caster = Caster::new(Settings {
+    let mut caster = Caster::new(Options {
         meshes: Meshes::SolidIfOriented,
-        ..Settings::default()
+        ..Options::default()
     });
     let open = caster.body(&mesh(oriented, 11));
     assert!(matches!(open, Err(ShapeError::Open { .. })), "{open:?}");
@@ -270,9 +270,9 @@ fn cylinders_are_early_by_no_more_than_is_asked_for() {
         Vector::ZERO,
     );
     let cast = |excess| {
-        let mut caster = Caster::new(Settings {
+        let mut caster = Caster::new(Options {
             excess,
-            ..Settings::default()
+            ..Options::default()
         });
         let hit = caster.cast_shapes_nonlinear(
             &flies,

@@ -205,14 +205,14 @@ fn bodies_that_turn_are_in_contact_where_they_overlap() {
 fn inside_a_mesh_that_is_a_solid_nothing_parts() {
     use crate::double::library::shape::{TriMesh, TriMeshFlags};
     use rigid_ccd_parry::f64::Caster;
-    use rigid_ccd_parry::{Meshes, Settings};
+    use rigid_ccd_parry::{Meshes, Options};
     let (vertices, indices) = Cuboid::new(Vector::splat(2.0)).to_trimesh();
     let mesh = TriMesh::with_flags(vertices, indices, TriMeshFlags::ORIENTED).expect("a mesh");
     let (mesh, ball) = (SharedShape::new(mesh), SharedShape::ball(0.5));
     let cast = |meshes, x: f64| {
-        let mut caster = Caster::new(Settings {
+        let mut caster = Caster::new(Options {
             meshes,
-            ..Settings::default()
+            ..Options::default()
         });
         let rests = (Pose::IDENTITY, Vector::ZERO);
         let hit = caster.cast_shapes(

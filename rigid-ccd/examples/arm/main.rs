@@ -12,7 +12,7 @@ mod scene;
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rigid_ccd::{Config, Error, Motion, Solver};
+use rigid_ccd::{Error, Motion, Settings, Solver};
 use scene::Scene;
 use std::io::Write;
 use std::path::Path;
@@ -31,13 +31,13 @@ fn edge_is_free(
     for (k, link) in scene.links.iter().enumerate() {
         let moves = scene.chain.link(k, from, to, 1.0)?;
         for (obstacle, stands) in &scene.obstacles {
-            if !solver.is_free_along((link, &moves), (obstacle, stands), 1.0)? {
+            if !solver.is_free((link, &moves), (obstacle, stands), 1.0)? {
                 return Ok(false);
             }
         }
         for &other in &scene.others[k] {
             let (seen, other) = (moves.seen_from(other)?, &scene.links[other]);
-            if !solver.is_free_along((link, &seen), (other, &Motion::STILL), 1.0)? {
+            if !solver.is_free((link, &seen), (other, &Motion::STILL), 1.0)? {
                 return Ok(false);
             }
         }
@@ -117,12 +117,12 @@ fn main() -> anyhow::Result<()> {
     let mut random = Pcg64::seed_from_u64(1);
     let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/arm/arm.urdf");
     let scene = Scene::load(&urdf, OBSTACLES, &mut random)?;
-    let config = Config {
+    let config = Settings {
         margin: CLEARANCE,
         tolerance: 1e-3,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let mut solver = Solver::new().with_config(config);
+    let mut solver = Solver::new().with_settings(config.clone());
     let edges = draw(&scene, &mut solver, &mut random, count)?;
     let mut out = std::io::stdout().lock();
 
@@ -142,11 +142,11 @@ fn main() -> anyhow::Result<()> {
 
     // Only steps can prove a proof wrong. They measure without a tolerance: with one, they would reject what keeps
     // the clearance barely.
-    let sharp = Config {
+    let sharp = Settings {
         tolerance: 1e-9,
         ..config
     };
-    solver.set_config(sharp);
+    solver.set_settings(sharp);
     let mut wrong = 0;
     let mut contact = vec![false; count];
     for (k, [from, to]) in edges.iter().enumerate() {

@@ -1,12 +1,6 @@
 //! Questions about two bodies, chosen at run time.
 
-use super::Bodies;
-use crate::Solver;
-use crate::table::courses::Course;
-use crate::table::motions::Query;
-use crate::table::paths::{Grouping, Path};
-use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval, GreatestDistance};
-use ccd_core::{Answer, Config, DistanceOracle, InputError, Limit, Outcome};
+use crate::table::paths::Grouping;
 use std::fmt;
 
 /// A question about the motions of two bodies.
@@ -92,123 +86,6 @@ impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
-}
-
-/// The answer to a question.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(
-    clippy::large_enum_variant,
-    reason = "one answer at a time: a box would cost more than the bytes"
-)]
-pub enum Found {
-    /// The first contact.
-    First(Outcome),
-    /// Any contact.
-    Any(AnyContact),
-    /// The first and the last contact.
-    Interval(ContactInterval),
-    /// A distance, or the least one.
-    Distance(ClosestApproach),
-    /// The greatest distance.
-    Greatest(GreatestDistance),
-}
-
-impl Found {
-    /// Returns the limit that ended the query.
-    pub fn limit(&self) -> Option<Limit> {
-        match *self {
-            Found::First(Outcome::Unresolved { reason, .. })
-            | Found::Any(AnyContact::Unresolved { reason, .. })
-            | Found::Interval(ContactInterval::Unresolved { reason, .. })
-            | Found::Distance(ClosestApproach::Unresolved { reason, .. })
-            | Found::Greatest(GreatestDistance::Unresolved { reason, .. }) => Some(reason),
-            _ => None,
-        }
-    }
-}
-
-/// A solver that answers every question.
-pub trait Questions {
-    /// Answers a question about two bodies.
-    ///
-    /// # Errors
-    /// The query is not valid.
-    fn ask(
-        &mut self,
-        question: Question,
-        bodies: Bodies<'_>,
-        course: &Course,
-        config: &Config,
-    ) -> Result<Answer<Found>, InputError>;
-}
-
-impl<O: DistanceOracle> Questions for Solver<O> {
-    fn ask(
-        &mut self,
-        question: Question,
-        bodies: Bodies<'_>,
-        course: &Course,
-        config: &Config,
-    ) -> Result<Answer<Found>, InputError> {
-        self.set_config(*config);
-        match course {
-            Course::Motions(query) => about_motions(self, question, bodies, query),
-            Course::Path(path) => about_path(self, question, bodies, path),
-        }
-    }
-}
-
-fn about_motions<O: DistanceOracle>(
-    solver: &mut Solver<O>,
-    question: Question,
-    bodies: Bodies<'_>,
-    query: &Query,
-) -> Result<Answer<Found>, InputError> {
-    let (a, b, end) = ((bodies.a, query.a), (bodies.b, query.b), query.duration);
-    Ok(match question {
-        Question::FirstContact => solver.answer(a, b, end)?.map(Found::First),
-        Question::IsFree => solver.any_contact(a, b, end)?.map(Found::Any),
-        Question::ContactInterval => {
-            let (a, b) = ((bodies.a, &query.a), (bodies.b, &query.b));
-            solver
-                .contact_interval_along(a, b, end)?
-                .map(Found::Interval)
-        }
-        Question::ClosestApproach => solver.closest_approach(a, b, end)?.map(Found::Distance),
-        Question::GreatestDistance => solver.greatest_distance(a, b, end)?.map(Found::Greatest),
-        Question::Distance => {
-            let (a, b) = ((a.0, query.a.start()), (b.0, query.b.start()));
-            solver.distance(a, b)?.map(Found::Distance)
-        }
-    })
-}
-
-fn about_path<O: DistanceOracle>(
-    solver: &mut Solver<O>,
-    question: Question,
-    bodies: Bodies<'_>,
-    path: &Path,
-) -> Result<Answer<Found>, InputError> {
-    let (a, b, end) = ((bodies.a, &path.a), (bodies.b, &path.b), path.duration);
-    Ok(match question {
-        Question::FirstContact => solver.answer_along(a, b, end)?.map(Found::First),
-        Question::IsFree => solver.any_contact_along(a, b, end)?.map(Found::Any),
-        Question::ContactInterval => solver
-            .contact_interval_along(a, b, end)?
-            .map(Found::Interval),
-        Question::ClosestApproach => solver
-            .closest_approach_along(a, b, end)?
-            .map(Found::Distance),
-        Question::GreatestDistance => solver
-            .greatest_distance_along(a, b, end)?
-            .map(Found::Greatest),
-        Question::Distance => {
-            let [a, b] = path.poses(0.0)?;
-            solver
-                .distance((bodies.a, a), (bodies.b, b))?
-                .map(Found::Distance)
-        }
-    })
 }
 
 #[cfg(all(test, feature = "command"))]

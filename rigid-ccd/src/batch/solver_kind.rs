@@ -1,9 +1,12 @@
 //! Schedules and distance backends chosen at run time.
 
-use super::Questions;
+use super::Question;
 use crate::Solver;
+use crate::parallel::CachePadded;
 use ccd_core::schedule::{Fast, Naive};
-use ccd_core::{Answer, Body, Bound, DistanceOracle, Instructions, OrElse, Problem, Schedule};
+use ccd_core::{
+    Answer, Body, Bound, DistanceOracle, InputError, Instructions, OrElse, Query, Schedule,
+};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
@@ -83,13 +86,13 @@ pub enum OracleKind {
 
 /// A solver of queries that reuses its memory.
 pub trait Solve: Send {
-    /// Solves a problem, as [`Schedule::solve`].
-    fn solve(&mut self, problem: &Problem<'_>) -> Answer;
-
-    /// Returns the solver as one that answers other questions; none if its schedule does not.
-    fn questions(&mut self) -> Option<&mut dyn Questions> {
-        None
-    }
+    /// Answers a question about two bodies; `None` if the schedule does not answer it. All of them find the first
+    /// contact.
+    fn answer(
+        &mut self,
+        question: Question,
+        query: &Query<'_>,
+    ) -> Option<Result<Answer, InputError>>;
 }
 
 impl SolverKind {
@@ -130,12 +133,12 @@ impl SolverKind {
         O::Cache: Send,
     {
         match self.schedule {
-            ScheduleKind::BestFirst => Box::new(OnLines(Solver::with_oracle(oracle))),
-            ScheduleKind::Fast => Box::new(OnLines(Pairing {
+            ScheduleKind::BestFirst => Box::new(CachePadded(Solver::with_oracle(oracle))),
+            ScheduleKind::Fast => Box::new(CachePadded(Pairing {
                 schedule: Fast::<O>::new(self.bound.into()),
                 oracle,
             })),
-            ScheduleKind::Naive => Box::new(OnLines(Pairing {
+            ScheduleKind::Naive => Box::new(CachePadded(Pairing {
                 schedule: Naive::<O>::new(self.bound.into()),
                 oracle,
             })),
@@ -143,21 +146,17 @@ impl SolverKind {
     }
 }
 
-/// Solvers of several threads are on cache lines of their own, as a [`crate::ParallelSolver`] has them.
-#[repr(align(128))]
-struct OnLines<S>(S);
-
-impl<O> Solve for OnLines<Solver<O>>
+impl<O> Solve for CachePadded<Solver<O>>
 where
     O: DistanceOracle + Send,
     O::Cache: Send,
 {
-    fn solve(&mut self, problem: &Problem<'_>) -> Answer {
-        self.0.solve(problem)
-    }
-
-    fn questions(&mut self) -> Option<&mut dyn Questions> {
-        Some(&mut self.0)
+    fn answer(
+        &mut self,
+        question: Question,
+        query: &Query<'_>,
+    ) -> Option<Result<Answer, InputError>> {
+        Some(self.0.answer(question, query))
     }
 }
 
@@ -166,14 +165,18 @@ struct Pairing<S, O> {
     oracle: O,
 }
 
-impl<O, S> Solve for OnLines<Pairing<S, O>>
+impl<O, S> Solve for CachePadded<Pairing<S, O>>
 where
     O: DistanceOracle + Send,
     S: Schedule<O> + Send,
 {
-    fn solve(&mut self, problem: &Problem<'_>) -> Answer {
+    fn answer(
+        &mut self,
+        question: Question,
+        query: &Query<'_>,
+    ) -> Option<Result<Answer, InputError>> {
         let Pairing { schedule, oracle } = &mut self.0;
-        schedule.solve(problem, oracle)
+        (question == Question::FirstContact).then(|| schedule.first_contact(query, oracle))
     }
 }
 

@@ -1,31 +1,31 @@
 //! Queries answered by a method that is chosen at run time, each with its time.
 
-use super::{Bodies, Found, Question, Solve, SolverKind, median};
+use super::{Bodies, Question, Solve, SolverKind, median};
 use crate::table::courses::Course;
-use crate::table::motions::{Query, RowProblem};
-use ccd_core::{Answer, Config, InputError, Moving, Problem};
+use crate::table::motions::RowProblem;
+use ccd_core::{Answer, Settings};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-/// The question, the method, the accuracy and the number of repetitions.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Settings {
+/// What is asked of each row, and how it is timed.
+#[derive(Clone, Debug)]
+pub(crate) struct Timing {
     /// The question that every row answers.
     pub(crate) question: Question,
     /// The schedule and the distance backend.
     pub(crate) method: SolverKind,
     /// The tolerance, the margin and the limits.
-    pub(crate) config: Config,
+    pub(crate) settings: Settings,
     /// The number of times that each query is answered; the time is the median.
     pub(crate) repeat: NonZeroUsize,
 }
 
-impl Default for Settings {
+impl Default for Timing {
     fn default() -> Self {
-        Settings {
+        Timing {
             question: Question::default(),
             method: SolverKind::default(),
-            config: Config::default(),
+            settings: Settings::DEFAULT,
             repeat: NonZeroUsize::MIN,
         }
     }
@@ -35,12 +35,12 @@ impl Default for Settings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Timed {
     /// The answer.
-    pub(crate) answer: Answer<Found>,
+    pub(crate) answer: Answer,
     /// The time to pose and solve the query, in microseconds.
     pub(crate) micros: f64,
 }
 
-/// Answers a query as often as the settings say.
+/// Answers a query as often as the timing says.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
 /// caches and memory, and each may take longer.
@@ -50,59 +50,19 @@ pub(crate) struct Timed {
 pub(crate) fn time(
     bodies: Bodies<'_>,
     course: &Course,
-    settings: &Settings,
+    timing: &Timing,
     solver: &mut dyn Solve,
 ) -> Result<Timed, RowProblem> {
-    let mut micros = Vec::with_capacity(settings.repeat.get());
+    let mut micros = Vec::with_capacity(timing.repeat.get());
     loop {
         let start = Instant::now();
-        let answer = answer(bodies, course, settings, solver)?;
+        let query = course.query(timing.question, bodies, &timing.settings)?;
+        let answer = solver.answer(timing.question, &query);
+        let answer = answer.ok_or(RowProblem::NeedsBestFirst)??;
         micros.push(start.elapsed().as_secs_f64() * 1e6);
-        if micros.len() == settings.repeat.get() {
+        if micros.len() == timing.repeat.get() {
             let micros = median(&mut micros);
             return Ok(Timed { answer, micros });
         }
     }
-}
-
-fn answer(
-    bodies: Bodies<'_>,
-    course: &Course,
-    settings: &Settings,
-    solver: &mut dyn Solve,
-) -> Result<Answer<Found>, RowProblem> {
-    let Settings {
-        question, config, ..
-    } = settings;
-    match (question, course) {
-        (Question::FirstContact, Course::Motions(query)) => {
-            Ok(solve(bodies, query, config, solver)?.map(Found::First))
-        }
-        _ => match solver.questions() {
-            Some(solver) => Ok(solver.ask(*question, bodies, course, config)?),
-            None => Err(RowProblem::NeedsBestFirst),
-        },
-    }
-}
-
-/// Poses and answers one query.
-///
-/// # Errors
-/// The errors of [`Problem::new`].
-pub fn solve(
-    bodies: Bodies<'_>,
-    query: &Query,
-    config: &Config,
-    solver: &mut dyn Solve,
-) -> Result<Answer, InputError> {
-    let a = Moving {
-        body: bodies.a,
-        motion: query.a,
-    };
-    let b = Moving {
-        body: bodies.b,
-        motion: query.b,
-    };
-    let problem = Problem::new(a, b, query.duration, config)?;
-    Ok(solver.solve(&problem))
 }

@@ -10,13 +10,13 @@ use super::table::Table;
 use super::view::{answered, title};
 use super::{Exit, complain, complain_of};
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Question, Settings, Solve, SolverKind, on_threads};
+use crate::batch::{BatchSize, Bodies, Question, Solve, SolverKind, Timing, on_threads};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
 use crate::table::courses::CourseRow;
 use crate::table::motions::TableError;
 use crate::table::results::{self, Extent, ResultRow, Status};
 use anyhow::{Context, Result};
-use ccd_core::Config;
+use ccd_core::Settings;
 use ccd_core::limits::DEFAULT_BUDGET;
 use ccd_file::check_folder;
 use clap::Args;
@@ -99,15 +99,15 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     })?;
     let mut columns = results::columns(Extent::default());
     columns.extend(args.pages.as_ref().map(|_| PAGE));
-    let settings = settings(args);
+    let timing = timing(args);
     let solver = on_threads(args.threads, || {
-        settings.method.solver(settings.config.instructions)
+        timing.method.solver(timing.settings.instructions)
     });
     let mut audit = Audit {
         args,
         bodies: pair.bodies(),
         batch: BatchSize::new(solver.threads()),
-        settings,
+        timing,
         solver,
         out: Table::start(out, &columns)?,
         pages: pages(args, &pair)?,
@@ -131,16 +131,16 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     Ok(exit)
 }
 
-fn settings(args: &AuditArgs) -> Settings {
-    Settings {
-        config: Config {
+fn timing(args: &AuditArgs) -> Timing {
+    Timing {
+        settings: Settings {
             tolerance: args.tolerance,
             margin: args.margin,
             budget: args.budget,
             deadline: args.deadline,
-            ..Config::default()
+            ..Settings::DEFAULT
         },
-        ..Settings::default()
+        ..Timing::default()
     }
 }
 
@@ -170,7 +170,7 @@ fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, Can
 struct Audit<'a> {
     args: &'a AuditArgs,
     bodies: Bodies<'a>,
-    settings: Settings,
+    timing: Timing,
     solver: ParallelSolver<Box<dyn Solve>>,
     batch: BatchSize,
     out: Table,
@@ -192,11 +192,11 @@ impl Audit<'_> {
                 return Ok(());
             }
             self.progress.answering(batch.len(), rows.bytes());
-            let (bodies, settings, progress) = (self.bodies, &self.settings, &self.progress);
+            let (bodies, timing, progress) = (self.bodies, &self.timing, &self.progress);
             let start = Instant::now();
             let answers = self.solver.map(&batch, |solver, row| {
                 let answer = match row {
-                    Ok((_, course)) => answered(bodies, course, settings, solver.as_mut()),
+                    Ok((_, course)) => answered(bodies, course, timing, solver.as_mut()),
                     Err(error) => ResultRow::error(&error.id, &error.problem),
                 };
                 progress.step();

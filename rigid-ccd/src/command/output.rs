@@ -39,7 +39,7 @@ impl Output {
             if is_standard_output(path) {
                 return Ok(Output::Stream(path.to_owned()));
             }
-            Ok(match Destination::of(path)? {
+            Ok(match Destination::resolve(path)? {
                 Destination::File(target) => Output::File(Claim::new(target)?, path.to_owned()),
                 Destination::Stream => Output::Stream(path.to_owned()),
             })

@@ -16,16 +16,14 @@ use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{Chosen, Drawn, title, write_rows};
 use super::{Exit, complain, complain_of};
-use crate::batch::{
-    BatchSize, BoundKind, Question, ScheduleKind, Settings, SolverKind, on_threads,
-};
+use crate::batch::{BatchSize, BoundKind, Question, ScheduleKind, SolverKind, Timing, on_threads};
 use crate::command::pair::{Loading, Pair};
 use crate::command::progress::{Progress, Total};
 use crate::picture::{Asked, Claim};
 use crate::table::results::Status;
 use answering::Answering;
 use anyhow::{Result, bail};
-use ccd_core::{Config, StartPolicy};
+use ccd_core::{Settings, StartPolicy};
 use journal::{CONTENT, Checkpoint, Recorded};
 use outputs::{Opened, Places};
 use std::io::{self, Write};
@@ -57,17 +55,17 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     }
     let start = resume::skip_rows(args, &mut rows, earlier)?;
     outputs.save(start)?;
-    let settings = settings(args);
-    if settings.method.bound == BoundKind::Published {
+    let timing = timing(args);
+    if timing.method.bound == BoundKind::Published {
         complain("--bound published: times are not certified, contacts may be late or missed");
     }
     let solver = on_threads(args.threads, || {
-        settings.method.solver(settings.config.instructions)
+        timing.method.solver(timing.settings.instructions)
     });
     let mut answering = Answering {
         args,
         bodies: pair.bodies(),
-        settings,
+        timing,
         batch: BatchSize::new(solver.threads()),
         solver,
         outputs,
@@ -259,11 +257,11 @@ fn method(args: &QueryArgs) -> SolverKind {
     }
 }
 
-fn settings(args: &QueryArgs) -> Settings {
-    Settings {
+fn timing(args: &QueryArgs) -> Timing {
+    Timing {
         question: args.ask,
         method: method(args),
-        config: Config {
+        settings: Settings {
             tolerance: args.tolerance,
             margin: args.margin,
             clearance: args.clearance,
@@ -271,6 +269,7 @@ fn settings(args: &QueryArgs) -> Settings {
             budget: args.budget,
             deadline: args.deadline,
             instructions: args.instructions.into(),
+            stop: None,
         },
         repeat: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
     }

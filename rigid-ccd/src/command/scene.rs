@@ -10,9 +10,9 @@ use super::table::Table;
 use super::{Exit, complain};
 use crate::picture::scene_verdict;
 use crate::table::results::Status;
-use crate::{Error, Hit, HitKind, Impact, PairError};
+use crate::{Error, Hit, Impact, PairError};
 use anyhow::Result;
-use ccd_core::Config;
+use ccd_core::Settings;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use clap::Args;
 use serde::Serialize;
@@ -123,13 +123,13 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let out = Output::claim_table(&args.out)?;
-    let config = Config {
+    let settings = Settings {
         tolerance: args.tolerance,
         margin: args.margin,
         budget: args.budget,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let contacts = table.contacts(config);
+    let contacts = table.contacts(settings);
     if !args.quiet {
         complain(&scene_verdict(&table.shown(), &contacts, table.duration));
     }
@@ -153,8 +153,9 @@ impl<'a> Row<'a> {
             Ok(Impact { bodies, hit }) => Row::touching(bodies.map(|k| ids[k]), hit),
             Err(PairError { bodies, error }) => {
                 let (status, time, reason) = match error {
-                    Error::Unresolved { safe_until, reason } => {
-                        (Status::Unresolved, Some(*safe_until), reason.to_string())
+                    Error::Unresolved(known) => {
+                        let (until, limit) = (known.safe_until, known.limit);
+                        (Status::Unresolved, Some(until), limit.to_string())
                     }
                     error => (Status::Error, None, error.to_string()),
                 };
@@ -168,19 +169,16 @@ impl<'a> Row<'a> {
     }
 
     fn touching(ids: [&'a str; 2], hit: &Hit) -> Self {
-        let status = match hit.kind {
-            HitKind::Contact => Status::Contact,
-            HitKind::Touching => Status::Touching,
-            HitKind::Overlapping(_) => Status::Overlapping,
-        };
-        let ([ax, ay, az], [bx, by, bz]) = (hit.witness_a.to_array(), hit.witness_b.to_array());
+        let status = Status::from(&hit.kind);
+        let [[ax, ay, az], [bx, by, bz]] =
+            [hit.witness_a(), hit.witness_b()].map(|witness| witness.to_array());
         let row = Row {
             time: Some(hit.time),
             witnesses: [ax, ay, az, bx, by, bz].map(Some),
             ..Row::empty(ids, status)
         };
         // Without pieces that intersect, one body is inside the other.
-        let Some(contact) = &hit.contact else {
+        let Some(contact) = hit.contact() else {
             return row;
         };
         let separation = &contact.separation;

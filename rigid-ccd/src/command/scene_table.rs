@@ -9,7 +9,7 @@ use crate::text::Number;
 use crate::{Impact, PairError, Remark, Scene};
 use anyhow::{Context, Result, bail};
 use ccd_core::order::lesser;
-use ccd_core::{Body, Config, Motion};
+use ccd_core::{Body, Motion, Settings};
 use ccd_decomp::BodySource;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -246,8 +246,8 @@ impl SceneTable {
     }
 
     /// Finds the first contact of each pair of bodies that touch, in order of time.
-    pub(super) fn contacts(&self, config: Config) -> Vec<Result<Impact, PairError>> {
-        let mut scene = Scene::new().with_config(config);
+    pub(super) fn contacts(&self, settings: Settings) -> Vec<Result<Impact, PairError>> {
+        let mut scene = Scene::new().with_settings(settings);
         for body in self.shown() {
             scene.add(body.body, body.motion);
         }

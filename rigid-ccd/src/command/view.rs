@@ -12,12 +12,12 @@ use super::output::Output;
 use super::pair::{BodiesArgs, Loading, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{Exit, complain, complain_of};
-use crate::batch::{Bodies, Question, Settings, Solve, SolverKind, time};
+use crate::batch::{Bodies, Question, Solve, SolverKind, Timing, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
 use crate::table::results::{self, Compared, ResultRow};
 use anyhow::{Context, Result, bail};
-use ccd_core::{Config, Instructions};
+use ccd_core::{Instructions, Settings};
 use ccd_view::{Group, Page};
 use std::collections::{HashMap, VecDeque};
 use std::fs::File;
@@ -55,7 +55,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     })?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = Chosen::new(args.ids.clone());
-    let settings = settings(args);
+    let timing = timing(args);
     let asked = Asked {
         claim: match known {
             Some(_) => Claim::Told,
@@ -64,7 +64,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         margin: args.margin,
         clearance: None,
     };
-    let mut solver = settings.method.solver(Instructions::Best);
+    let mut solver = timing.method.solver(Instructions::Best);
     for row in rows.by_ref().take(LOOKED_AT) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
@@ -78,7 +78,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         }
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
-            None => Some(answered(pair.bodies(), &course, &settings, solver.as_mut())),
+            None => Some(answered(pair.bodies(), &course, &timing, solver.as_mut())),
         };
         if let Some(row) = row {
             chosen.offer(&course, &row);
@@ -137,11 +137,16 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
 pub(super) fn answered(
     bodies: Bodies<'_>,
     course: &Course,
-    settings: &Settings,
+    timing: &Timing,
     solver: &mut dyn Solve,
 ) -> ResultRow {
-    match time(bodies, course, settings, solver) {
-        Ok(timed) => ResultRow::new(course, &timed.answer, timed.micros, Compared::default()),
+    match time(bodies, course, timing, solver) {
+        Ok(timed) => ResultRow::new(
+            course,
+            (timing.question, &timed.answer),
+            timed.micros,
+            Compared::default(),
+        ),
         Err(problem) => ResultRow::error(course.id(), &problem),
     }
 }
@@ -202,14 +207,14 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     Ok(known)
 }
 
-fn settings(args: &ViewArgs) -> Settings {
-    Settings {
+fn timing(args: &ViewArgs) -> Timing {
+    Timing {
         question: Question::FirstContact,
         method: SolverKind::default(),
-        config: Config {
+        settings: Settings {
             tolerance: args.tolerance,
             margin: args.margin,
-            ..Config::default()
+            ..Settings::DEFAULT
         },
         repeat: NonZeroUsize::MIN,
     }
@@ -226,7 +231,7 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     }
     let out = Output::claim(&args.out)?;
     let shown = table.shown();
-    let contacts = table.contacts(settings(args).config);
+    let contacts = table.contacts(timing(args).settings);
     let title = input_name(path);
     let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
     if !args.quiet {

@@ -1,5 +1,6 @@
 use super::*;
-use ccd_core::{Body, Config, InputError, Motion, Pose};
+use ccd_core::Outcome;
+use ccd_core::{Body, InputError, Motion, Pose, Settings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::AtomicBool;
 
@@ -18,7 +19,7 @@ fn flies(k: u32) -> Motion {
 }
 
 /// What identifies an answer to the last bit.
-fn bits(found: &[Result<Option<Hit>, QueryError>]) -> Vec<String> {
+fn bits(found: &[Result<Answer, QueryError>]) -> Vec<String> {
     found.iter().map(|found| format!("{found:?}")).collect()
 }
 
@@ -41,7 +42,10 @@ fn answers_are_the_same_bits_in_order_on_any_number_of_threads() {
         .iter()
         .map(|&(a, b, duration)| Ok(one.first_contact(a, b, duration).unwrap()))
         .collect();
-    let hits = alone.iter().flatten().flatten().count();
+    let hits = alone.iter().flatten();
+    let hits = hits
+        .filter(|answer| answer.hit().unwrap().is_some())
+        .count();
     assert!((50..150).contains(&hits), "{hits} of 200 hit");
     assert_eq!(bits(&first_contacts(&queries)), bits(&alone));
     for threads in [1, 2, 5] {
@@ -84,7 +88,11 @@ fn no_queries_and_more_threads_than_queries() {
         assert!(solver(threads).first_contacts(&queries[..0]).is_empty());
         let few = solver(threads).first_contacts(&queries);
         assert_eq!(few.len(), 2);
-        assert!(matches!(few[..], [Ok(Some(_)), Ok(None)]), "{few:?}");
+        let hits = few
+            .iter()
+            .flatten()
+            .map(|answer| answer.hit().unwrap().is_some());
+        assert_eq!(hits.collect::<Vec<_>>(), [true, false], "{few:?}");
     }
 }
 
@@ -99,11 +107,11 @@ fn an_error_has_the_index_of_its_query() {
         let found = solver(threads).first_contacts(&queries);
         for (index, found) in found.iter().enumerate() {
             match found {
-                Ok(hit) => assert!(hit.is_some() && index != 7 && index != 31),
+                Ok(answer) => assert!(answer.hit().unwrap().is_some() && index != 7 && index != 31),
                 Err(error) => {
                     assert_eq!(error.query, index);
                     assert!([7, 31].contains(&index));
-                    let input = matches!(error.error, Error::Input(InputError::OutOfRange { .. }));
+                    let input = matches!(error.error, InputError::OutOfRange { .. });
                     assert!(input || index == 31, "{error}");
                     assert!(error.to_string().starts_with(&format!("query {index}: ")));
                 }
@@ -117,15 +125,15 @@ fn an_error_has_the_index_of_its_query() {
 #[test]
 fn limits_are_those_of_each_solver() {
     let (capsule, cuboid) = (capsule(), Body::cuboid([0.5, 0.4, 0.3]).unwrap());
-    let config = Config {
+    let config = Settings {
         budget: 1,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let mut solver = ParallelSolver::new(|| Solver::new().with_config(config));
+    let mut solver = ParallelSolver::new(|| Solver::new().with_settings(config.clone()));
     let query = ((&capsule, flies(130)), (&cuboid, Motion::STILL), 1.0);
     for found in solver.first_contacts(&[query; 3]) {
-        let error = found.unwrap_err().error;
-        assert!(matches!(error, Error::Unresolved { .. }), "{error}");
+        let outcome = found.unwrap().outcome;
+        assert!(matches!(outcome, Outcome::Unresolved(_)), "{outcome:?}");
     }
 }
 

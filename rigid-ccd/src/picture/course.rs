@@ -2,15 +2,17 @@
 
 use crate::table::courses::Course;
 use ccd_core::{InputError, Trajectory};
-use ccd_view::{Course as Shown, Key};
+use ccd_view::{Key, ShownMotion};
 
 /// Returns the motions of both bodies.
 ///
 /// # Errors
 /// If a path has no pose at one of its times.
-pub fn course(course: &Course) -> Result<[Shown; 2], InputError> {
+pub fn course(course: &Course) -> Result<[ShownMotion; 2], InputError> {
     let path = match course {
-        Course::Motions(query) => return Ok([Shown::from(&query.a), Shown::from(&query.b)]),
+        Course::Motions(query) => {
+            return Ok([ShownMotion::from(&query.a), ShownMotion::from(&query.b)]);
+        }
         Course::Path(path) => path,
     };
     let [a, b] = [&path.a, &path.b].map(|poses| {
@@ -19,7 +21,7 @@ pub fn course(course: &Course) -> Result<[Shown; 2], InputError> {
             let pose = poses.pose(time)?;
             Ok(Key::new(time, &pose, pose.transform_point(centre), turn?))
         });
-        Ok(Shown::Keys {
+        Ok(ShownMotion::Keys {
             centre: centre.to_array(),
             keys: keys.collect::<Result<_, InputError>>()?,
         })

@@ -4,8 +4,7 @@ use crate::Solver;
 use crate::batch::Bodies;
 use crate::table::courses::Course;
 use ccd_core::order::{greater, lesser};
-use ccd_core::schedule::ClosestApproach;
-use ccd_core::{Body, Config, InputError, Stretch, Trajectory};
+use ccd_core::{Body, InputError, Settings, Stretch, Trajectory};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
@@ -84,9 +83,9 @@ pub fn gap(
         Reached::Nothing => 0.0,
         Reached::Throughout(gap) => greater(gap, 0.0),
     };
-    solver.set_config(Config {
+    solver.set_settings(Settings {
         budget: BUDGET,
-        ..Config::default()
+        ..Settings::DEFAULT
     });
     let mut survey = Survey {
         solver,
@@ -180,10 +179,7 @@ impl Survey<'_> {
         let [a, b] = self.course.poses(time)?;
         let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
         let closest = &answer.outcome;
-        let (lower, upper) = match closest {
-            ClosestApproach::Overlapping { upper, .. } => (0.0, *upper),
-            _ => (greater(closest.lower(), 0.0), closest.upper()),
-        };
+        let (lower, upper) = (greater(closest.lower(), 0.0), closest.upper());
         let upper = if upper.is_finite() { upper } else { lower };
         Ok(GapPoint { time, lower, upper })
     }

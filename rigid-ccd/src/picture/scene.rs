@@ -61,7 +61,7 @@ pub(crate) fn scene_view(
         contacts: hits.iter().map(|impact| contact(bodies, impact)).collect(),
         time: hits.first().map_or(0.0, |impact| impact.hit.time),
         origin: origin.to_array(),
-        ..View::of(name, &scene_verdict(bodies, contacts, duration), duration)
+        ..View::new(name, &scene_verdict(bodies, contacts, duration), duration)
     };
     (meshes, view)
 }
@@ -135,23 +135,23 @@ fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
     ShownContact {
         time: hit.time,
         words: match hit.kind {
-            HitKind::Contact => format!("{}: {} and {}", number(hit.time), a.name, b.name),
-            HitKind::Touching => format!("at the start: {} and {}", a.name, b.name),
+            HitKind::Contact(_) => format!("{}: {} and {}", number(hit.time), a.name, b.name),
+            HitKind::Touching(_) => format!("at the start: {} and {}", a.name, b.name),
             HitKind::Overlapping(_) => {
                 format!("overlapping at the start: {} and {}", a.name, b.name)
             }
         },
         lit_a: at(
             a,
-            hit.contact.map(|contact| contact.feature_a),
-            hit.witness_a,
+            hit.contact().map(|contact| contact.feature_a),
+            hit.witness_a(),
         ),
         lit_b: at(
             b,
-            hit.contact.map(|contact| contact.feature_b),
-            hit.witness_b,
+            hit.contact().map(|contact| contact.feature_b),
+            hit.witness_b(),
         ),
-        witnesses: Some([hit.witness_a, hit.witness_b]),
-        normal: hit.contact.map(|contact| contact.separation.normal),
+        witnesses: Some([hit.witness_a(), hit.witness_b()]),
+        normal: hit.contact().map(|contact| contact.separation.normal),
     }
 }

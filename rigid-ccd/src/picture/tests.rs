@@ -2,9 +2,9 @@ use super::*;
 use crate::table::motions::Query;
 use crate::table::paths::Path;
 use crate::trajectory::Poses;
+use ccd_core::Outcome;
 use ccd_core::glam::DQuat;
-use ccd_core::schedule::ClosestApproach;
-use ccd_core::{Config, Motion};
+use ccd_core::{Motion, Settings};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -89,13 +89,13 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
         );
         let end = course.duration();
         assert_eq!((line[0][0], line[line.len() - 1][0]), (0.0, end));
-        solver.set_config(Config::default());
+        solver.set_settings(Settings::DEFAULT);
         for _ in 0..60 {
             let time = random.random_range(0.0..end);
             let [pose_a, pose_b] = course.poses(time).unwrap();
             let answer = solver.distance((a, pose_a), (b, pose_b)).unwrap().outcome;
             let upper = match answer {
-                ClosestApproach::Overlapping { upper, .. } => upper,
+                Outcome::Overlapping { upper, .. } => upper,
                 ref nearest => nearest.upper(),
             };
             let proven = at(line, time);
@@ -123,12 +123,12 @@ fn nothing_touches_before_the_last_step() {
         let [a, b] = [k % 4, (k / 4) % 4].map(|k| &bodies[k]);
         let course = Course::Motions(query.clone());
         let found = gap(&mut solver, Bodies { a, b }, &course, Reached::Nothing).unwrap();
-        solver.set_config(Config::default());
+        solver.set_settings(Settings::DEFAULT);
         let hit = solver
             .first_contact((a, query.a), (b, query.b), query.duration)
             .unwrap();
         let last = found.steps[found.steps.len() - 1];
-        if let Some(hit) = hit {
+        if let Some(hit) = hit.hit().unwrap() {
             contacts += 1;
             // The contact is up to the tolerance early.
             assert!(last <= hit.time + 1e-2, "{k}: {last} {}", hit.time);

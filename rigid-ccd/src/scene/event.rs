@@ -1,8 +1,8 @@
 //! What happens to two bodies of a scene.
 
-use crate::{Error, Hit, HitKind};
+use crate::Error;
 use ccd_core::order::greater;
-use ccd_core::{Answer, InputError, Limit, Outcome};
+use ccd_core::{Answer, Hit, HitKind, InputError, Limit, Unresolved};
 use std::cmp::Ordering;
 
 /// The first contact of two bodies of a scene.
@@ -38,21 +38,16 @@ pub(super) struct Event {
 #[derive(Clone, Debug)]
 enum What {
     Hit(Hit),
-    Unresolved(Limit),
+    Unresolved(Unresolved),
     Refused(InputError),
 }
 
 impl Event {
-    /// Returns none for bodies that stay apart.
+    /// Returns `None` for bodies that stay apart.
     pub(super) fn answered(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
-        let (time, what) = match Hit::from_outcome(&answer.outcome) {
-            Some(hit) => (hit.time, What::Hit(hit)),
-            None => match answer.outcome {
-                Outcome::Unresolved { safe_until, reason } => {
-                    (safe_until, What::Unresolved(reason))
-                }
-                _ => return None,
-            },
+        let (time, what) = match answer.hit() {
+            Ok(hit) => hit.map(|hit| (hit.time, What::Hit(hit)))?,
+            Err(known) => (known.safe_until, What::Unresolved(known)),
         };
         Some(Event {
             // Bits of times are compared, and those of a negative zero are no time.
@@ -75,7 +70,7 @@ impl Event {
         Event {
             time: 0.0,
             bodies,
-            what: What::Unresolved(Limit::Undecided),
+            what: What::Unresolved(Unresolved::until(0.0, Limit::Undecided)),
         }
     }
 
@@ -110,7 +105,7 @@ impl Event {
     /// Returns whether the bodies are in contact, and not certainly as far apart as that.
     pub(super) fn is_nearer_than(&self, distance: f64) -> bool {
         let contact = match &self.what {
-            What::Hit(hit) => hit.contact.as_ref(),
+            What::Hit(hit) => hit.contact(),
             What::Unresolved(_) | What::Refused(_) => None,
         };
         // Written so that NaN is nearer.
@@ -137,10 +132,10 @@ impl Event {
         let error = match &self.what {
             What::Hit(hit) => return Ok(Impact { bodies, hit: *hit }),
             What::Refused(error) => error.clone().into(),
-            &What::Unresolved(reason) => Error::Unresolved {
+            What::Unresolved(known) => Error::Unresolved(Unresolved {
                 safe_until: self.time,
-                reason,
-            },
+                ..*known
+            }),
         };
         Err(PairError { bodies, error })
     }

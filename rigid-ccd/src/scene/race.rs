@@ -4,7 +4,7 @@ use super::event::Event;
 use super::goal::Goal;
 use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::{BestFirst, FirstContact, Progress};
-use ccd_core::{InputError, Problem};
+use ccd_core::{InputError, Query};
 use ccd_distance_gjk::Direct;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -19,7 +19,7 @@ const MOST_SPARE: usize = 1024;
 
 /// Some pairs of bodies, and those of them that wait for their turn.
 pub(super) struct Race<'r, 'a> {
-    problem: &'r (dyn Fn([usize; 2]) -> Result<Problem<'a>, InputError> + Sync),
+    query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
     duration: f64,
     goal: &'r Goal,
     waiting: Mutex<BinaryHeap<Reverse<Runner<'a>>>>,
@@ -36,7 +36,7 @@ struct Runner<'a> {
 impl<'r, 'a> Race<'r, 'a> {
     pub(super) fn new(
         pairs: &[[usize; 2]],
-        problem: &'r (dyn Fn([usize; 2]) -> Result<Problem<'a>, InputError> + Sync),
+        query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
         duration: f64,
         goal: &'r Goal,
     ) -> Self {
@@ -48,7 +48,7 @@ impl<'r, 'a> Race<'r, 'a> {
             })
         };
         Race {
-            problem,
+            query,
             duration,
             goal,
             waiting: Mutex::new(pairs.iter().map(runner).collect()),
@@ -101,9 +101,9 @@ impl Worker {
             }
             let mut search = match search {
                 Some(search) => search,
-                None => match (race.problem)(pair) {
-                    Ok(problem) => Box::new(FirstContact::new(
-                        problem,
+                None => match (race.query)(pair) {
+                    Ok(query) => Box::new(FirstContact::new(
+                        query,
                         self.spare.pop().unwrap_or_default(),
                     )),
                     Err(error) => {
@@ -114,12 +114,17 @@ impl Worker {
                 },
             };
             match search.advance(&mut self.oracle, race.until(time, others, limit)) {
-                Progress::ApartUntil(time) => race.put_back(Runner {
+                Err(error) => {
+                    self.keep(Some(search));
+                    race.goal.record(pair, 0.0);
+                    events.push(Event::refused(pair, error));
+                }
+                Ok(Progress::ApartUntil(time)) => race.put_back(Runner {
                     time,
                     pair,
                     search: Some(search),
                 }),
-                Progress::Answered(answer) => {
+                Ok(Progress::Answered(answer)) => {
                     self.keep(Some(search));
                     if let Some(event) = Event::answered(pair, &answer) {
                         race.goal.record(pair, event.time);

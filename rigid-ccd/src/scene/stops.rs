@@ -1,9 +1,10 @@
 //! Bodies that stop where they touch, each at its own time.
 
+use super::clock::Clock;
 use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::ordered;
-use super::settings::Clock;
+use super::rest::Rest;
 use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
@@ -11,7 +12,9 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::tolerance::STRETCH_F64;
 use ccd_core::vector::length;
-use ccd_core::{Answer, Config, InputError, Motion, Moving, StartPolicy};
+use ccd_core::{
+    Answer, Body, InputError, Motion, Movement, Query, Settings, StartPolicy, Trajectory,
+};
 use ccd_distance_gjk::Direct;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -48,7 +51,7 @@ impl Stop {
     /// ```
     pub fn normal(&self) -> Option<DVec3> {
         let Impact { bodies, hit } = self.contact?;
-        let normal = hit.contact?.separation.normal;
+        let normal = hit.contact()?.separation.normal;
         // That of a hit is from the lower index to the higher one.
         if self.by == Some(bodies[0]) {
             Some(-normal)
@@ -90,25 +93,25 @@ impl Scene<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
-        let given = self.settings.config;
-        self.settings.config = keeping_half(&given);
-        let clock = self.settings.clock(duration);
+        let given = self.settings.clone();
+        self.settings = keeping_half(&given);
+        let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
         let events = self.race(&pairs, &clock, &Goal::All);
         let stops = Stopping::new(self, &pairs, clock).run(events);
-        self.settings.config = given;
+        self.settings = given;
         stops
     }
 }
 
 /// Makes half of the tolerance a distance to keep: step by step, what rests comes no nearer.
-fn keeping_half(given: &Config) -> Config {
+fn keeping_half(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
-    Config {
+    Settings {
         margin: lesser(given.margin + half, MAX_COORDINATE),
         tolerance: greater(half, LEAST_TOLERANCE),
         start: StartPolicy::Leave,
-        ..*given
+        ..given.clone()
     }
 }
 
@@ -215,7 +218,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
     /// Returns what comes to bodies that were asked from a time on. Bodies that rest on each other, and are nearer
     /// than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
     fn coming(&self, event: Event, from: f64) -> Coming {
-        let kept = self.scene.settings.config.margin;
+        let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
             event.at_once()
         } else {
@@ -228,31 +231,34 @@ impl<'s, 'a> Stopping<'s, 'a> {
     }
 
     fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
-        let pair = [
-            self.going_on(time, bodies[0])?,
-            self.going_on(time, bodies[1])?,
-        ];
-        let rest = Clock {
-            duration: self.clock.duration - time,
-            ..self.clock
+        let rests = bodies.map(|index| Rest {
+            of: self.scene.members[index].movement,
+            from: time,
+        });
+        let [a, b] = [0, 1].map(|k| self.going_on(&rests[k], bodies[k]));
+        let (a, b) = (a?, b?);
+        let duration = self.clock.duration;
+        let body = |k: usize| self.scene.members[bodies[k]].body;
+        let rounding = rounding(body(0), &a, duration)? + rounding(body(1), &b, duration)?;
+        let settings = Settings {
+            margin: self.scene.settings.margin + rounding,
+            deadline: self.clock.left(),
+            ..self.scene.settings.clone()
         };
-        let rounding = pair
-            .iter()
-            .map(|moving| rounding(moving, self.clock.duration));
-        let problem = self.scene.settings.problem(pair, &rest, rounding.sum())?;
-        Ok(self.schedule.solve(&problem, &mut self.oracle))
+        let query = Query::new((body(0), a), (body(1), b), duration - time, &settings)?;
+        self.schedule.first_contact(&query, &mut self.oracle)
     }
 
-    /// Returns a body with its motion from a time on.
-    fn going_on(&self, time: f64, index: usize) -> Result<Moving<'a>, InputError> {
-        let Moving { body, motion } = self.scene.members[index].moving();
-        let motion = if self.moves(index) {
-            let [velocity, spin] = [motion.velocity(), motion.spin()];
-            Motion::about(motion.pose(time), velocity, spin, motion.centre())?
-        } else {
-            Motion::still(motion.pose(self.stops[index].time))
+    /// Returns what moves a body from a time on.
+    fn going_on<'r>(&self, rest: &'r Rest<'a>, index: usize) -> Result<Movement<'r>, InputError> {
+        if !self.moves(index) {
+            return Ok(Motion::still(rest.of.pose(self.stops[index].time)?).into());
+        }
+        let Movement::Motion(motion) = rest.of else {
+            return Ok(rest.into());
         };
-        Ok(Moving { body, motion })
+        let [velocity, spin] = [motion.velocity(), motion.spin()];
+        Ok(Motion::about(motion.pose(rest.from), velocity, spin, motion.centre())?.into())
     }
 
     fn moves(&self, index: usize) -> bool {
@@ -260,13 +266,15 @@ impl<'s, 'a> Stopping<'s, 'a> {
     }
 }
 
-/// Bounds how far a body is from its motion where it goes on from a pose that is rounded.
-fn rounding(moving: &Moving<'_>, duration: f64) -> f64 {
-    let motion = &moving.motion;
+/// Bounds how far a body is from where it should be if it goes on from a pose that is rounded.
+fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
+    let stretch = movement.stretch(0.0, 0.0)?;
+    let motion = &stretch.motion;
     let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
     let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
-    let reach = moving.body.span() + centre;
-    STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach)
+    let reach = body.span() + centre;
+    let stray = stretch.stray.at(reach);
+    Ok(stray + STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }
 
 impl Ord for Coming {

@@ -2,9 +2,13 @@
 
 use super::*;
 use crate::{Error, Hit, HitKind, Limit, Pieces, Solver, StartPolicy, Volume};
+use ccd_core::Trajectory;
+use ccd_core::Unresolved;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
@@ -77,9 +81,9 @@ pub(super) fn parts(rng: &mut Pcg64, kinds: usize, count: usize) -> Vec<Part> {
         .collect()
 }
 
-fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: Config) -> Scene<'a> {
+fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: &Settings) -> Scene<'a> {
     let mut scene = Scene::with_threads(NonZeroUsize::new(threads).unwrap())
-        .with_config(config)
+        .with_settings(config.clone())
         .with_filter(|a, b| (a + b) % 11 != 3);
     for &(kind, motion, mobility, groups) in parts {
         let index = match mobility {
@@ -95,16 +99,16 @@ fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: Config)
 fn one_by_one(
     bodies: &[Body],
     parts: &[Part],
-    config: Config,
+    config: &Settings,
     duration: f64,
 ) -> Vec<(f64, [usize; 2], Result<Hit, Limit>)> {
-    let mut solver = Solver::new().with_config(config);
+    let mut solver = Solver::new().with_settings(config.clone());
     let mut found = Vec::new();
     let boxes_meet = |a: usize, b: usize| {
         let swept = |k: usize| {
             let (body, motion, ..) = parts[k];
             let moving = Moving::from((&bodies[body], motion));
-            moving.swept_box(duration, &config).unwrap()
+            moving.swept_box(duration, config).unwrap()
         };
         swept(a).meets(&swept(b))
     };
@@ -120,19 +124,17 @@ fn one_by_one(
                 && shares(groups_b, groups_a)
                 && (a + b) % 11 != 3;
             if asked {
-                match solver.first_contact(
+                let answer = solver.first_contact(
                     (&bodies[of_a], motion_a),
                     (&bodies[of_b], motion_b),
                     duration,
-                ) {
+                );
+                match answer.unwrap().hit() {
                     Ok(None) => {}
                     Ok(Some(hit)) => found.push((hit.time, [a, b], Ok(hit))),
                     // Boxes tell bodies apart without a budget.
-                    Err(Error::Unresolved { .. }) if !boxes_meet(a, b) => {}
-                    Err(Error::Unresolved { safe_until, reason }) => {
-                        found.push((safe_until, [a, b], Err(reason)));
-                    }
-                    Err(error) => panic!("{error}"),
+                    Err(_) if !boxes_meet(a, b) => {}
+                    Err(known) => found.push((known.safe_until, [a, b], Err(known.limit))),
                 }
             }
         }
@@ -151,7 +153,12 @@ fn same(
         (
             Err(PairError {
                 bodies: pair,
-                error: Error::Unresolved { safe_until, reason },
+                error:
+                    Error::Unresolved(Unresolved {
+                        safe_until,
+                        limit: reason,
+                        ..
+                    }),
             }),
             Err(limit),
         ) => pair == bodies && safe_until == time && reason == limit,
@@ -166,17 +173,17 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
     for round in 0..240 {
         let bodies = bodies(&mut rng);
         let parts = parts(&mut rng, bodies.len(), 2 + round % 50);
-        let config = Config {
+        let config = Settings {
             tolerance: 1e-4,
             margin: [0.0, 0.0, 0.2][round % 3],
             start: [StartPolicy::Report, StartPolicy::Leave][round % 2],
             budget: [u64::MAX, 30][usize::from(round % 5 == 4)],
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let duration = [1.0, 0.02, 1.0, 1.0][round % 4];
-        let expected = one_by_one(&bodies, &parts, config, duration);
+        let expected = one_by_one(&bodies, &parts, &config, duration);
         for threads in [1, 2, 5] {
-            let mut scene = scene(&bodies, &parts, threads, config);
+            let mut scene = scene(&bodies, &parts, threads, &config);
             // Twice: nothing is left of the last call.
             for _ in 0..2 {
                 let all = scene.contacts(duration);
@@ -217,7 +224,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
         for (_, _, what) in &expected {
             match what {
                 Ok(Hit {
-                    kind: HitKind::Contact,
+                    kind: HitKind::Contact(_),
                     ..
                 }) => contacts += 1,
                 Ok(_) => starts += 1,
@@ -246,7 +253,7 @@ fn a_step_begins_where_the_last_one_ended() {
     };
     let falling = scene.add(&ball, falls(3.0));
     assert!(scene.first_contact(1.0).unwrap().is_none());
-    scene.set_motion(falling, falls(2.0)).unwrap();
+    scene.set_movement(falling, falls(2.0)).unwrap();
     assert!(scene.first_contact(0.5).unwrap().is_none());
     let time = scene.first_contact(1.0).unwrap().unwrap().hit.time;
     assert!(time <= 1.0 && time > 0.998, "{time}");
@@ -316,18 +323,23 @@ fn deadlines_and_flags_end_scenes_with_safe_times() {
     let mut rng = Pcg64::seed_from_u64(3);
     let bodies = bodies(&mut rng);
     let parts = parts(&mut rng, bodies.len(), 60);
-    let config = Config {
+    let config = Settings {
         deadline: Some(Duration::ZERO),
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let whole = one_by_one(&bodies, &parts, Config::default(), 1.0);
+    let whole = one_by_one(&bodies, &parts, &Settings::DEFAULT, 1.0);
     let first = whole[0].0;
-    for error in scene(&bodies, &parts, 2, config)
+    for error in scene(&bodies, &parts, 2, &config)
         .contacts(1.0)
         .into_iter()
         .filter_map(Result::err)
     {
-        let Error::Unresolved { safe_until, reason } = error.error else {
+        let Error::Unresolved(Unresolved {
+            safe_until,
+            limit: reason,
+            ..
+        }) = error.error
+        else {
             panic!("{error}")
         };
         assert!(
@@ -338,10 +350,14 @@ fn deadlines_and_flags_end_scenes_with_safe_times() {
         );
     }
     let stop = Arc::new(AtomicBool::new(true));
-    let mut stopped = scene(&bodies, &parts, 2, Config::default()).with_stop(&stop);
+    let settings = Settings {
+        stop: Some(Arc::clone(&stop)),
+        ..Settings::DEFAULT
+    };
+    let mut stopped = scene(&bodies, &parts, 2, &settings);
     let error = stopped.first_contact(1.0).expect_err("stopped at once");
     assert!(
-        matches!(error.error, Error::Unresolved { safe_until, reason: Limit::Stopped } if safe_until <= first)
+        matches!(error.error, Error::Unresolved(Unresolved { safe_until, limit: Limit::Stopped, .. }) if safe_until <= first)
     );
     stop.store(false, Ordering::Relaxed);
     assert!(stopped.first_contact(1.0).is_ok());
@@ -386,14 +402,14 @@ fn the_shortest_durations_end() {
     let size = 1e-20;
     let ball = Body::ball(0.5 * size).unwrap();
     let rod = Body::cuboid([0.1 * size, 0.1 * size, 2.0 * size]).unwrap();
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-3 * size,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let mut met = 0;
     for units in 1..100u64 {
         let duration = f64::from_bits(units);
-        let mut scene = Scene::with_threads(NonZeroUsize::MIN).with_config(config);
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN).with_settings(config.clone());
         for k in 0..4 {
             let height = 3.0 * size * f64::from(k);
             let pose = |x: f64, y: f64| Pose::at([x * size, height + y * size, 0.0]).unwrap();
@@ -423,12 +439,12 @@ fn a_fixed_body_takes_no_motion() {
     let pose = Pose::at([0.0, 2.0, 0.0]).unwrap();
     for (velocity, spin) in [([1.0, 0.0, 0.0], [0.0; 3]), ([0.0; 3], [0.0, 0.0, 1e-300])] {
         let moves = Motion::new(pose, velocity, spin).unwrap();
-        let refused = scene.set_motion(fixed, moves).unwrap_err();
+        let refused = scene.set_movement(fixed, moves).unwrap_err();
         assert_eq!(refused, FixedBody { index: fixed });
         assert!(refused.to_string().starts_with("body 0 is fixed"));
-        assert_eq!(scene.motion(fixed), Motion::STILL);
+        assert_eq!(scene.movement(fixed).as_motion(), Some(Motion::STILL));
     }
     // It may be put elsewhere.
-    scene.set_motion(other, Motion::still(pose)).unwrap();
-    assert_eq!(scene.motion(other), Motion::still(pose));
+    scene.set_movement(other, Motion::still(pose)).unwrap();
+    assert_eq!(scene.movement(other).as_motion(), Some(Motion::still(pose)));
 }

@@ -3,13 +3,10 @@
 #[cfg(test)]
 mod tests;
 
-use crate::batch::{Bodies, Found};
+use crate::batch::{Bodies, Question};
 use crate::table::courses::Course;
 use ccd_core::glam::DVec3;
-use ccd_core::schedule::AnyContact;
-use ccd_core::{
-    Answer, Config, ContactsError, FeaturePair, InputError, Motion, Outcome, Problem, Separation,
-};
+use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Separation, Settings};
 use serde::Serialize;
 
 /// The columns, in order.
@@ -65,45 +62,31 @@ pub(crate) enum ListError {
     Contacts(#[from] ContactsError),
 }
 
-/// Lists all contacts at the time of a contact or touching, nearest first; none for other answers.
+/// Lists all contacts at the time of a contact or touching, nearest first; an empty list for other answers.
 ///
 /// # Errors
 /// The query is not valid, or the contacts cannot be listed.
 pub(crate) fn rows(
     bodies: Bodies<'_>,
     course: &Course,
-    config: &Config,
-    answer: &Answer<Found>,
+    settings: &Settings,
+    (question, answer): (Question, &Answer),
 ) -> Result<Vec<ContactRow>, ListError> {
-    let Some(time) = time_of_contact(&answer.outcome) else {
+    let Some(time) = time_of_contact(question, &answer.outcome) else {
         return Ok(Vec::new());
     };
-    let problem = |a: Motion, b: Motion, end| {
-        let (a, b) = ((bodies.a, a), (bodies.b, b));
-        Problem::new(a, b, end, config)
-    };
-    let pairs = match course {
-        Course::Motions(query) => problem(query.a, query.b, query.duration)?.contacts_at(time)?,
-        Course::Path(path) => {
-            let [a, b] = path.poses(time)?.map(Motion::still);
-            problem(a, b, 0.0)?.contacts_at(0.0)?
-        }
-    };
+    let query = course.query(question, bodies, settings)?;
+    let pairs = query.contacts_at(time)?;
     let row = |pair: &FeaturePair| ContactRow::new(course.id(), course.earliest(time), pair);
     Ok(pairs.iter().map(row).collect())
 }
 
-/// Returns the time of a contact or touching.
-fn time_of_contact(found: &Found) -> Option<f64> {
-    match *found {
-        Found::First(Outcome::Contact { time, .. })
-        | Found::Any(AnyContact::Contact { time, .. }) => Some(time),
-        Found::First(Outcome::Touching { .. }) => Some(0.0),
-        Found::First(_)
-        | Found::Any(_)
-        | Found::Interval(_)
-        | Found::Distance(_)
-        | Found::Greatest(_) => None,
+/// Returns the time of a contact that is asked for, or of touching.
+fn time_of_contact(question: Question, outcome: &Outcome) -> Option<f64> {
+    match *outcome {
+        Outcome::Contact { time, .. } if question.is_for_one_contact() => Some(time),
+        Outcome::Touching { .. } => Some(0.0),
+        _ => None,
     }
 }
 

@@ -7,12 +7,11 @@ mod status;
 
 pub use status::Status;
 
-use crate::batch::{Bodies, Found};
+use crate::batch::{Bodies, Question};
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
-use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval, GreatestDistance};
-use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
+use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
 use serde::{Deserialize, Serialize};
 use std::io;
 
@@ -167,15 +166,20 @@ impl ResultRow {
         }
     }
 
-    /// Creates the row of an answer.
-    pub fn new(course: &Course, answer: &Answer<Found>, micros: f64, compared: Compared) -> Self {
-        let found = &answer.outcome;
-        let status = Status::of(found, compared.clearance);
+    /// Creates the row of an answer to a question.
+    pub fn new(
+        course: &Course,
+        (question, answer): (Question, &Answer),
+        micros: f64,
+        compared: Compared,
+    ) -> Self {
+        let outcome = &answer.outcome;
+        let status = Status::of(question, outcome, compared.clearance);
         let row = ResultRow {
             iterations: Some(answer.stats.iterations),
             oracle_calls: Some(answer.stats.oracle_calls),
             micros: Some(micros),
-            reason: match (found.limit(), status) {
+            reason: match (outcome.limit(), status) {
                 (Some(limit), _) => Some(limit.to_string()),
                 (None, Status::Unverified) => Some(compared.within_bounds()),
                 (None, _) => None,
@@ -183,12 +187,10 @@ impl ResultRow {
             counters: Some(answer.stats),
             ..ResultRow::empty(course.id(), status)
         };
-        let row = match found {
-            Found::First(outcome) => row.with_outcome(outcome, course.duration()),
-            Found::Any(any) => row.with_any(any, course.duration()),
-            Found::Interval(interval) => row.with_interval(interval, course.duration()),
-            Found::Distance(closest) => row.with_distance(closest, course.duration()),
-            Found::Greatest(greatest) => row.with_greatest(greatest),
+        let row = if question.is_for_a_distance() {
+            row.with_distance(outcome, course.duration())
+        } else {
+            row.with_contacts(outcome, course.duration())
         };
         ResultRow {
             time: row.time.map(|time| course.earliest(time)),
@@ -197,79 +199,54 @@ impl ResultRow {
         }
     }
 
-    fn with_outcome(self, outcome: &Outcome, duration: f64) -> Self {
+    /// Returns the row with what an outcome says about contacts.
+    fn with_contacts(self, outcome: &Outcome, duration: f64) -> Self {
         match *outcome {
+            Outcome::Free { .. } => self.at(duration),
             Outcome::Contact { time, contact } => self.at(time).with_contact(&contact),
             Outcome::Touching { contact } => self.at(0.0).with_contact(&contact),
-            Outcome::Overlapping { overlap } => self.at(0.0).with_overlap(&overlap),
-            Outcome::Free { .. } => self.at(duration),
-            Outcome::Unresolved { safe_until, .. } => self.at(safe_until),
+            Outcome::Overlapping { overlap, .. } => self.at(0.0).with_overlap(&overlap),
+            Outcome::Interval { first, last } => ResultRow {
+                last_time: Some(last.time),
+                ..self.at(first.time).with_hit(&first.kind)
+            },
+            Outcome::Unresolved(known) => ResultRow {
+                last_time: Some(known.safe_from).filter(|time| time.is_finite()),
+                ..self.at(known.safe_until)
+            },
+            Outcome::Measured { .. } => self,
         }
     }
 
-    fn with_any(self, any: &AnyContact, duration: f64) -> Self {
-        match *any {
-            AnyContact::Contact { time, contact } => self.at(time).with_contact(&contact),
-            AnyContact::Overlapping { overlap } => self.at(0.0).with_overlap(&overlap),
-            AnyContact::Free { .. } => self.at(duration),
-            AnyContact::Unresolved { safe_until, .. } => self.at(safe_until),
-        }
-    }
-
-    fn with_interval(self, interval: &ContactInterval, duration: f64) -> Self {
-        let (row, last_time) = match *interval {
-            ContactInterval::Free { .. } => return self.at(duration),
-            ContactInterval::Within { first, last } => {
-                let row = self.at(first.time);
-                let row = match (&first.overlap, &first.contact) {
-                    (Some(overlap), _) => row.with_overlap(overlap),
-                    (None, Some(contact)) => row.with_contact(contact),
-                    (None, None) => row,
-                };
-                (row, last.time)
-            }
-            ContactInterval::Unresolved {
-                safe_until,
-                safe_from,
-                ..
-            } => (self.at(safe_until), safe_from),
-        };
-        ResultRow {
-            last_time: Some(last_time),
-            ..row
-        }
-    }
-
-    fn with_distance(self, closest: &ClosestApproach, duration: f64) -> Self {
-        let row = match (closest, closest.nearest()) {
-            (ClosestApproach::Overlapping { overlap, upper }, _) => {
-                let row = self.at(0.0).with_overlap(overlap);
+    /// Returns the row with what an outcome says about a distance.
+    fn with_distance(self, outcome: &Outcome, duration: f64) -> Self {
+        let row = match *outcome {
+            Outcome::Overlapping { overlap, upper } => {
+                let row = self.at(0.0).with_overlap(&overlap);
                 // No less than where one body is inside the other.
-                let exceeds = Some(*upper).filter(|upper| *upper > 0.0);
+                let exceeds = Some(upper).filter(|upper| *upper > 0.0);
                 return ResultRow {
                     distance_upper: row.distance_upper.or(exceeds),
                     ..row
                 };
             }
-            (ClosestApproach::Farther { .. }, _) => self.at(duration),
-            (_, Some((time, contact))) => self.at(time).with_contact(&contact),
-            (_, None) => self,
+            Outcome::Free { .. } => self.at(duration),
+            _ => match outcome.nearest() {
+                Some((time, contact)) => self.at(time).with_contact(&contact),
+                None => self,
+            },
         };
         ResultRow {
-            distance_lower: Some(closest.lower()),
+            distance_lower: Some(outcome.lower()),
+            distance_upper: Some(outcome.upper()).filter(|upper| upper.is_finite()),
             ..row
         }
     }
 
-    fn with_greatest(self, greatest: &GreatestDistance) -> Self {
-        let row = match greatest.farthest() {
-            Some((time, contact)) => self.at(time).with_contact(&contact),
-            None => self,
-        };
-        ResultRow {
-            distance_lower: Some(greatest.lower()),
-            distance_upper: Some(greatest.upper()).filter(|upper| upper.is_finite()),
-            ..row
+    fn with_hit(self, kind: &HitKind) -> Self {
+        match kind {
+            HitKind::Contact(contact) | HitKind::Touching(contact) => self.with_contact(contact),
+            HitKind::Overlapping(overlap) => self.with_overlap(overlap),
         }
     }
 

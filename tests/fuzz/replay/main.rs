@@ -12,8 +12,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The number of random changes of each corpus: about a second each.
-const CHANGES: u64 = 300;
+/// The number of random changes of each corpus: less than a second each.
+const CHANGES: u64 = 100;
 
 #[test]
 fn query() {

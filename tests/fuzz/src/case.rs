@@ -3,7 +3,7 @@
 use crate::course::{Course, Goal, RawPose};
 use crate::nearest::Triangle;
 use crate::vector::Vector;
-use ccd_core::{Config, StartPolicy};
+use ccd_core::{Settings, StartPolicy};
 use std::fmt::Write;
 
 #[derive(Clone, Debug)]
@@ -11,7 +11,7 @@ pub struct Case {
     pub shapes: [Shape; 2],
     pub courses: [Course; 2],
     pub duration: f64,
-    pub config: Config,
+    pub config: Settings,
     /// The part of the answer that the generator knows.
     pub expect: Expect,
 }
@@ -147,7 +147,7 @@ impl Case {
                 }
             }
         }
-        let Config {
+        let Settings {
             tolerance,
             margin,
             budget,

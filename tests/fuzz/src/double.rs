@@ -1,4 +1,6 @@
 //! Double-double numbers: the unevaluated sum of two f64 \[DEKKER71\].
+//!
+//! The arithmetic of a judge: `ccd-distance-vmarch`, which it judges, has another.
 
 use crate::vector::Number;
 use std::cmp::Ordering;

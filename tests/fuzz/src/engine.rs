@@ -3,7 +3,7 @@
 use crate::case::{Case, Form, Shape};
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
-use ccd_core::{Answer, Body, Config, DistanceOracle, Moving, OrElse, Polytope, Problem, Schedule};
+use ccd_core::{Answer, Body, DistanceOracle, Moving, OrElse, Polytope, Schedule, Settings};
 use ccd_decomp::{Detail, TriangleMesh, prepare};
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
@@ -46,17 +46,19 @@ impl Bodies {
 
     /// # Errors
     /// The reason why the engine refuses the query.
-    pub fn problem(&self, case: &Case, config: &Config) -> Result<Problem<'_>, String> {
+    pub fn problem<'a>(
+        &'a self,
+        case: &Case,
+        config: &'a Settings,
+    ) -> Result<ccd_core::Query<'a>, String> {
         let moving = |k: usize| -> Result<Moving<'_>, String> {
             let motion = case.courses[k]
                 .motion(case.duration)
                 .map_err(|e| e.to_string())?;
-            Ok(Moving {
-                body: &self.bodies[k],
-                motion,
-            })
+            Ok(Moving::from((&self.bodies[k], motion)))
         };
-        Problem::new(moving(0)?, moving(1)?, case.duration, config).map_err(|e| e.to_string())
+        ccd_core::Query::new(moving(0)?, moving(1)?, case.duration, config)
+            .map_err(|e| e.to_string())
     }
 }
 
@@ -94,12 +96,12 @@ fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
 }
 
 impl Method {
-    pub fn solve(self, problem: &Problem<'_>) -> Answer {
+    pub fn solve(self, problem: &ccd_core::Query<'_>) -> Answer {
         fn by<O: DistanceOracle + Default, S: Schedule<O>>(
             mut schedule: S,
-            problem: &Problem<'_>,
+            problem: &ccd_core::Query<'_>,
         ) -> Answer {
-            schedule.solve(problem, &mut O::default())
+            schedule.first_contact(problem, &mut O::default()).unwrap()
         }
         match self {
             Method::Direct => by(BestFirst::<Direct>::default(), problem),

@@ -9,6 +9,7 @@ use crate::nearest::{Triangle, depth, distance};
 use crate::referee::{Evidence, Limit, Scene};
 use crate::solid::{Solid, Where, clearance};
 use crate::vector::{Number, Vector, larger, smaller};
+use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
@@ -99,8 +100,8 @@ impl<'a> Judge<'a> {
         match *outcome {
             Outcome::Contact { time, .. } => time,
             Outcome::Free { .. } => self.case.duration,
-            Outcome::Unresolved { safe_until, .. } => safe_until,
-            Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
+            Outcome::Unresolved(known) => known.safe_until,
+            _ => 0.0,
         }
     }
 
@@ -169,14 +170,17 @@ impl<'a> Judge<'a> {
                 _ => {}
             },
             Outcome::Touching { contact } => faults.extend(self.near(given, &contact, 0.0)),
-            Outcome::Overlapping { overlap } => faults.extend(self.overlap(given, &overlap)),
-            Outcome::Unresolved { safe_until, .. } => {
+            Outcome::Overlapping { overlap, .. } => faults.extend(self.overlap(given, &overlap)),
+            Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 if overlaps && safe_until > 0.0 {
                     say(Fault::NotSafe, format!("overlapping, {:?}", answer.outcome));
                 }
                 early
                     .into_iter()
                     .for_each(|e| say(Fault::NotSafe, known(e)));
+            }
+            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+                unreachable!("no outcome of a first contact")
             }
         }
         faults
@@ -192,7 +196,7 @@ impl<'a> Judge<'a> {
 
     fn unexpected(&self, outcome: &Outcome) -> Faults {
         let wrong = match (self.case.expect, *outcome) {
-            (_, Outcome::Unresolved { .. }) | (Expect::Nothing, _) => None,
+            (_, Outcome::Unresolved(_)) | (Expect::Nothing, _) => None,
             (Expect::Free, Outcome::Free { .. }) => None,
             (Expect::Free, _) => Some(Fault::FalseContact),
             (Expect::ContactBy(t), Outcome::Contact { time, .. }) => {

@@ -1,11 +1,11 @@
-//! Fuzz targets, and the judge of random queries.
+//! The random adversary: fuzz targets, and the judge of random queries.
 //!
 //! A target is a function of bytes that panics if the product has a fault. The same functions are run
 //! guided by coverage ([`libfuzzer/`](../libfuzzer)), and over the kept corpus in every `cargo test`.
+//! The example `fuzz` draws queries from families of hard cases, for the same judge.
 //!
-//! The judge shares nothing with the engine, its property suite or its other referees, except the public
-//! interface under test: it has its own arithmetic and verdicts. The program `fuzz` of `ccd-tests` uses
-//! it, too.
+//! The judge shares nothing with the engine or with the referee of `ccd-bench`, except the public interface
+//! under test: it has its own arithmetic and verdicts.
 #![allow(
     missing_docs,
     unreachable_pub,

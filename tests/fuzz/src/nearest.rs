@@ -1,4 +1,7 @@
 //! The distance or the depth of penetration of two triangles.
+//!
+//! For either number type: the property suite's referee, which judges a hundred times as many pairs, has a faster
+//! one in f64 that names the points.
 
 use crate::vector::{Number, Vector};
 

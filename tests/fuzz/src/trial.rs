@@ -3,7 +3,7 @@
 use crate::case::{Case, Form, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
 use crate::judge::{Fault, Given, Judge};
-use ccd_core::{Config, Outcome};
+use ccd_core::{Outcome, Settings};
 use std::collections::HashMap;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -47,7 +47,7 @@ impl Failure {
             text,
             others,
         } = self;
-        let Config {
+        let Settings {
             margin, tolerance, ..
         } = case.config;
         format!(
@@ -103,7 +103,8 @@ fn answers<'b>(
     for (kind, method) in asked {
         let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
         let Some((_, bodies)) = bodies else { continue };
-        let problem = match bodies.problem(&trial.case, &config_of(&trial.case, method)) {
+        let settings = config_of(&trial.case, method);
+        let problem = match bodies.problem(&trial.case, &settings) {
             Ok(problem) => problem,
             Err(why) => {
                 trial.refused = Some(why);
@@ -143,22 +144,22 @@ fn judge(trial: &mut Trial, given: &[Given<'_>]) {
 }
 
 /// Returns the settings; schedules with one step for all pairs get a smaller budget.
-fn config_of(case: &Case, method: Method) -> Config {
+fn config_of(case: &Case, method: Method) -> Settings {
     let most = match method {
         Method::Naive | Method::Fast => 200_000,
         _ => u64::MAX,
     };
-    Config {
+    Settings {
         budget: case.config.budget.min(most),
-        ..case.config
+        ..case.config.clone()
     }
 }
 
 /// Returns the engine's allowance for rounding: the least tolerance that it accepts.
 fn rounding(case: &Case, bodies: &Bodies) -> f64 {
-    let least = Config {
+    let least = Settings {
         tolerance: 1e-100,
-        ..case.config
+        ..case.config.clone()
     };
     bodies.problem(case, &least).map_or(0.0, |p| p.tolerance())
 }

@@ -4,19 +4,16 @@ use super::{Judge, Law, check_contact, law};
 use crate::query::Bodies;
 use crate::referee::Finding;
 use ccd_core::order::{greater, lesser};
-use ccd_core::schedule::{
-    AnyContact, Clearance, ClosestApproach, ContactInterval, GreatestDistance, Touch,
-};
-use ccd_core::{Answer, Contact, Outcome};
+use ccd_core::{Answer, Clearance, Contact, Outcome};
 
 impl Judge<'_> {
     /// Checks an answer to "do they touch at all?": never missed, never false, its contact as claimed.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_any(&self, answer: &Answer<AnyContact>, bodies: &Bodies) -> Law {
+    pub fn check_any(&self, answer: &Answer, bodies: &Bodies) -> Law {
         match answer.outcome {
-            AnyContact::Contact { time, contact } => {
+            Outcome::Contact { time, contact } => {
                 self.within_reach(time, answer.tolerance, &contact)?;
                 check_contact(
                     self.query,
@@ -26,13 +23,9 @@ impl Judge<'_> {
                     self.reach(time, answer.tolerance, &contact),
                 )
             }
-            AnyContact::Free { proven_gap } => {
-                self.check(&answer.map(|_| Outcome::Free { proven_gap }), bodies)
-            }
-            AnyContact::Overlapping { overlap } => {
-                self.check(&answer.map(|_| Outcome::Overlapping { overlap }), bodies)
-            }
-            AnyContact::Unresolved { .. } => Err("unresolved".into()),
+            Outcome::Free { .. } | Outcome::Overlapping { .. } => self.check(answer, bodies),
+            Outcome::Unresolved(_) => Err("unresolved".into()),
+            other => Err(format!("no outcome of any contact: {other:?}")),
         }
     }
 
@@ -41,11 +34,14 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_closest(&self, answer: &Answer<ClosestApproach>, bodies: &Bodies) -> Law {
+    pub fn check_closest(&self, answer: &Answer, bodies: &Bodies) -> Law {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
-            ClosestApproach::Nearest { time, contact, .. } => {
+            Outcome::Measured {
+                at: Some((time, contact)),
+                ..
+            } => {
                 let least = self.least();
                 law!(
                     lower <= least + rounding,
@@ -67,13 +63,12 @@ impl Judge<'_> {
                 );
                 check_contact(self.query, time, &contact, bodies, f64::INFINITY)
             }
-            ClosestApproach::Overlapping { overlap, .. } => {
-                self.check(&answer.map(|_| Outcome::Overlapping { overlap }), bodies)
-            }
-            ClosestApproach::Farther { .. } | ClosestApproach::Nearer { .. } => {
+            Outcome::Overlapping { .. } => self.check(answer, bodies),
+            Outcome::Free { .. } | Outcome::Contact { .. } => {
                 Err("compared with a clearance, without one".into())
             }
-            ClosestApproach::Unresolved { .. } => Err("unresolved".into()),
+            Outcome::Unresolved(_) => Err("unresolved".into()),
+            other => Err(format!("no outcome of a least distance: {other:?}")),
         }
     }
 
@@ -81,12 +76,7 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_clearance(
-        &self,
-        required: f64,
-        answer: &Answer<ClosestApproach>,
-        bodies: &Bodies,
-    ) -> Law {
+    pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> Law {
         let rounding = self.query.rounding();
         let outcome = &answer.outcome;
         let least = self.least();
@@ -100,13 +90,8 @@ impl Judge<'_> {
             "lower {lower}, but one body is inside the other"
         );
         match outcome {
-            ClosestApproach::Unresolved { .. } => return Err("unresolved".into()),
-            ClosestApproach::Overlapping { overlap, .. } => {
-                return self.check(
-                    &answer.map(|_| Outcome::Overlapping { overlap: *overlap }),
-                    bodies,
-                );
-            }
+            Outcome::Unresolved(_) => return Err("unresolved".into()),
+            Outcome::Overlapping { .. } => return self.check(answer, bodies),
             _ => {}
         }
         if let Some((time, contact)) = outcome.nearest() {
@@ -129,10 +114,10 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_greatest(&self, answer: &Answer<GreatestDistance>) -> Law {
+    pub fn check_greatest(&self, answer: &Answer) -> Law {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
-        let GreatestDistance::Farthest { .. } = answer.outcome else {
+        let Outcome::Measured { .. } = answer.outcome else {
             return Err("unresolved".into());
         };
         if !self.nested {
@@ -164,9 +149,9 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_interval(&self, answer: &Answer<ContactInterval>, bodies: &Bodies) -> Law {
+    pub fn check_interval(&self, answer: &Answer, bodies: &Bodies) -> Law {
         match answer.outcome {
-            ContactInterval::Within { first, last } => {
+            Outcome::Interval { first, last } => {
                 self.never_late(first.time)?;
                 let reach = self.config.margin;
                 let after = |&&(time, gap): &&(f64, f64)| time > last.time && gap < reach;
@@ -181,10 +166,10 @@ impl Judge<'_> {
                         "in contact at {hi}, after the last contact"
                     );
                 }
-                for Touch { time, contact, .. } in [first, last] {
+                for hit in [first, last] {
                     // Else one body is inside the other.
-                    if let Some(contact) = contact {
-                        self.within_reach(time, answer.tolerance, &contact)?;
+                    if let Some(contact) = hit.contact() {
+                        self.within_reach(hit.time, answer.tolerance, &contact)?;
                     }
                 }
                 law!(
@@ -193,10 +178,9 @@ impl Judge<'_> {
                 );
                 Ok(())
             }
-            ContactInterval::Free { proven_gap } => {
-                self.check(&answer.map(|_| Outcome::Free { proven_gap }), bodies)
-            }
-            ContactInterval::Unresolved { .. } => Err("unresolved".into()),
+            Outcome::Free { .. } => self.check(answer, bodies),
+            Outcome::Unresolved(_) => Err("unresolved".into()),
+            other => Err(format!("no outcome of an interval: {other:?}")),
         }
     }
 

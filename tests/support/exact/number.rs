@@ -1,4 +1,6 @@
 //! The two kinds of number for predicates: intervals first, fractions if those are not certain.
+//!
+//! The judge of decompositions shares no arithmetic with what it judges, nor with the referee of `ccd-bench`.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};

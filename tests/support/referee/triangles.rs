@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 pub(super) struct Posed<'a> {
     mesh: &'a Mesh,
     points: Vec<DVec3>,
+    faces: Vec<Face>,
     boxes: Vec<Bounds>,
     group_boxes: Vec<Bounds>,
 }
@@ -23,9 +24,11 @@ impl<'a> Posed<'a> {
                 .fold(Bounds::EMPTY, |all, &v| all.with(points[v as usize]))
         };
         let boxes: Vec<Bounds> = mesh.faces.iter().map(of_face).collect();
+        let face = |face: &[u32; 3]| Face::new(face.map(|v| points[v as usize]));
         let group = |some: &[Bounds]| some.iter().fold(Bounds::EMPTY, |all, b| all.union(*b));
         Posed {
             mesh,
+            faces: mesh.faces.iter().map(face).collect(),
             group_boxes: boxes.chunks(GROUP).map(group).collect(),
             boxes,
             points,
@@ -68,15 +71,11 @@ impl<'a> Posed<'a> {
         for i in members(groups[0], self.boxes.len()) {
             for j in members(groups[1], other.boxes.len()) {
                 if self.boxes[i].distance_squared(&other.boxes[j]) <= best {
-                    best = lesser(best, distance_squared(self.triangle(i), other.triangle(j)));
+                    best = lesser(best, distance_squared(&self.faces[i], &other.faces[j]));
                 }
             }
         }
         best
-    }
-
-    fn triangle(&self, face: usize) -> [DVec3; 3] {
-        self.mesh.faces[face].map(|v| self.points[v as usize])
     }
 }
 
@@ -84,29 +83,32 @@ fn members(group: usize, count: usize) -> std::ops::Range<usize> {
     group * GROUP..((group + 1) * GROUP).min(count)
 }
 
-/// Returns the squared distance of two triangles: all vertices against the other's face, all edges
+/// Returns the squared distance of two triangles: all vertices against the other's face and its edges, all edges
 /// against the other's edges; 0 if an edge pierces a face.
-fn distance_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
-    let edges = |t: [DVec3; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
-    let pierced = |e: &[DVec3; 2], t| pierces(*e, t);
-    if edges(a).iter().any(|e| pierced(e, b)) || edges(b).iter().any(|e| pierced(e, a)) {
+pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
+    let edges = |Face { corners: t, .. }: &Face| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    let (edges_a, edges_b) = (edges(a), edges(b));
+    if edges_a.iter().any(|&e| pierces(e, b.corners))
+        || edges_b.iter().any(|&e| pierces(e, a.corners))
+    {
         return 0.0;
     }
     let mut best = f64::INFINITY;
     for k in 0..3 {
-        best = lesser(best, point_triangle(a[k], b).distance_squared(a[k]));
-        best = lesser(best, point_triangle(b[k], a).distance_squared(b[k]));
+        for (p, face) in [(a.corners[k], b), (b.corners[k], a)] {
+            best = lesser(best, face.nearest(p).distance_squared(p));
+        }
     }
-    for e in edges(a) {
-        for f in edges(b) {
-            best = lesser(best, edge_edge_squared(e, f));
+    for e in edges_a {
+        for f in edges_b {
+            best = lesser(best, feet_squared(e, f));
         }
     }
     best
 }
 
 /// Returns true if an edge passes through the interior of a triangle.
-pub(crate) fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let volume = |u: DVec3, v: DVec3, w: DVec3| (u - p).dot((v - p).cross(w - p));
     let normal = (b - a).cross(c - a);
     let (s, t) = (normal.dot(p - a), normal.dot(q - a));
@@ -114,13 +116,9 @@ pub(crate) fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     s * t < 0.0 && (sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0))
 }
 
-/// Returns the squared distance of two edges: their inner feet if both have one, else end points.
-pub(crate) fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
-    let mut best = f64::INFINITY;
-    for k in 0..2 {
-        best = lesser(best, point_segment(e[k], f).distance_squared(e[k]));
-        best = lesser(best, point_segment(f[k], e).distance_squared(f[k]));
-    }
+/// Returns the squared distance of the nearest points of two edges' lines, infinite unless both are within their
+/// edges.
+fn feet_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;
@@ -128,10 +126,10 @@ pub(crate) fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
         let s = (uv * v.dot(w) - vv * u.dot(w)) / det;
         let t = (uu * v.dot(w) - uv * u.dot(w)) / det;
         if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
-            best = lesser(best, (e[0] + s * u).distance_squared(f[0] + t * v));
+            return (e[0] + s * u).distance_squared(f[0] + t * v);
         }
     }
-    best
+    f64::INFINITY
 }
 
 /// Returns the nearest point of a segment.
@@ -146,34 +144,74 @@ pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     }
 }
 
-/// Returns the nearest point of a triangle: the foot on its plane if that lies inside, else a point
-/// on an edge.
+/// Returns the nearest point of a triangle.
 pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
-    let [a, b, c] = longest_edge_first(corners);
-    // Along the longest edge and across it. For a needle, whose normal is mostly rounding, these
-    // two are accurate to the last relevant digits.
-    let length = b.distance(a);
-    let along = (b - a) / length;
-    let apex = (c - a).dot(along);
-    // Made perpendicular twice: the first time leaves a rounding that a small height magnifies.
-    let across = (c - a - apex * along).normalize();
-    let across = (across - across.dot(along) * along).normalize();
-    let height = (c - a).dot(across);
-    let (x, y) = ((p - a).dot(along), (p - a).dot(across));
-    let (left, right) = (apex * y / height, length + (apex - length) * y / height);
-    // False for NaN, as for a triangle without area.
-    let inside = y >= 0.0 && y <= height && x >= left && x <= right;
-    let foot = if inside {
-        a + x * along + y * across
-    } else {
-        a
-    };
-    let nearer = |x: DVec3, y: DVec3| if y.distance(p) < x.distance(p) { y } else { x };
-    let edges = [[a, b], [b, c], [c, a]];
-    edges
-        .map(|edge| point_segment(p, edge))
-        .into_iter()
-        .fold(foot, nearer)
+    Face::new(corners).nearest(p)
+}
+
+/// A triangle, with what its nearest points need.
+pub(crate) struct Face {
+    /// The longest edge is between the first two.
+    pub(crate) corners: [DVec3; 3],
+    /// Unit vectors along the longest edge and across it. For a needle, whose normal is mostly rounding, these
+    /// two are accurate to the last relevant digits.
+    along: DVec3,
+    across: DVec3,
+    length: f64,
+    /// The last corner, along the longest edge and across it.
+    apex: f64,
+    height: f64,
+}
+
+impl Face {
+    pub(crate) fn new(corners: [DVec3; 3]) -> Self {
+        let corners = longest_edge_first(corners);
+        let [a, b, c] = corners;
+        let length = b.distance(a);
+        let along = (b - a) / length;
+        let apex = (c - a).dot(along);
+        // Made perpendicular twice: the first time leaves a rounding that a small height magnifies.
+        let across = (c - a - apex * along).normalize();
+        let across = (across - across.dot(along) * along).normalize();
+        Face {
+            height: (c - a).dot(across),
+            corners,
+            along,
+            across,
+            length,
+            apex,
+        }
+    }
+
+    /// Returns the nearest point: the foot on the plane if that lies inside, else a point on an edge.
+    fn nearest(&self, p: DVec3) -> DVec3 {
+        let [a, b, c] = self.corners;
+        let (x, y) = ((p - a).dot(self.along), (p - a).dot(self.across));
+        let share = y / self.height;
+        let (left, right) = (
+            self.apex * share,
+            self.length + (self.apex - self.length) * share,
+        );
+        // False for NaN, as for a triangle without area.
+        let inside = y >= 0.0 && y <= self.height && x >= left && x <= right;
+        let foot = if inside {
+            a + x * self.along + y * self.across
+        } else {
+            a
+        };
+        let nearer = |x: DVec3, y: DVec3| {
+            if y.distance_squared(p) < x.distance_squared(p) {
+                y
+            } else {
+                x
+            }
+        };
+        let edges = [[a, b], [b, c], [c, a]];
+        edges
+            .map(|edge| point_segment(p, edge))
+            .into_iter()
+            .fold(foot, nearer)
+    }
 }
 
 fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
@@ -223,7 +261,7 @@ impl Bounds {
         self.with(other.lo).with(other.hi)
     }
 
-    fn distance_squared(&self, other: &Bounds) -> f64 {
+    pub(crate) fn distance_squared(&self, other: &Bounds) -> f64 {
         let gap = (self.lo - other.hi)
             .max(other.lo - self.hi)
             .max(DVec3::ZERO);

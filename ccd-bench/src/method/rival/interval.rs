@@ -1,6 +1,7 @@
 //! Intervals, as a middle and a radius, of numbers, vectors and matrices.
 //!
 //! Rounding is plain: enclosures are those of exact arithmetic up to a few units in the last place.
+//! The referee, which judges rivals, has intervals of its own with sound rounding (`truth/interval.rs`).
 
 use ccd_core::glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Sub};

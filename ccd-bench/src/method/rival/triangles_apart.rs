@@ -1,4 +1,6 @@
 //! The nearest points of two triangles.
+//!
+//! The rivals' own, four edges at a time: the referee that judges them shares no code with it.
 
 use super::lanes::{Vectors, least};
 use ccd_core::glam::DVec3;

@@ -5,7 +5,7 @@ use crate::method::guarded::{Asked, Guarded, Programs, Setting};
 use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
 use crate::method::{Method, Ours};
 use crate::scene::Scene;
-use ccd_core::Config;
+use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::table::motions::Query;
 use std::io;
@@ -51,9 +51,9 @@ impl<'s> Session<'s> {
                 let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
-                let config = Config {
+                let config = Settings {
                     tolerance,
-                    ..Config::default()
+                    ..Settings::DEFAULT
                 };
                 Runner::InProcess(Box::new(Ours::new(kind, bodies, config)))
             }

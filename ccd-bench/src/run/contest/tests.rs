@@ -1,25 +1,17 @@
 use super::*;
 use crate::method::solver::Claim;
+use crate::scene::model::Board;
 use crate::scene::{Models, Pieces, listings};
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
-use ccd_decomp::{Format, TriangleMesh};
+use ccd_decomp::TriangleMesh;
 use rigid_ccd::batch::SolverKind;
 use rstest::rstest;
 
 /// A cube of side 1 about the origin.
 fn cube() -> TriangleMesh {
-    let corners = (0..8).map(|k| {
-        let at = |bit: usize| if k >> bit & 1 == 1 { 0.5 } else { -0.5 };
-        format!("v {} {} {}\n", at(0), at(1), at(2))
-    });
-    let faces = [
-        "1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6",
-    ];
-    let obj: String = corners
-        .chain(faces.iter().map(|face| format!("f {face}\n")))
-        .collect();
-    TriangleMesh::from_reader(Format::Obj, obj.as_bytes()).unwrap()
+    let half_extents = DVec3::splat(0.5);
+    Board { half_extents }.mesh().unwrap()
 }
 
 /// Returns a query in which a cube flies at another from 4 away with speed 8, with contact at 3/8.

@@ -12,21 +12,13 @@ const FRINGE: f64 = 0.06;
 /// The least and the largest exponent of ten on an axis.
 const EXPONENTS: (i32, i32) = (-30, 30);
 
-/// An axis of a panel.
+/// A logarithmic axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     label: String,
     low: f64,
     high: f64,
-    scale: Scale,
     ticks: Vec<Tick>,
-}
-
-/// The scale of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Scale {
-    Logarithmic,
-    Linear,
 }
 
 /// A line across the panel.
@@ -65,7 +57,6 @@ impl Axis {
             label: label.to_owned(),
             low: f64::from(low),
             high: f64::from(high),
-            scale: Scale::Logarithmic,
             ticks,
         })
     }
@@ -88,25 +79,8 @@ impl Axis {
             label: label.to_owned(),
             low,
             high,
-            scale: Scale::Logarithmic,
             ticks: ticks.collect(),
         })
-    }
-
-    /// Returns an axis from 0 to a count, with a line at every multiple of `every`.
-    pub(super) fn counting(label: &str, count: usize, every: usize) -> Self {
-        let high = count.max(1) as f64;
-        let ticks = (0..=count).step_by(every.max(1)).map(|number| Tick {
-            share: number as f64 / high,
-            text: Some(number.to_string()),
-        });
-        Axis {
-            label: label.to_owned(),
-            low: 0.0,
-            high,
-            scale: Scale::Linear,
-            ticks: ticks.collect(),
-        }
     }
 
     /// Returns the label, with the unit.
@@ -122,12 +96,8 @@ impl Axis {
     /// Returns the position of a value along the axis, from 0 to 1. Values beyond are at the edge;
     /// NaN has no position.
     pub(super) fn share(&self, value: f64) -> Option<f64> {
-        let value = match self.scale {
-            Scale::Linear => value,
-            // The value 0 is beyond the lower edge, and still drawn.
-            Scale::Logarithmic => value.log10(),
-        };
-        let share = (value - self.low) / (self.high - self.low);
+        // The value 0 is beyond the lower edge, and still drawn.
+        let share = (value.log10() - self.low) / (self.high - self.low);
         (!share.is_nan()).then(|| share.clamp(0.0, 1.0))
     }
 }

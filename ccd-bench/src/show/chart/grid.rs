@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::legend::Legend;
 use super::panel::{BOTTOM_MARGIN, LEFT_MARGIN, Label, Labelled, Panel, TOP_MARGIN, remark};
-use super::sheet::{DrawError, MARGIN, Rect, Sheet, TEXT, TextFormat, WIDTH};
+use super::sheet::{DrawError, MARGIN, Rect, Sheet, TextFormat, WIDTH};
 use plotters::style::FontStyle;
 
 /// The height of the chart's title and of the line below it.
@@ -96,11 +96,6 @@ pub(super) fn foot(sheet: &Sheet<'_>, remarks: &[String], top: f64) -> Result<()
         sheet.text(remark_text, (MARGIN, middle), remark())?;
     }
     Ok(())
-}
-
-/// Returns the height of remarks.
-pub(super) fn foot_height(remarks: &[String]) -> f64 {
-    REMARK * remarks.len() as f64 + TEXT
 }
 
 fn written(outermost: bool) -> Label {

@@ -25,8 +25,6 @@ pub enum HeatKind {
     Reach,
     /// How its cost grows: cells [`HeatCell::Growth`].
     Growth,
-    /// Its smallest failures: cells [`HeatCell::Failure`].
-    Failures,
 }
 
 /// One family.
@@ -54,29 +52,19 @@ pub enum HeatCell {
     },
     /// The largest cost of a step, as a multiple of that of the easiest one.
     Growth(f64),
-    /// The smallest failure.
-    Failure {
-        /// Its verdict; right if there is none.
-        verdict: Verdict,
-        /// Its number of triangles, if there is one.
-        triangles: Option<usize>,
-    },
 }
 
 /// The words of a map.
-pub(in crate::show) struct Words {
+struct Words {
     name: &'static str,
-    pub(in crate::show) title: &'static str,
-    /// A link to the map.
-    pub(in crate::show) link: &'static str,
-    pub(in crate::show) remark: &'static str,
-    pub(in crate::show) legend: &'static [(&'static str, RGBColor)],
+    title: &'static str,
+    remark: &'static str,
+    legend: &'static [(&'static str, RGBColor)],
 }
 
 const REACH: Words = Words {
     name: "stability",
     title: "How far each method follows each family: bluer is better",
-    link: "How far",
     remark: "A cell has the colour of the worst answer, and names the first value at which it came. \
              The bar shows the share of the steps, from the easy ones, before the first that is not right.",
     legend: &[
@@ -92,7 +80,6 @@ const REACH: Words = Words {
 const GROWTH: Words = Words {
     name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
-    link: "At what cost",
     remark: "The largest mean number of steps of a query and one for the query itself, as a multiple of that of \
              the family's easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
     legend: &[
@@ -100,20 +87,6 @@ const GROWTH: Words = Words {
         ("30", GROWN[1]),
         ("1,000", GROWN[2]),
         ("more", GROWN[3]),
-    ],
-};
-
-const FAILURES: Words = Words {
-    name: "failures",
-    title: "The smallest failure that a search found: blue is none",
-    link: "The failures",
-    remark: "A cell has the colour of the failure, and the number of triangles of both bodies.",
-    legend: &[
-        ("none found", RIGHT),
-        ("early", EARLY),
-        ("false contact", FALSE),
-        ("late or missed", WARNING),
-        ("died or cut off", BLACK),
     ],
 };
 
@@ -149,27 +122,26 @@ const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
 /// The look of a cell.
-pub(in crate::show) struct Look {
-    pub(in crate::show) fill: RGBColor,
-    pub(in crate::show) ink: RGBColor,
+struct Look {
+    fill: RGBColor,
+    ink: RGBColor,
     /// Two lines of text.
-    pub(in crate::show) lines: [String; 2],
+    lines: [String; 2],
     /// The share of the width that a bar takes.
-    pub(in crate::show) bar: f64,
+    bar: f64,
 }
 
 impl HeatKind {
-    pub(in crate::show) fn words(self) -> &'static Words {
+    fn words(self) -> &'static Words {
         match self {
             HeatKind::Reach => &REACH,
             HeatKind::Growth => &GROWTH,
-            HeatKind::Failures => &FAILURES,
         }
     }
 }
 
 impl HeatCell {
-    pub(in crate::show) fn look(&self) -> Look {
+    fn look(&self) -> Look {
         match self {
             HeatCell::Reach {
                 worst,
@@ -182,16 +154,6 @@ impl HeatCell {
                     ink,
                     lines: [word.to_owned(), limit.clone()],
                     bar: *share,
-                }
-            }
-            HeatCell::Failure { verdict, triangles } => {
-                let (fill, word, ink) = look_of(*verdict);
-                let size = triangles.map_or("none".to_owned(), |count| count.to_string());
-                Look {
-                    fill,
-                    ink,
-                    lines: [word.to_owned(), size],
-                    bar: 0.0,
                 }
             }
             &HeatCell::Growth(factor) => {

@@ -113,18 +113,6 @@ impl Sheet<'_> {
     }
 }
 
-impl Sheet<'_> {
-    /// Draws the marker of one trial among hundreds.
-    pub(super) fn speck(&self, at: Spot, look: &Look) -> Result<(), DrawError> {
-        match look.fill {
-            Fill::Solid => self.disc(at, SPECK, look.colour.filled()),
-            Fill::Hollow => self.disc(at, SPECK, stroke(look.colour, 0.7)),
-        }
-    }
-}
-
-/// The radius of a speck.
-const SPECK: f64 = 1.4;
 /// The width of a marker's edge.
 const OUTLINE: f64 = 1.3;
 

@@ -1,5 +1,6 @@
 use super::axis::{Axis, power_of_ten};
 use super::*;
+use plotters::style::RGBColor;
 use std::fs;
 
 const SCENES: [SceneFacts<'_>; 3] = [
@@ -7,19 +8,16 @@ const SCENES: [SceneFacts<'_>; 3] = [
         name: "knot small",
         shape: "knot",
         triangles: 2_880,
-        figure: Some(7),
     },
     SceneFacts {
         name: "knot large",
         shape: "knot",
         triangles: 34_560,
-        figure: Some(7),
     },
     SceneFacts {
         name: "never measured",
         shape: "ring",
         triangles: 10_000,
-        figure: Some(8),
     },
 ];
 const METHODS: [MethodFacts<'_>; 4] = [
@@ -83,41 +81,12 @@ fn cells() -> Vec<Cell> {
     cells
 }
 
-fn trials() -> Vec<Trial> {
-    let of = |(scene, method): (&str, &str)| {
-        let (scene, method) = (scene.to_owned(), method.to_owned());
-        (0..20).map(move |number| Trial {
-            scene: scene.clone(),
-            method: method.clone(),
-            tolerance: 1e-3,
-            row: number as usize,
-            id: number.to_string(),
-            micros: 10.0 + f64::from(number),
-            steps: 3,
-            verdict: "right".to_owned(),
-            error: f64::NAN,
-            time: f64::NAN,
-            note: String::new(),
-        })
-    };
-    [
-        ("knot small", "ours"),
-        ("knot small", "careless"),
-        ("knot large", "ours"),
-    ]
-    .into_iter()
-    .flat_map(of)
-    .collect()
-}
-
-fn charts<'a>(cells: &'a [Cell], trials: &'a [Trial]) -> Charts<'a> {
+fn charts(cells: &[Cell]) -> Charts<'_> {
     Charts {
         cells,
-        trials,
         scenes: &SCENES,
         methods: &METHODS,
         headline: &["knot large"],
-        published: &["ours", "careless"],
     }
 }
 
@@ -131,25 +100,13 @@ fn svg(drawings: &[Drawing], name: &str) -> String {
 
 #[test]
 fn every_chart_is_there_and_names_what_it_shows() {
-    let (cells, trials) = (cells(), trials());
-    let drawings = charts(&cells, &trials).drawings().unwrap();
+    let cells = cells();
+    let drawings = charts(&cells).drawings().unwrap();
     let names: Vec<_> = drawings.iter().map(|d| d.name.as_str()).collect();
-    let expected = [
-        "pareto",
-        "pareto-small",
-        "triangles",
-        "tolerance",
-        "steps",
-        "models",
-        "figure-7",
-    ];
-    assert_eq!(names, expected);
+    assert_eq!(names, ["pareto", "pareto-small", "triangles"]);
     for drawing in &drawings {
-        let label = match drawing.name.as_str() {
-            "models" => "patches",
-            _ => "our method",
-        };
-        assert!(drawing.svg.contains(label), "{}", drawing.name);
+        assert!(drawing.svg.contains("our method"), "{}", drawing.name);
+        assert!(!drawing.svg.contains("patches"), "{}", drawing.name);
         assert!(!drawing.svg.contains("absent rival"), "{}", drawing.name);
         assert!(!drawing.svg.contains("never measured"), "{}", drawing.name);
     }
@@ -158,35 +115,35 @@ fn every_chart_is_there_and_names_what_it_shows() {
 
 #[test]
 fn names_are_escaped_and_no_number_is_lost() {
-    let (mut cells, trials) = (cells(), trials());
+    let mut cells = cells();
     cells[0].mean_error = f64::NAN;
     cells[1].median_us = f64::NAN;
     cells[2].mean_error = 0.0;
     cells[3].mean_steps = f64::INFINITY;
     cells[4].unresolved = cells[4].rows;
-    for drawing in charts(&cells, &trials).drawings().unwrap() {
+    for drawing in charts(&cells).drawings().unwrap() {
         for lost in ["NaN", "inf", "<peer>", "& co"] {
             assert!(!drawing.svg.contains(lost), "{lost} in {}", drawing.name);
         }
     }
-    let drawings = charts(&cells, &trials).drawings().unwrap();
+    let drawings = charts(&cells).drawings().unwrap();
     assert!(svg(&drawings, "pareto").contains("careless &lt;peer&gt; &amp; co (unsafe)"));
 }
 
 #[test]
 fn an_unsafe_method_is_in_the_strip_only() {
-    let (safe, trials) = (cells(), trials());
+    let safe = cells();
     let mut careful = safe.clone();
     for cell in &mut careful {
         cell.missed = 0;
     }
     // Peers draw a shape of this colour.
-    let colour = |charts: &Charts<'_>| charts.colours()[1].1.to_uppercase();
-    let with = charts(&safe, &trials);
-    let without = charts(&careful, &trials);
+    let RGBColor(red, green, blue) = look::looks(&METHODS, |_| Fill::Solid)[1].colour;
+    let colour = format!("#{red:02X}{green:02X}{blue:02X}");
+    let with = charts(&safe);
+    let without = charts(&careful);
     let lines = |charts: &Charts<'_>| {
         let text = svg(&charts.drawings().unwrap(), "pareto");
-        let colour = colour(charts);
         let of_colour = text.lines().filter(|line| line.contains(&colour));
         // Dashes of lines through data, and filled markers.
         let filled = format!("fill=\"{colour}\"");
@@ -202,10 +159,10 @@ fn an_unsafe_method_is_in_the_strip_only() {
 
 #[test]
 fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
-    let empty = charts(&[], &[]).drawings();
+    let empty = charts(&[]).drawings();
     assert!(matches!(empty, Err(ChartError::NothingToDraw)), "{empty:?}");
     let unknown_cells = [cell("elsewhere", "nobody", 1e-3)];
-    let unknown = charts(&unknown_cells, &[]).drawings();
+    let unknown = charts(&unknown_cells).drawings();
     assert!(
         matches!(unknown, Err(ChartError::NothingToDraw)),
         "{unknown:?}"
@@ -214,13 +171,13 @@ fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
     lost[0].median_us = f64::NAN;
     lost[0].mean_error = f64::NAN;
     lost[0].mean_steps = f64::NAN;
-    assert_eq!(charts(&lost, &[]).drawings().unwrap(), []);
+    assert_eq!(charts(&lost).drawings().unwrap(), []);
 }
 
 #[test]
 fn files_are_written_and_a_missing_folder_is_an_error() {
-    let (cells, trials) = (cells(), trials());
-    let charts = charts(&cells, &trials);
+    let cells = cells();
+    let charts = charts(&cells);
     let folder = std::env::temp_dir().join(format!("ccd-charts-{}", std::process::id()));
     let missing = charts.write(&folder);
     assert!(

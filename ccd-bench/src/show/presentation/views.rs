@@ -1,15 +1,15 @@
 //! The page: charts, tables, and a few motions of each scene to view.
 
+use crate::method::first_contact;
 use crate::scene::Scene;
 use crate::show::chart::Charts;
 use crate::show::page::PageError;
 use crate::show::report::Page;
 use crate::show::tables::TextTable;
 use crate::show::view::{Shot, View};
-use ccd_core::{Config, InputError, Instructions, Outcome};
+use ccd_core::{InputError, Instructions, Outcome, Settings};
 use rigid_ccd::Solver;
 use rigid_ccd::batch::SolverKind;
-use rigid_ccd::batch::solve;
 use rigid_ccd::picture::{Reached, gap};
 use rigid_ccd::table::courses::Course;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ fn view(scene: &Scene) -> Result<View<'_>, InputError> {
     let mut shots = Vec::new();
     let (mut contacts, mut others) = (0, 0);
     for query in &scene.queries {
-        let answer = solve(scene.bodies(), query, &Config::default(), solver.as_mut())?;
+        let answer = first_contact(scene.bodies(), query, &Settings::DEFAULT, solver.as_mut())?;
         let (seen, most) = match answer.outcome {
             Outcome::Contact { .. } => (&mut contacts, CONTACTS),
             _ => (&mut others, OTHERS),

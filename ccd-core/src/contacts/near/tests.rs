@@ -1,11 +1,11 @@
 use super::Extent;
 use crate::body::Body;
 use crate::body::polytope::Polytope;
-use crate::config::Config;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
 use crate::problem::Problem;
+use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{direction, long_box};
 use crate::tests::worst::{Worst, share};
@@ -23,7 +23,8 @@ fn worst_box() {
             ..Polytope::default()
         };
         let body = Body::polytope(of).ok()?;
-        let problem = Problem::new((&body, still), (&ball, still), 1.0, &Config::default()).ok()?;
+        let problem =
+            Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
         let node = Extent::new(&problem.a, 0, &Frame::IDENTITY);
         let along = points[tape.pick(8)] - points[tape.pick(8)];
         let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();

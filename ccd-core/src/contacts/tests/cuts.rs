@@ -108,9 +108,9 @@ fn a_piece_of_many_faces_is_sorted_once() {
     };
     let socket = socket.body(Volume::Surface);
     let triangles = ball.body(Volume::Solid);
-    let config = Config {
+    let config = Settings {
         budget: 50 * count,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let shifted = at(0.0, 0.0, 0.0099);
     let gaps = |a: &Body, b: &Body, pose: Pose| -> Vec<f64> {
@@ -128,7 +128,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
     let back = gaps(&socket, &hull, at(0.0, 0.0, -0.0099));
     assert_eq!(of_hull.len(), back.len());
     // Visits are counted.
-    let config = Config {
+    let config = Settings {
         budget: 2 * count,
         ..config
     };

@@ -1,11 +1,11 @@
 //! What a body sees of another, against the two frames.
 
 use super::{Seen, View};
-use crate::config::Instructions;
 use crate::math::packed::{Packed, PackedMatrix, rows};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
+use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use crate::vectorize;
 use fearless_simd::Simd;

@@ -1,10 +1,10 @@
 //! Translates answers about surfaces to the pieces that have these surfaces.
 
+use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
-use crate::outcome::{Contact, Outcome, Overlap, Separation};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::pieces::meeting::Meeting;
@@ -23,22 +23,9 @@ pub(in crate::schedule) fn of_given<O: DistanceOracle>(
     outcome: Outcome,
     within: f64,
 ) -> Outcome {
-    let mut told = |contact, time| contact_of_given(problem, oracle, meter, contact, within, time);
-    match outcome {
-        Outcome::Contact { time, contact } => Outcome::Contact {
-            time,
-            contact: told(contact, time),
-        },
-        Outcome::Touching { contact } => Outcome::Touching {
-            contact: told(contact, 0.0),
-        },
-        Outcome::Overlapping {
-            overlap: Overlap::Pieces(contact),
-        } => Outcome::Overlapping {
-            overlap: Overlap::Pieces(told(contact, 0.0)),
-        },
-        Outcome::Overlapping { .. } | Outcome::Free { .. } | Outcome::Unresolved { .. } => outcome,
-    }
+    outcome.map_contacts(|contact, time| {
+        contact_of_given(problem, oracle, meter, contact, within, time)
+    })
 }
 
 /// Like [`of_given`] for the contact at a time.

@@ -2,18 +2,20 @@
 //! oracles.
 
 use super::*;
+use crate::answer::Unresolved;
 use crate::body::combination::Combination;
-use crate::config::StartPolicy;
 use crate::distance::oracle::{Claim, GiveUp};
-use crate::schedule::{BestFirst, Schedule};
+use crate::schedule::BestFirst;
+use crate::schedule::contract::Solve;
+use crate::settings::StartPolicy;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, RngExt, direction, distance, rng, scene};
 
 const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
 
-fn any(problem: &Problem<'_>) -> AnyContact {
+fn any(problem: &Problem<'_>) -> Outcome {
     let mut schedule = DepthFirst::default();
-    schedule.any_contact(problem, &mut Exhaustive).outcome
+    schedule.any_contact_of(problem, &mut Exhaustive).outcome
 }
 
 fn first(problem: &Problem<'_>) -> Outcome {
@@ -24,12 +26,12 @@ fn first(problem: &Problem<'_>) -> Outcome {
 fn there_is_any_contact_where_there_is_a_first_one() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
-    for number in 0..4_000 {
+    for number in 0..2_000 {
         let scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
         let problem = scene.problem();
         let within = problem.contact_distance();
         match (any(&problem), first(&problem)) {
-            (AnyContact::Contact { time, contact }, Outcome::Contact { time: first, .. }) => {
+            (Outcome::Contact { time, contact }, Outcome::Contact { time: first, .. }) => {
                 hits += 1;
                 later += u32::from(time > first);
                 // Neither is much earlier than the other is certain of.
@@ -37,7 +39,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
                 assert!(contact.separation.upper <= within, "{number}: {contact:?}");
                 assert!(distance(&problem, time) <= within + problem.rounding);
             }
-            (AnyContact::Free { proven_gap }, Outcome::Free { .. }) => {
+            (Outcome::Free { proven_gap }, Outcome::Free { .. }) => {
                 misses += 1;
                 for k in 0..=32 {
                     let found = distance(&problem, f64::from(k) / 32.0);
@@ -48,16 +50,16 @@ fn there_is_any_contact_where_there_is_a_first_one() {
                 }
             }
             (
-                AnyContact::Contact { time, .. },
+                Outcome::Contact { time, .. },
                 Outcome::Touching { .. } | Outcome::Overlapping { .. },
             ) => {
                 starts += 1;
                 assert!(distance(&problem, time) <= within + problem.rounding);
             }
-            (AnyContact::Overlapping { .. }, Outcome::Overlapping { .. }) => starts += 1,
+            (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => starts += 1,
             // Nearest within the tolerance, but not within half of it: both answers are right.
-            (AnyContact::Free { .. }, Outcome::Contact { time, .. })
-            | (AnyContact::Contact { time, .. }, Outcome::Free { .. }) => {
+            (Outcome::Free { .. }, Outcome::Contact { time, .. })
+            | (Outcome::Contact { time, .. }, Outcome::Free { .. }) => {
                 grazes += 1;
                 let near = distance(&problem, time);
                 assert!(
@@ -68,9 +70,9 @@ fn there_is_any_contact_where_there_is_a_first_one() {
             (any, first) => panic!("{number}: {any:?}, {first:?}"),
         }
     }
-    assert!(hits > 200 && misses > 200, "{hits} {misses}");
-    assert!(starts > 10 && later > 50, "{starts} {later}");
-    assert!(grazes < 10, "{grazes}");
+    assert!(hits > 100 && misses > 100, "{hits} {misses}");
+    assert!(starts > 5 && later > 25, "{starts} {later}");
+    assert!(grazes < 5, "{grazes}");
 }
 
 #[test]
@@ -82,10 +84,10 @@ fn bodies_that_are_let_go_have_the_verdict_of_the_first_contact() {
         scene.config.start = StartPolicy::Leave;
         let problem = scene.problem();
         match (any(&problem), first(&problem)) {
-            (AnyContact::Free { .. }, Outcome::Free { .. }) => free += 1,
-            (AnyContact::Contact { .. }, Outcome::Contact { .. }) => contacts += 1,
-            (AnyContact::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
-            (AnyContact::Unresolved { .. }, Outcome::Unresolved { .. }) => {}
+            (Outcome::Free { .. }, Outcome::Free { .. }) => free += 1,
+            (Outcome::Contact { .. }, Outcome::Contact { .. }) => contacts += 1,
+            (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
+            (Outcome::Unresolved(_), Outcome::Unresolved(_)) => {}
             (any, first) => panic!("{number}: {any:?}, {first:?}"),
         }
     }
@@ -106,7 +108,11 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
         for budget in 0..40 {
             scene.config.budget = budget;
             match any(&scene.problem()) {
-                AnyContact::Unresolved { safe_until, reason } => {
+                Outcome::Unresolved(Unresolved {
+                    safe_until,
+                    limit: reason,
+                    ..
+                }) => {
                     assert_eq!(reason, Limit::Budget);
                     assert!(safe_until <= touch, "{number}: {safe_until} of {touch}");
                     ended += 1;
@@ -135,22 +141,23 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
             b: Combination::point(rng.random_range(0..5)),
         };
         for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
-            let answer = DepthFirst::default().any_contact(&problem, &mut { oracle });
+            let answer = DepthFirst::default().any_contact_of(&problem, &mut { oracle });
             match answer.outcome {
-                AnyContact::Unresolved { safe_until, .. } => {
+                Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                     unresolved += 1;
                     assert!(touch.is_none_or(|touch| safe_until <= touch));
                 }
-                AnyContact::Free { .. } => {
+                Outcome::Free { .. } => {
                     others += 1;
                     assert_eq!(touch, None);
                 }
-                AnyContact::Contact { time, .. } => {
+                Outcome::Contact { time, .. } => {
                     others += 1;
                     let near = distance(&problem, time);
                     assert!(near <= problem.contact_distance() + problem.rounding);
                 }
-                AnyContact::Overlapping { .. } => {}
+                Outcome::Overlapping { .. } => {}
+                other => panic!("no outcome of any contact: {other:?}"),
             }
         }
     }
@@ -164,9 +171,9 @@ fn answers_do_not_depend_on_earlier_searches() {
     for number in 0..200 {
         let scene = scene(&mut rng, KINDS[number % 4], 12);
         let problem = scene.problem();
-        let fresh = DepthFirst::default().any_contact(&problem, &mut Exhaustive);
-        assert_eq!(kept.any_contact(&problem, &mut Exhaustive), fresh);
-        kept.closest_approach(&problem, &mut Exhaustive);
-        assert_eq!(kept.any_contact(&problem, &mut Exhaustive), fresh);
+        let fresh = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
+        assert_eq!(kept.any_contact_of(&problem, &mut Exhaustive), fresh);
+        kept.closest_approach_of(&problem, &mut Exhaustive);
+        assert_eq!(kept.any_contact_of(&problem, &mut Exhaustive), fresh);
     }
 }

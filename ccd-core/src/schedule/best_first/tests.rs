@@ -1,17 +1,19 @@
 //! Whole queries: against samples, the naive schedule, tiny budgets, and a million pairs at once.
 
 use super::*;
+use crate::answer::Unresolved;
+use crate::answer::{Contact, Stats};
 use crate::body::combination::Combination;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::{Body, Volume};
-use crate::config::{Config, StartPolicy};
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::{Contact, Stats};
-use crate::problem::{Moving, Side};
+use crate::problem::Side;
+use crate::query::Moving;
 use crate::schedule::Naive;
+use crate::settings::{Settings, StartPolicy};
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{
@@ -40,7 +42,7 @@ fn apart(rng: &mut Pcg64) -> Scene {
 fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut grazes) = (0, 0, 0);
-    for number in 0..4_000 {
+    for number in 0..1_600 {
         let scene = apart(&mut rng);
         let problem = scene.problem();
         let (margin, tolerance) = (problem.margin, problem.tolerance());
@@ -84,15 +86,15 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
             );
         }
     }
-    assert!(hits > 200 && misses > 200, "{hits} {misses}");
-    assert!(grazes < 10, "{grazes}");
+    assert!(hits > 80 && misses > 80, "{hits} {misses}");
+    assert!(grazes < 4, "{grazes}");
 }
 
 #[test]
 fn answers_hold_at_sampled_times_where_bodies_accelerate() {
     let mut rng = rng(11);
     let (mut hits, mut misses, mut later) = (0, 0, 0);
-    for number in 0..2_000 {
+    for number in 0..800 {
         let scene = apart(&mut rng).accelerating(&mut rng);
         let problem = scene.problem();
         if distance(&problem, 0.0) <= 2.0 * problem.tolerance() {
@@ -130,8 +132,8 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
         };
         later += usize::from((until - other).abs() > 0.1);
     }
-    assert!(hits > 100 && misses > 300, "{hits} {misses}");
-    assert!(later > 30, "{later}");
+    assert!(hits > 40 && misses > 120, "{hits} {misses}");
+    assert!(later > 12, "{later}");
 }
 
 /// Checks that the named pieces are as far apart as claimed.
@@ -182,7 +184,12 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
         for budget in 0..visits.min(60) {
             scene.config.budget = budget;
             let answer = solve(&scene.problem());
-            let Outcome::Unresolved { safe_until, reason } = answer.outcome else {
+            let Outcome::Unresolved(Unresolved {
+                safe_until,
+                limit: reason,
+                ..
+            }) = answer.outcome
+            else {
                 panic!("{number}: {:?} for {budget} of {visits}", answer.outcome);
             };
             assert_eq!(reason, Limit::Budget);
@@ -196,7 +203,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
         scene.config.budget = work;
         assert!(!matches!(
             solve(&scene.problem()).outcome,
-            Outcome::Unresolved { .. }
+            Outcome::Unresolved(_)
         ));
     }
     assert!(ended > 1_000, "{ended}");
@@ -239,7 +246,7 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
         for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
             let answer = BestFirst::default().solve(&problem, &mut { oracle });
             match answer.outcome {
-                Outcome::Unresolved { safe_until, .. } => {
+                Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                     unresolved += 1;
                     assert!(touch.is_none_or(|touch| safe_until <= touch));
                 }
@@ -268,14 +275,14 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
     ]]);
     let outcome = |height: f64, speed: f64, start: StartPolicy| {
         let at = Pose::at(DVec3::new(0.3, 0.3, height)).unwrap();
-        let moving = |body, motion| Moving { body, motion };
-        let config = Config {
+        let moving = |body, motion| Moving::from((body, motion));
+        let config = Settings {
             start,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let motion = Motion::new(at, speed * DVec3::Z, DVec3::ZERO).unwrap();
         let still = Motion::still(Pose::IDENTITY);
-        let problem = Problem::new(moving(&spike, motion), moving(&flat, still), 1.0, &config);
+        let problem = Problem::about(moving(&spike, motion), moving(&flat, still), 1.0, &config);
         solve(&problem.unwrap()).outcome
     };
     for height in [0.0, 1e-8, 1e-4, 9e-4] {
@@ -295,6 +302,7 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
         let inside = outcome(-0.5, 1.0, start);
         let Outcome::Overlapping {
             overlap: crate::Overlap::Pieces(contact),
+            ..
         } = inside
         else {
             panic!("{inside:?}");
@@ -344,18 +352,15 @@ fn a_million_groups_of_pairs_wait_at_once() {
     let step = 1.0 / COUNT as f64;
     let bodies = [0.0, 0.5 * step].map(|lowest| plates(&mut rng, COUNT, lowest, step));
     let answer = |budget: u64| {
-        let config = Config {
+        let config = Settings {
             tolerance: 1e-5,
             budget,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let rising = Motion::new(Pose::IDENTITY, DVec3::Z, DVec3::ZERO).unwrap();
         let motions = [rising, Motion::still(Pose::IDENTITY)];
-        let moving = |k: usize| Moving {
-            body: &bodies[k],
-            motion: motions[k],
-        };
-        solve(&Problem::new(moving(0), moving(1), 1.0, &config).unwrap())
+        let moving = |k: usize| Moving::from((&bodies[k], motions[k]));
+        solve(&Problem::about(moving(0), moving(1), 1.0, &config).unwrap())
     };
     // Every plate meets the one above it at once.
     let exact = 0.5 * step;
@@ -370,7 +375,12 @@ fn a_million_groups_of_pairs_wait_at_once() {
     );
     // Not enough visits for all: the certified time is then not later.
     let some = answer(1_000_000);
-    let Outcome::Unresolved { safe_until, reason } = some.outcome else {
+    let Outcome::Unresolved(Unresolved {
+        safe_until,
+        limit: reason,
+        ..
+    }) = some.outcome
+    else {
         panic!("a million visits are not enough: {some:?}");
     };
     assert_eq!(reason, Limit::Budget);
@@ -397,13 +407,13 @@ fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
         corner(0.0, 200.0),
     ]]);
     let spin = Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.4 * DVec3::Y).unwrap();
-    let moving = |body, motion| Moving { body, motion };
+    let moving = |body, motion| Moving::from((body, motion));
     let (large, field) = (
         moving(&large, spin),
         moving(&field, Motion::still(Pose::IDENTITY)),
     );
     for (a, b) in [(large, field), (field, large)] {
-        let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
+        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let answer = solve(&problem);
         assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
         let Stats {

@@ -1,11 +1,10 @@
 //! The least distance at a few times, to begin with.
 
 use super::Best;
-use super::bracket::ClosestApproach;
 use super::follow::follow;
+use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
-use crate::outcome::{Limit, Overlap};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::nearest::{Nearest, Stop};
@@ -22,7 +21,7 @@ pub(super) fn guess<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<ClosestApproach, Option<Best>> {
+) -> ControlFlow<Outcome, Option<Best>> {
     let mut best: Option<Best> = None;
     let mut clock = nearest_clock(problem);
     for _ in 0..GUESSES {
@@ -78,13 +77,13 @@ pub(in crate::schedule) fn nearest_at<O: DistanceOracle>(
 }
 
 /// Returns the answer for bodies that overlap at the start, or when a limit is reached.
-fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> ClosestApproach {
+fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> Outcome {
     match stop {
-        Stop::Overlap(_, contact) => ClosestApproach::overlapping(Overlap::Pieces(contact)),
-        Stop::Limit(reason) => ClosestApproach::Unresolved {
-            lower: greater(0.0, least_distance(problem)),
-            nearest: best.map(|best| (problem.time(best.clock), best.contact.no_nearer_than(0.0))),
-            reason,
-        },
+        Stop::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
+        Stop::Limit(limit) => {
+            let seen = |best: Best| (problem.time(best.clock), best.contact.no_nearer_than(0.0));
+            let lower = greater(0.0, least_distance(problem));
+            Outcome::Unresolved(Unresolved::least(lower, best.map(seen), limit))
+        }
     }
 }

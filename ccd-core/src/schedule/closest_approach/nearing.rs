@@ -1,12 +1,11 @@
 //! The search for the least distance.
 
-use super::bracket::ClosestApproach;
 use super::follow::follow;
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
 use super::{Best, Beyond};
+use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
-use crate::outcome::{Limit, Outcome, Overlap};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::nodes::closer_look::CloserLook;
@@ -35,30 +34,19 @@ impl Nearing {
         self.best.map_or(self.beyond, upper)
     }
 
-    pub(super) fn found(
-        &self,
-        problem: &Problem<'_>,
-        lower: f64,
-    ) -> Result<ClosestApproach, Beyond> {
+    pub(super) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
         let best = self.best.ok_or(Beyond { lower })?;
-        Ok(ClosestApproach::Nearest {
-            lower,
-            time: problem.time(best.clock),
-            contact: best.contact.no_nearer_than(lower),
-        })
+        let contact = best.contact.no_nearer_than(lower);
+        Ok(Outcome::least(lower, problem.time(best.clock), contact))
     }
 
-    pub(super) fn unresolved(&self, problem: &Problem<'_>, reason: Limit) -> ClosestApproach {
+    pub(super) fn unresolved(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.ladder.lower, self.upper());
         let seen = |best: Best| {
             let contact = best.contact.no_nearer_than(lower);
             (problem.time(best.clock), contact)
         };
-        ClosestApproach::Unresolved {
-            lower,
-            nearest: self.best.map(seen),
-            reason,
-        }
+        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
     }
 
     /// Searches for pairs nearer than a rung, in a search of its own: proves the rung, or sees nearer pieces.
@@ -70,7 +58,7 @@ impl Nearing {
         rung: Rung,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> ControlFlow<ClosestApproach> {
+    ) -> ControlFlow<Outcome> {
         let work = meter.stats.work();
         let budget = problem.budget.min(work.saturating_add(rung.budget));
         let lower = Rung { budget, ..rung }.problem(problem);
@@ -96,7 +84,7 @@ impl Nearing {
             }
         }
         match found {
-            Some(Ok(overlapping @ ClosestApproach::Overlapping { .. })) => {
+            Some(Ok(overlapping @ Outcome::Overlapping { .. })) => {
                 return ControlFlow::Break(overlapping);
             }
             Some(Err(Beyond { lower })) => self.ladder.climb(Some(lower)),
@@ -115,12 +103,12 @@ impl Nearing {
     pub(super) fn at_last<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
-        found: Result<ClosestApproach, Beyond>,
+        found: Result<Outcome, Beyond>,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Result<ClosestApproach, Beyond> {
-        let reason = match (&found, self.stuck) {
-            (Ok(ClosestApproach::Unresolved { reason, .. }), Some(_)) => *reason,
+    ) -> Result<Outcome, Beyond> {
+        let limit = match (&found, self.stuck) {
+            (Ok(Outcome::Unresolved(known)), Some(_)) => known.limit,
             _ => return found,
         };
         for _ in 0..LAST_RUNGS {
@@ -132,12 +120,12 @@ impl Nearing {
                 return Ok(found);
             }
         }
-        Ok(self.unresolved(problem, reason))
+        Ok(self.unresolved(problem, limit))
     }
 }
 
 impl<O: DistanceOracle> Question<O> for Nearing {
-    type Found = Result<ClosestApproach, Beyond>;
+    type Found = Result<Outcome, Beyond>;
 
     fn conclude(
         &mut self,
@@ -165,7 +153,7 @@ impl<O: DistanceOracle> Question<O> for Nearing {
             }
             Step::Overlap(contact) => {
                 let overlap = Overlap::Pieces(contact);
-                ControlFlow::Break(Ok(ClosestApproach::overlapping(overlap)))
+                ControlFlow::Break(Ok(Outcome::overlapping(overlap)))
             }
             Step::Stalled => {
                 self.stuck = Some(Limit::Stalled);
@@ -187,12 +175,10 @@ impl<O: DistanceOracle> Question<O> for Nearing {
             return Ok(self.unresolved(problem, limit));
         }
         match self.proven.end(problem) {
-            Outcome::Overlapping { overlap } => Ok(ClosestApproach::overlapping(overlap)),
+            overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
             Outcome::Free { proven_gap } => self.found(problem, proven_gap),
-            Outcome::Unresolved { reason, .. } => Ok(self.unresolved(problem, reason)),
-            Outcome::Contact { .. } | Outcome::Touching { .. } => {
-                unreachable!("pairs that waited are in no contact")
-            }
+            Outcome::Unresolved(known) => Ok(self.unresolved(problem, known.limit)),
+            _ => unreachable!("pairs that waited are in no contact"),
         }
     }
 }

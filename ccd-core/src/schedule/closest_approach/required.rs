@@ -1,12 +1,10 @@
 //! Is a required distance kept? Two questions for any contact decide.
 
-use super::bracket::ClosestApproach;
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
 use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
 use crate::math::order::{greater, lesser};
-use crate::outcome::{Answer, Contact, Limit, Stats};
-use crate::schedule::any_contact::AnyContact;
 
 /// A required distance, and what may be spent on it.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +24,8 @@ impl Required {
     /// Those of the question for any contact.
     pub(in crate::schedule) fn decide<E>(
         &self,
-        any_contact: impl FnMut(Rung) -> Result<Answer<AnyContact>, E>,
-    ) -> Result<Answer<ClosestApproach>, E> {
+        any_contact: impl FnMut(Rung) -> Result<Answer, E>,
+    ) -> Result<Answer, E> {
         let mut asking = Asking {
             required: *self,
             any_contact,
@@ -40,19 +38,17 @@ impl Required {
         // No finer one may be certified in f64.
         asking.half = greater(asking.half, near.tolerance);
         let outcome = match self.of(near.outcome) {
-            ClosestApproach::Nearest { time, contact, .. } if self.certain() > 0.0 => {
-                asking.nearer(time, contact)?
-            }
+            Outcome::Measured {
+                at: Some((time, contact)),
+                ..
+            } if self.certain() > 0.0 => asking.nearer(time, contact)?,
             found => found,
         };
         let outcome = match outcome {
-            ClosestApproach::Unresolved {
-                nearest, reason, ..
-            } => ClosestApproach::Unresolved {
-                lower: asking.lower(reason)?,
-                nearest,
-                reason,
-            },
+            Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
+                lower: asking.lower(known.limit)?,
+                ..known
+            }),
             found => found,
         };
         Ok(Answer {
@@ -69,24 +65,20 @@ impl Required {
     }
 
     /// Returns what an answer says, with the distance as its margin.
-    fn of(&self, found: AnyContact) -> ClosestApproach {
+    fn of(&self, found: Outcome) -> Outcome {
         match found {
-            AnyContact::Free { proven_gap } => ClosestApproach::Farther {
-                lower: greater(proven_gap, self.distance),
+            Outcome::Free { proven_gap } => Outcome::Free {
+                proven_gap: greater(proven_gap, self.distance),
             },
-            AnyContact::Contact { time, contact } => {
-                if self.excess.above(contact.separation.upper) < self.distance {
-                    ClosestApproach::Nearer { time, contact }
-                } else {
-                    bracket(0.0, time, contact)
-                }
+            Outcome::Contact { time, contact }
+                if !(self.excess.above(contact.separation.upper) < self.distance) =>
+            {
+                bracket(0.0, time, contact)
             }
-            AnyContact::Overlapping { overlap } => ClosestApproach::overlapping(overlap),
-            AnyContact::Unresolved { reason, .. } => ClosestApproach::Unresolved {
-                lower: 0.0,
-                nearest: None,
-                reason,
-            },
+            Outcome::Unresolved(known) => {
+                Outcome::Unresolved(Unresolved::least(0.0, None, known.limit))
+            }
+            found => found,
         }
     }
 }
@@ -100,8 +92,8 @@ struct Asking<F> {
     half: f64,
 }
 
-impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
-    fn ask(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer<AnyContact>, E> {
+impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
+    fn ask(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer, E> {
         let answer = (self.any_contact)(Rung {
             margin,
             tolerance: greater(LEAST_TOLERANCE, tolerance),
@@ -118,7 +110,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
 
     /// Answers whether shapes come nearer whose bodies come within the tolerance of the distance, or by less than the
     /// excess nearer.
-    fn nearer(&mut self, time: f64, contact: Contact) -> Result<ClosestApproach, E> {
+    fn nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
         let (distance, half) = (self.required.certain(), self.half);
         // What is in contact with this margin is nearer, and what is not keeps the distance but for the tolerance and
         // the excess.
@@ -130,12 +122,12 @@ impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
         };
         let found = self.ask(margin, finer, self.left())?.outcome;
         Ok(match (found, self.required.of(found)) {
-            (AnyContact::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
-            (_, ClosestApproach::Unresolved { lower, reason, .. }) => ClosestApproach::Unresolved {
-                lower,
-                nearest: Some((time, contact)),
-                reason,
-            },
+            (Outcome::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
+            (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::least(
+                known.lower,
+                Some((time, contact)),
+                known.limit,
+            )),
             (_, found) => found,
         })
     }
@@ -152,7 +144,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
             };
             let found = self.ask(rung.margin, rung.tolerance, rung.budget)?.outcome;
             ladder.climb(match found {
-                AnyContact::Free { proven_gap } => Some(proven_gap),
+                Outcome::Free { proven_gap } => Some(proven_gap),
                 _ => None,
             });
         }
@@ -160,11 +152,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer<AnyContact>, E>> Asking<F> {
     }
 }
 
-fn bracket(lower: f64, time: f64, contact: Contact) -> ClosestApproach {
+fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
-    ClosestApproach::Nearest {
-        lower,
-        time,
-        contact: contact.no_nearer_than(lower),
-    }
+    Outcome::least(lower, time, contact.no_nearer_than(lower))
 }

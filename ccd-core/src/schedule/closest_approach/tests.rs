@@ -4,20 +4,21 @@ mod conforming;
 mod excess;
 mod required;
 
-use super::bracket::Clearance;
 use super::*;
+use crate::answer::Clearance;
 use crate::body::combination::Combination;
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::lesser;
 use crate::motion::Motion;
-use crate::schedule::{BestFirst, Schedule};
+use crate::schedule::BestFirst;
+use crate::schedule::contract::Solve;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, RngExt, direction, distance, magnitude, rng, scene};
 
 const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
 
-fn approach(problem: &Problem<'_>) -> Answer<ClosestApproach> {
-    DepthFirst::default().closest_approach(problem, &mut Exhaustive)
+fn approach(problem: &Problem<'_>) -> Answer {
+    DepthFirst::default().closest_approach_of(problem, &mut Exhaustive)
 }
 
 /// The least of distances at equal steps.
@@ -30,7 +31,7 @@ fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
 fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let mut rng = rng(1);
     let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
-    for number in 0..2_500 {
+    for number in 0..1_000 {
         let mut scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
         scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
@@ -40,10 +41,10 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
         let slack = 2.0 * problem.rounding;
         let found = sampled(&problem, 64);
         match outcome {
-            ClosestApproach::Nearest {
+            Outcome::Measured {
                 lower,
-                time,
-                contact,
+                at: Some((time, contact)),
+                ..
             } => {
                 let upper = outcome.upper();
                 assert!(upper - lower <= tolerance, "{number}: {outcome:?}");
@@ -66,7 +67,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
                     touching += 1;
                 }
             }
-            ClosestApproach::Overlapping { .. } => {
+            Outcome::Overlapping { .. } => {
                 overlapping += 1;
                 assert!(distance(&problem, 0.0) <= slack);
             }
@@ -74,7 +75,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
         }
     }
     assert!(
-        apart > 200 && touching > 200 && overlapping > 2,
+        apart > 80 && touching > 80 && overlapping > 0,
         "{apart} {touching} {overlapping}"
     );
 }
@@ -89,7 +90,7 @@ fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
         let Answer {
             outcome, tolerance, ..
         } = approach(&scene.problem());
-        let ClosestApproach::Nearest { lower, .. } = outcome else {
+        let Outcome::Measured { lower, .. } = outcome else {
             continue;
         };
         let mut at = |margin: f64| {
@@ -146,11 +147,12 @@ fn budgets_end_a_search_with_what_was_seen() {
             scene.config.budget = budget;
             let problem = scene.problem();
             let outcome = approach(&problem).outcome;
-            let ClosestApproach::Unresolved {
+            let Outcome::Unresolved(Unresolved {
                 lower,
-                nearest,
-                reason,
-            } = outcome
+                at: nearest,
+                limit: reason,
+                ..
+            }) = outcome
             else {
                 panic!("{number}: {outcome:?} for {budget} of {visits}");
             };
@@ -187,14 +189,14 @@ fn false_claims_and_give_ups_never_raise_the_lower_bound() {
             b: Combination::point(rng.random_range(0..5)),
         };
         for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
-            let answer = DepthFirst::default().closest_approach(&problem, &mut { oracle });
+            let answer = DepthFirst::default().closest_approach_of(&problem, &mut { oracle });
             let outcome = answer.outcome;
             assert!(
                 outcome.lower() <= found + problem.rounding,
                 "{number}: {outcome:?}"
             );
             match outcome {
-                ClosestApproach::Unresolved { .. } => unresolved += 1,
+                Outcome::Unresolved(_) => unresolved += 1,
                 _ => others += 1,
             }
         }
@@ -210,8 +212,8 @@ fn answers_do_not_depend_on_earlier_searches() {
         let scene = scene(&mut rng, KINDS[number % 4], 12);
         let problem = scene.problem();
         let fresh = approach(&problem);
-        assert_eq!(kept.closest_approach(&problem, &mut Exhaustive), fresh);
-        assert_eq!(kept.closest_approach(&problem, &mut Exhaustive), fresh);
+        assert_eq!(kept.closest_approach_of(&problem, &mut Exhaustive), fresh);
+        assert_eq!(kept.closest_approach_of(&problem, &mut Exhaustive), fresh);
     }
 }
 
@@ -230,7 +232,11 @@ fn bodies_at_rest_have_a_distance() {
         let found = distance(&problem, 0.0);
         let slack = 2.0 * problem.rounding;
         match outcome {
-            ClosestApproach::Nearest { lower, contact, .. } => {
+            Outcome::Measured {
+                lower,
+                at: Some((_, contact)),
+                ..
+            } => {
                 apart += 1;
                 let upper = contact.separation.upper;
                 assert!(lower <= found + slack && found <= upper * (1.0 + 1e-9) + slack);
@@ -240,12 +246,12 @@ fn bodies_at_rest_have_a_distance() {
                     "{number}: {outcome:?}"
                 );
             }
-            ClosestApproach::Overlapping { .. } => {
+            Outcome::Overlapping { .. } => {
                 overlapping += 1;
                 assert!(found <= slack, "{number}: {found:e}");
             }
             // A corner on a face, up to rounding.
-            ClosestApproach::Unresolved { reason, .. } => {
+            Outcome::Unresolved(Unresolved { limit: reason, .. }) => {
                 assert_eq!(reason, Limit::Undecided);
                 assert!(found <= slack, "{number}: {found:e}");
             }

@@ -3,16 +3,16 @@
 use super::front::{Front, Item, Node};
 use super::hull_pair::{HullPair, Near};
 use super::reach::Reaches;
-use crate::config::StartPolicy;
+use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
 use crate::motion::bound::Bound;
-use crate::outcome::{Contact, Outcome};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::pieces::pair::Step;
 use crate::schedule::pieces::snapshot::Snapshot;
 use crate::schedule::proven::Proven;
+use crate::settings::StartPolicy;
 use crate::tolerance::{JOIN_BEYOND, OVERLAPPING};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -96,10 +96,10 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         O: DistanceOracle<Cache = C>,
     {
         if let Err(reason) = self.meter.visit(self.problem) {
-            return ControlFlow::Break(Outcome::Unresolved {
-                safe_until: self.problem.time(snapshot.clock),
+            return ControlFlow::Break(Outcome::unresolved(
+                self.problem.time(snapshot.clock),
                 reason,
-            });
+            ));
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {

@@ -1,19 +1,21 @@
 //! Chains of balls, whose hulls are capsules: against the best-first and the naive search.
 
-use super::{BestFirst, Fast, Schedule};
+use super::{BestFirst, Fast};
+use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::combination::Combination;
 use crate::body::hull_tree::{Hull, HullNode, HullTree, Loops};
 use crate::body::pieces::Pieces;
 use crate::body::polytope::Polytope;
 use crate::body::{Body, Volume};
-use crate::config::{Config, StartPolicy};
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::{Answer, Limit, Outcome};
-use crate::problem::{Moving, Problem};
+use crate::problem::Problem;
+use crate::query::Moving;
 use crate::schedule::Naive;
+use crate::schedule::contract::Solve;
+use crate::settings::{Settings, StartPolicy};
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DVec3;
@@ -65,7 +67,7 @@ fn chain(rng: &mut Pcg64, count: usize) -> Body {
 struct Scene {
     bodies: [Body; 2],
     motions: [Motion; 2],
-    config: Config,
+    config: Settings,
 }
 
 impl Scene {
@@ -99,20 +101,17 @@ impl Scene {
                 chain(rng, count)
             }),
             motions: [motion(rng, DVec3::ZERO), motion(rng, near * way)],
-            config: Config {
+            config: Settings {
                 tolerance: magnitude(rng, -7.0, -2.0),
                 margin: if rng.random_bool(0.2) { 0.1 } else { 0.0 },
-                ..Config::default()
+                ..Settings::DEFAULT
             },
         }
     }
 
     fn problem(&self) -> Problem<'_> {
-        let moving = |k: usize| Moving {
-            body: &self.bodies[k],
-            motion: self.motions[k],
-        };
-        Problem::new(moving(0), moving(1), 1.0, &self.config).unwrap()
+        let moving = |k: usize| Moving::from((&self.bodies[k], self.motions[k]));
+        Problem::about(moving(0), moving(1), 1.0, &self.config).unwrap()
     }
 }
 
@@ -163,7 +162,7 @@ fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
             assert!(distance(problem, 0.0) <= problem.rounding);
             -1.0
         }
-        Outcome::Unresolved { .. } => panic!("{outcome:?}"),
+        _ => panic!("{outcome:?}"),
     }
 }
 
@@ -171,7 +170,7 @@ fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
 fn answers_are_right_and_those_of_the_other_schedules() {
     let mut rng = rng(21);
     let (mut hits, mut misses, mut starts) = (0, 0, 0);
-    for number in 0..2_000 {
+    for number in 0..800 {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
         let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
@@ -197,7 +196,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
         }
     }
     assert!(
-        hits > 300 && misses > 300 && starts > 50,
+        hits > 120 && misses > 120 && starts > 20,
         "{hits} {misses} {starts}"
     );
 }
@@ -209,12 +208,9 @@ fn trees_spare_most_pairs_of_pieces() {
     let far = Pose::at(2e3 * DVec3::Y).unwrap();
     let motion = Motion::new(far, -1e3 * DVec3::Y, DVec3::X).unwrap();
     let still = Motion::still(Pose::IDENTITY);
-    let moving = |k: usize, motion| Moving {
-        body: &bodies[k],
-        motion,
-    };
-    let config = Config::default();
-    let problem = Problem::new(moving(0, motion), moving(1, still), 1.5, &config).unwrap();
+    let moving = |k: usize, motion| Moving::from((&bodies[k], motion));
+    let config = Settings::DEFAULT;
+    let problem = Problem::about(moving(0, motion), moving(1, still), 1.5, &config).unwrap();
     let answer = solve(&problem);
     assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
     assert!(answer.stats.oracle_calls < 100, "{:?}", answer.stats);
@@ -227,15 +223,12 @@ fn a_brief_motion_splits_nothing_that_stays_apart() {
     let still = Motion::still(Pose::IDENTITY);
     let calls = |height: f64, speed: f64| {
         let pose = Pose::at(height * DVec3::Z).unwrap();
-        let moving = Moving {
-            body: &bodies[0],
-            motion: Motion::new(pose, -speed * DVec3::Z, 1e-3 * DVec3::X).unwrap(),
-        };
-        let other = Moving {
-            body: &bodies[1],
-            motion: still,
-        };
-        let problem = Problem::new(moving, other, 1.0, &Config::default()).unwrap();
+        let moving = Moving::from((
+            &bodies[0],
+            Motion::new(pose, -speed * DVec3::Z, 1e-3 * DVec3::X).unwrap(),
+        ));
+        let other = Moving::from((&bodies[1], still));
+        let problem = Problem::about(moving, other, 1.0, &Settings::DEFAULT).unwrap();
         let answer = solve(&problem);
         assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
         answer.stats.oracle_calls
@@ -265,7 +258,12 @@ fn budgets_end_a_query_with_a_time_that_is_safe() {
             let mut problem = scene.problem();
             problem.budget = budget;
             let outcome = solve(&problem).outcome;
-            let Outcome::Unresolved { safe_until, reason } = outcome else {
+            let Outcome::Unresolved(Unresolved {
+                safe_until,
+                limit: reason,
+                ..
+            }) = outcome
+            else {
                 panic!("{outcome:?} within {budget} visits");
             };
             assert_eq!(reason, Limit::Budget);
@@ -298,9 +296,9 @@ fn false_claims_and_give_ups_never_make_it_late() {
         let wrong = [Always(Ok(lie)), Always(Err(GiveUp::Cycle))];
         for mut oracle in wrong {
             match Fast::default().solve(&problem, &mut oracle).outcome {
-                Outcome::Unresolved {
+                Outcome::Unresolved(Unresolved {
                     safe_until: time, ..
-                }
+                })
                 | Outcome::Contact { time, .. } => {
                     assert!(touch.is_none_or(|touch| time <= touch));
                 }
@@ -336,17 +334,11 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
     let ball = Body::ball(0.25).unwrap();
     let above = Pose::at(DVec3::new(0.25, 0.25, 2.25)).unwrap();
     let falling = Motion::new(above, -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
-    let problem = Problem::new(
-        Moving {
-            body: &ball,
-            motion: falling,
-        },
-        Moving {
-            body: &soup,
-            motion: Motion::still(Pose::IDENTITY),
-        },
+    let problem = Problem::about(
+        Moving::from((&ball, falling)),
+        Moving::from((&soup, Motion::still(Pose::IDENTITY))),
         1.0,
-        &Config::default(),
+        &Settings::DEFAULT,
     )
     .unwrap();
     assert!(soup.hull_tree().is_none());
@@ -375,19 +367,13 @@ fn contacts_at_the_start_are_reported_or_let_go() {
     let outcome = |speed: f64, start| {
         let place = top + (radius + 0.05 + 1e-5) * way;
         let pose = Pose::at(place).unwrap();
-        let moving = Moving {
-            body: &ball,
-            motion: Motion::new(pose, speed * way, DVec3::ZERO).unwrap(),
-        };
-        let still = Moving {
-            body: &bodies[0],
-            motion: Motion::still(Pose::IDENTITY),
-        };
-        let config = Config {
+        let moving = Moving::from((&ball, Motion::new(pose, speed * way, DVec3::ZERO).unwrap()));
+        let still = Moving::from((&bodies[0], Motion::still(Pose::IDENTITY)));
+        let config = Settings {
             start,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
-        solve(&Problem::new(moving, still, 1.0, &config).unwrap()).outcome
+        solve(&Problem::about(moving, still, 1.0, &config).unwrap()).outcome
     };
     let touching = outcome(1.0, StartPolicy::Report);
     assert!(matches!(touching, Outcome::Touching { .. }), "{touching:?}");

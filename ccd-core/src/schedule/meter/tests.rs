@@ -2,37 +2,38 @@
 
 use super::*;
 use crate::body::Body;
-use crate::config::Config;
 use crate::motion::Motion;
+use crate::settings::Settings;
 use crate::tolerance::LOOKS_PER_VISIT;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// A ball at rest and its like, with some limits.
-fn limited(ball: &Body, config: Config) -> Problem<'_> {
+fn limited<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
     let still = (ball, Motion::STILL);
-    Problem::new(still, still, 1.0, &config).unwrap()
+    Problem::about(still, still, 1.0, settings).unwrap()
 }
 
 fn ball() -> Body {
     Body::ball(1.0).unwrap()
 }
 
-fn with_deadline(deadline: Duration) -> Config {
-    Config {
+fn with_deadline(deadline: Duration) -> Settings {
+    Settings {
         deadline: Some(deadline),
-        ..Config::default()
+        ..Settings::DEFAULT
     }
 }
 
 #[test]
 fn visits_and_looks_at_points_spend_the_same_budget() {
-    let config = Config {
+    let config = Settings {
         budget: 5,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let ball = ball();
-    let problem = limited(&ball, config);
+    let problem = limited(&ball, &config);
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.visit(&problem), Ok(()));
     meter.stats.point_looks += 3 * LOOKS_PER_VISIT;
@@ -44,14 +45,16 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
 #[test]
 fn a_deadline_that_is_past_ends_the_first_visit() {
     let ball = ball();
-    let problem = limited(&ball, with_deadline(Duration::ZERO));
+    let settings = with_deadline(Duration::ZERO);
+    let problem = limited(&ball, &settings);
     assert_eq!(Meter::new(&problem).visit(&problem), Err(Limit::Deadline));
 }
 
 #[test]
 fn a_deadline_is_seen_within_the_work_between_two_looks() {
     let ball = ball();
-    let problem = limited(&ball, with_deadline(Duration::from_millis(1)));
+    let settings = with_deadline(Duration::from_millis(1));
+    let problem = limited(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.visit(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
@@ -70,8 +73,12 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
 
 #[test]
 fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_looks() {
-    let (ball, stop) = (ball(), AtomicBool::new(false));
-    let problem = limited(&ball, Config::default()).stopped_by(&stop);
+    let (ball, stop) = (ball(), Arc::new(AtomicBool::new(false)));
+    let settings = Settings {
+        stop: Some(Arc::clone(&stop)),
+        ..Settings::DEFAULT
+    };
+    let problem = limited(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert!((0..10_000).all(|_| meter.visit(&problem) == Ok(())));
     std::thread::scope(|scope| {
@@ -87,7 +94,8 @@ fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_lo
 #[test]
 fn an_unreachable_deadline_counts_as_none() {
     let ball = ball();
-    let problem = limited(&ball, with_deadline(Duration::MAX));
+    let settings = with_deadline(Duration::MAX);
+    let problem = limited(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert!((0..10_000).all(|_| meter.visit(&problem) == Ok(())));
 }

@@ -1,9 +1,9 @@
 //! Pieces that come to touch beside the plane in which the bodies began to: an inner edge of flat ground is no obstacle.
 
 use super::snapshot::{Plane, Snapshot};
+use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
-use crate::outcome::Contact;
 use crate::problem::{Problem, Which};
 use crate::tolerance::{RESTED, RESTING};
 use crate::touching_plane::TouchingPlane;

@@ -2,16 +2,16 @@
 
 use super::level::Level;
 use super::snapshot::Snapshot;
+use crate::answer::{Contact, Separation};
 use crate::body::combination::Combination;
-use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::distance::separation::Checked;
 use crate::distance::separation::sharp::sharpened;
 use crate::math::vector::unit;
-use crate::outcome::{Contact, Separation};
 use crate::problem::{Problem, Side};
 use crate::schedule::meter::Meter;
+use crate::settings::StartPolicy;
 use crate::tolerance::RESTING;
 use glam::DVec3;
 

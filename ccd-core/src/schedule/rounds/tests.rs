@@ -1,14 +1,15 @@
 //! Bodies that turn many times, against exact distances at all their passes.
 
 use super::*;
+use crate::answer::Answer;
 use crate::body::Body;
-use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::Answer;
-use crate::schedule::{
-    AnyContact, BestFirst, ClosestApproach, DepthFirst, FirstContact, Naive, Progress, Schedule,
-};
+use crate::query::Query;
+use crate::schedule::Schedule;
+use crate::schedule::contract::Solve;
+use crate::schedule::{BestFirst, DepthFirst, FirstContact, Naive, Progress};
+use crate::settings::Settings;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{
     Look, Pcg64, RngExt, body, direction, distance, magnitude, rng, rotation, soup, within,
@@ -33,10 +34,10 @@ fn gap([a, b]: [&Motion; 2], time: f64) -> f64 {
 }
 
 /// Checks a contact of two balls on cranks: it is one, and there was none before; returns its time.
-fn checked(motions: [&Motion; 2], duration: f64, config: &Config) -> Option<f64> {
+fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
     let ball = Body::ball(1.0).unwrap();
     let [a, b] = motions.map(|motion| (&ball, *motion));
-    let problem = Problem::new(a, b, duration, config).unwrap();
+    let problem = Problem::about(a, b, duration, config).unwrap();
     let until = match solve(&problem).outcome {
         Outcome::Contact { time, contact } => {
             let near = gap(motions, time);
@@ -68,9 +69,9 @@ fn checked(motions: [&Motion; 2], duration: f64, config: &Config) -> Option<f64>
 /// The wheel drifts by a millionth in a turn, and touches in turn 500.
 #[test]
 fn a_slow_drift_ends_in_a_late_turn() {
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-7,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let still = Motion::still(Pose::at(7.0005 * DVec3::X).unwrap());
     for (drift, turn) in [(1e-6, Some(500.0)), (2e-6, Some(250.0)), (0.0, None)] {
@@ -83,7 +84,7 @@ fn a_slow_drift_ends_in_a_late_turn() {
 /// Two cranks whose rates are nearly one to two: they miss each other for many turns, by ever less.
 #[test]
 fn rates_that_are_nearly_a_fraction_jam_late() {
-    let config = Config::default();
+    let config = Settings::DEFAULT;
     for (ratio, angle, turn) in [
         (2.0001, 1.538, Some(70.0)),
         (2.0001, 1.5, Some(9.0)),
@@ -99,7 +100,7 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
 }
 
 /// Two soups that turn many times, one or both, near each other.
-fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Config) {
+fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let count = rng.random_range(1..4);
     let bodies = [0; 2].map(|_| body(&soup(rng, Look::Plump, count, 0.7)));
     let turns = magnitude(rng, 0.5, 2.0);
@@ -123,10 +124,10 @@ fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Config) {
         motion(rng, DVec3::ZERO, arm * x, velocity, spins[0]),
         motion(rng, apart, DVec3::ZERO, velocity + drift, spins[1]),
     ];
-    let config = Config {
+    let config = Settings {
         tolerance: magnitude(rng, -4.0, -2.0),
         margin: [0.0, 0.05][rng.random_range(0..2)],
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     (bodies, motions, config)
 }
@@ -137,15 +138,15 @@ fn answers_of_many_turns_hold_at_sampled_times() {
     let (mut hits, mut late, mut misses, mut repeated) = (0, 0, 0, 0);
     for number in 0..400 {
         let ([a, b], motions, config) = scene(&mut rng, number);
-        let problem = Problem::new((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
+        let problem = Problem::about((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
         if distance(&problem, 0.0) < 2.0 * config.tolerance + config.margin {
             continue;
         }
         repeated += usize::from(Rounds::of(&problem).is_some());
         let outcome = solve(&problem).outcome;
-        let any = DepthFirst::default().any_contact(&problem, &mut Exhaustive);
+        let any = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
         let within = config.margin + config.tolerance + 1e-9;
-        if let AnyContact::Contact { time, .. } = any.outcome {
+        if let Outcome::Contact { time, .. } = any.outcome {
             assert!(distance(&problem, time) <= within, "{number}: {time}");
         }
         let (until, least) = match outcome {
@@ -163,7 +164,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
             }
             outcome => panic!("{number}: {outcome:?}"),
         };
-        let apart = matches!(any.outcome, AnyContact::Free { .. });
+        let apart = matches!(any.outcome, Outcome::Free { .. });
         assert!(!apart || until == 1.0 || distance(&problem, until) > config.margin);
         for _ in 0..1_000 {
             let s = rng.random_range(0.0..1.0) * until;
@@ -188,7 +189,7 @@ fn the_naive_schedule_agrees() {
     let (mut hits, mut misses) = (0, 0);
     for number in 0..150 {
         let ([a, b], motions, config) = scene(&mut rng, number);
-        let problem = Problem::new((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
+        let problem = Problem::about((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
         let twin = Naive::default().solve(&problem, &mut Exhaustive).outcome;
         let near = |time: f64| distance(&problem, time) - config.margin;
         match (solve(&problem).outcome, twin) {
@@ -205,7 +206,7 @@ fn the_naive_schedule_agrees() {
             | (Outcome::Free { .. }, Outcome::Contact { time, .. }) => {
                 assert!(near(time) > 0.0, "{number}");
             }
-            (Outcome::Contact { .. } | Outcome::Free { .. }, Outcome::Unresolved { .. }) => {}
+            (Outcome::Contact { .. } | Outcome::Free { .. }, Outcome::Unresolved(_)) => {}
             (outcome, other) => assert_eq!(
                 std::mem::discriminant(&outcome),
                 std::mem::discriminant(&other),
@@ -223,13 +224,15 @@ fn steps_lead_to_the_same_answer() {
     let mut steps = 0;
     for number in 0..200 {
         let ([a, b], motions, config) = scene(&mut rng, number);
-        let problem = Problem::new((&a, motions[0]), (&b, motions[1]), 3.0, &config).unwrap();
-        let whole = solve(&problem);
-        let mut search = FirstContact::new(problem, BestFirst::default());
+        let query = Query::new((&a, motions[0]), (&b, motions[1]), 3.0, &config).unwrap();
+        let whole = BestFirst::default()
+            .first_contact(&query, &mut Exhaustive)
+            .unwrap();
+        let mut search = FirstContact::new(query, BestFirst::default());
         let mut until = 0.0;
         let answer = loop {
             until += rng.random_range(0.0..1.0) * [1e-3, 0.5][rng.random_range(0..2)];
-            match search.advance(&mut Exhaustive, until) {
+            match search.advance(&mut Exhaustive, until).unwrap() {
                 Progress::ApartUntil(time) => {
                     assert!(time >= until, "{number}: {time} {until}");
                     steps += 1;
@@ -260,7 +263,7 @@ fn a_thousand_turns_cost_what_one_does() {
                 (&a, turn(first, 1.0, turns)),
                 (&b, turn(second, ratio, turns)),
             ];
-            let answer = solve(&Problem::new(a, b, 1.0, &config).unwrap());
+            let answer = solve(&Problem::about(a, b, 1.0, &config).unwrap());
             matches!(answer.outcome, Outcome::Free { .. }).then_some(answer.stats.work())
         };
         if let (Some(few), Some(many)) = (work(4.0), work(1_000.0)) {
@@ -285,16 +288,20 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
         let ratio = [0.0, 0.5, 1.0, 0.4][number % 4];
         let problem = |turns: f64| {
             let moving = (&a, turn(first, turns));
-            Problem::new(moving, (&b, turn(second, ratio * turns)), 1.0, &config).unwrap()
+            Problem::about(moving, (&b, turn(second, ratio * turns)), 1.0, &config).unwrap()
         };
         let [few, many] = [20.0, 1_000.0].map(|turns| {
             let problem = problem(turns);
-            DepthFirst::default().closest_approach(&problem, &mut Exhaustive)
+            DepthFirst::default().closest_approach_of(&problem, &mut Exhaustive)
         });
         let whole = problem(1_000.0);
         sampled += usize::from(Sample::of(&whole.measuring()).is_some());
         let (lower, upper) = (many.outcome.lower(), many.outcome.upper());
-        if let ClosestApproach::Nearest { time, .. } = many.outcome {
+        if let Outcome::Measured {
+            at: Some((time, _)),
+            ..
+        } = many.outcome
+        {
             assert!(upper - lower <= config.tolerance + 1e-12, "{number}");
             assert!(
                 (distance(&whole, time) - upper).abs() <= config.tolerance,

@@ -2,13 +2,13 @@
 
 mod beside;
 
+use crate::answer::Overlap;
 use crate::body::Body;
 use crate::body::shell::Shell;
 use crate::body::tree::point_query::is_clear;
 use crate::body::tree::ray::crossings;
 use crate::math::vector::{across, unit_or_any};
 use crate::motion::pose::Frame;
-use crate::outcome::Overlap;
 use crate::problem::{Problem, Side};
 use crate::tolerance::INSIDE;
 use beside::beside_edges;

@@ -1,18 +1,20 @@
 //! Bodies that begin within the margin: against all pairs of triangles, with every budget and every
 //! schedule.
 
+use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
 use crate::body::combination::Combination;
-use crate::config::{Config, StartPolicy};
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::{Answer, Limit, Outcome};
-use crate::problem::{Moving, Problem};
+use crate::problem::Problem;
+use crate::query::Moving;
 #[cfg(feature = "hull-tree")]
 use crate::schedule::Fast;
-use crate::schedule::{BestFirst, Naive, Schedule};
+use crate::schedule::contract::Solve;
+use crate::schedule::{BestFirst, Naive};
+use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::torus;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude, rng, scene};
@@ -21,7 +23,7 @@ use glam::DVec3;
 use std::time::Duration;
 
 /// All schedules.
-fn schedules() -> Vec<Box<dyn Schedule<Exhaustive>>> {
+fn schedules() -> Vec<Box<dyn Solve<Exhaustive>>> {
     vec![
         Box::new(BestFirst::default()),
         Box::new(Naive::default()),
@@ -35,13 +37,10 @@ fn solve(problem: &Problem<'_>) -> Answer {
 }
 
 /// Two tori with the same cuts, one at the origin, the other at `x`.
-fn tori<R>(cuts: Cuts, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+fn tori<R>(cuts: Cuts, x: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let torus = body(&torus(cuts.around, cuts.about));
-    let moving = |x: f64| Moving {
-        body: &torus,
-        motion: Motion::still(Pose::at(x * DVec3::X).unwrap()),
-    };
-    then(&Problem::new(moving(x), moving(0.0), 1.0, config).unwrap())
+    let moving = |x: f64| Moving::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
+    then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
 /// The number of cuts of a torus around its axis, and about its tube.
@@ -79,9 +78,9 @@ fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
 fn a_start_within_any_margin_costs_one_distance() {
     let mut visits = Vec::new();
     for margin in [0.41, 1.0, 2.0, 5.0, 100.0] {
-        let config = Config {
+        let config = Settings {
             margin,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let answer = tori(FINE, 3.0, &config, solve);
         let Outcome::Touching { contact } = answer.outcome else {
@@ -98,16 +97,20 @@ fn a_start_within_any_margin_costs_one_distance() {
 #[test]
 fn a_budget_that_ends_at_the_start_is_unresolved() {
     for budget in [0, 1, 10, 20, 50, 100] {
-        let config = Config {
+        let config = Settings {
             margin: 5.0,
             budget,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let answer = tori(FINE, 1.5, &config, solve);
         assert!(
             match answer.outcome {
                 Outcome::Overlapping { .. } => true,
-                Outcome::Unresolved { safe_until, reason } => {
+                Outcome::Unresolved(Unresolved {
+                    safe_until,
+                    limit: reason,
+                    ..
+                }) => {
                     safe_until == 0.0 && reason == Limit::Budget
                 }
                 _ => false,
@@ -143,10 +146,7 @@ fn bounds_hold_the_distance_and_no_budget_makes_another_answer() {
         for budget in 0..visits.min(80) {
             scene.config.budget = budget;
             let outcome = solve(&scene.problem()).outcome;
-            let ending = Outcome::Unresolved {
-                safe_until: 0.0,
-                reason: Limit::Budget,
-            };
+            let ending = Outcome::unresolved(0.0, Limit::Budget);
             assert_eq!(outcome, ending, "{number}: {budget} of {visits}");
             ended += 1;
         }
@@ -183,17 +183,22 @@ fn all_schedules_say_the_same_of_a_start() {
 #[test]
 fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     for policy in [StartPolicy::Report, StartPolicy::Leave] {
-        let config = Config {
+        let config = Settings {
             margin: 5.0,
             start: policy,
             deadline: Some(Duration::ZERO),
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         for mut schedule in schedules() {
             let answer = tori(COARSE, 3.0, &config, |problem| {
                 schedule.solve(problem, &mut Exhaustive)
             });
-            let Outcome::Unresolved { safe_until, reason } = answer.outcome else {
+            let Outcome::Unresolved(Unresolved {
+                safe_until,
+                limit: reason,
+                ..
+            }) = answer.outcome
+            else {
                 panic!("{answer:?}");
             };
             assert_eq!((safe_until, reason), (0.0, Limit::Deadline));
@@ -242,15 +247,12 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
 #[test]
 fn single_pieces_are_measured_once() {
     let ball = Body::ball(1.0).unwrap();
-    let moving = |x: f64| Moving {
-        body: &ball,
-        motion: Motion::still(Pose::at(x * DVec3::X).unwrap()),
-    };
-    let config = Config {
+    let moving = |x: f64| Moving::from((&ball, Motion::still(Pose::at(x * DVec3::X).unwrap())));
+    let config = Settings {
         margin: 10.0,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let answer = solve(&Problem::new(moving(4.0), moving(0.0), 1.0, &config).unwrap());
+    let answer = solve(&Problem::about(moving(4.0), moving(0.0), 1.0, &config).unwrap());
     let Outcome::Touching { contact } = answer.outcome else {
         panic!("{answer:?}");
     };

@@ -4,10 +4,10 @@
 //! radians: each is a part of the bound.
 
 use super::{Shares, far_body, motion, shares_of_a_look};
-use crate::config::{Config, Instructions};
 use crate::math::order::greater;
 use crate::motion::relative::View;
-use crate::problem::{Moving, Problem};
+use crate::problem::Problem;
+use crate::settings::{Instructions, Settings};
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{RngExt, direction, magnitude};
@@ -50,12 +50,9 @@ impl Scene {
     }
 
     fn problem(&self) -> Option<Problem<'_>> {
-        let moving = |k: usize| Moving {
-            body: &self.bodies[k],
-            motion: self.motions[k],
-        };
+        let moving = |k: usize| (&self.bodies[k], self.motions[k]);
         let (bodies, pulls) = ([moving(0), moving(1)], self.accelerations);
-        Problem::accelerated(bodies, pulls, self.duration, &Config::default()).ok()
+        Problem::accelerated(bodies, pulls, self.duration, &Settings::DEFAULT.terms()).ok()
     }
 
     /// The same with accelerations, which move the bodies about as far as their velocities do.

@@ -13,7 +13,7 @@ proptest! {
         let height = (b - a).cross(c - a).dot(p - a);
         prop_assert_eq!(side(t, p), height.partial_cmp(&0.0).unwrap());
         prop_assert_eq!(is_degenerate(t), (b - a).cross(c - a) == DVec3::ZERO);
-        if let Some(plane) = Projection::of(t) {
+        if let Some(plane) = Projection::new(t) {
             prop_assert_eq!(plane.turn(a, b, c), Ordering::Greater);
             prop_assert_eq!(plane.turn(b, a, c), Ordering::Less);
             prop_assert_eq!(plane.turn(a, b, a + 3.0 * (b - a)), Ordering::Equal);

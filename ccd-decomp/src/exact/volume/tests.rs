@@ -38,7 +38,7 @@ fn the_sign_of_a_long_solids_volume_is_certain() {
         .iter()
         .flat_map(|&triangle| [triangle, turned(triangle)]);
     assert_eq!(sign(&mut both.clone()), None);
-    // The same where no coordinate is a round number.
+    // The same, with coordinates that are not round numbers.
     let tilted = |p: DVec3| {
         dvec3(
             p.x * 0.1 + p.y / 3.0,
@@ -51,8 +51,8 @@ fn the_sign_of_a_long_solids_volume_is_certain() {
     assert!(sign(&mut slanted.clone()).is_some());
 }
 
-/// The sum of a few volumes that may cancel, against fractions. What grows with the square of their number is
-/// less than all else for up to ten million of them, and is not reached here.
+/// The sum of a few volumes that may cancel, against fractions. The quadratic term is dominated up to ten million
+/// volumes, and is not tested here.
 #[test]
 fn worst_volume() {
     let found = Worst::of("volume_rounding", 6_000).search(|tape| {

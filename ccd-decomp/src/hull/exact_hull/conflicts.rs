@@ -1,14 +1,13 @@
-//! The hull of many points, inserted in random order, with a conflict graph of who sees which facet `[CS89]`.
+//! Randomized incremental hulls of many points, with a conflict graph of points and visible facets `[CS89]`.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind its
-/// plane.
+/// Computes the facets of the hull of points that span a volume, from an initial tetrahedron.
 ///
-/// Points are inserted in rounds, each of about half of the remaining points, chosen independently of their
-/// places. The expected work is O(n log n) for any points, and the memory O(n). Within a round they keep the
-/// given order, in which neighbours likely follow each other `[ACR03]`.
+/// Points are inserted in rounds of about half of the remaining points, chosen pseudorandomly. The expected work is O(n
+/// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
+/// `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = Growing::all(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_there);
@@ -23,10 +22,10 @@ fn scrambled(v: u32) -> u32 {
     h ^ h >> 16
 }
 
-/// The largest capacity of a list that is kept for another use.
+/// The largest capacity of a list that is reused.
 const SPARED: usize = 64;
 
-/// The number of no facet and no point.
+/// No facet or point.
 const NONE: u32 = u32::MAX;
 
 struct Facet {
@@ -34,24 +33,24 @@ struct Facet {
     plane: Plane,
     /// The facets beyond its edges; the first is from its first corner to its second.
     across: [u32; 3],
-    /// The points to be inserted that see it.
+    /// The points yet to be inserted that see the facet.
     seen_by: Vec<u32>,
     is_there: bool,
-    /// The last point that was tested for seeing it, and the answer.
-    asked: (u32, bool),
+    /// The last point whose visibility was tested, and the result.
+    last_test: (u32, bool),
 }
 
 struct Growing<'a> {
     points: LocalPoints<'a>,
-    /// Empty lists for another use.
+    /// Empty lists for reuse.
     spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
-    /// A facet that a point sees, by point; one that is removed, or none, if the point is inside.
+    /// A facet that each point sees; a removed facet or [`NONE`] if the point is inside.
     sees: Vec<u32>,
     /// The last facet that a point was tested with, by point.
-    held: Vec<u32>,
-    /// The new facet whose edge on the rim starts at a point, by point.
-    starting: Vec<u32>,
+    last_tested: Vec<u32>,
+    /// The new facet whose rim edge starts at a point, by point.
+    starting_at: Vec<u32>,
 }
 
 /// An edge of the rim of the visible part: its ends, the facet beyond, and the visible facet.
@@ -79,8 +78,8 @@ impl<'a> Growing<'a> {
             spare: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
             sees: vec![NONE; points.len()],
-            held: vec![NONE; points.len()],
-            starting: vec![NONE; points.len()],
+            last_tested: vec![NONE; points.len()],
+            starting_at: vec![NONE; points.len()],
         };
         hull.push([a, b, c], [1, 2, 3], order);
         hull.push([b, a, d], [0, 3, 2], order);
@@ -89,19 +88,19 @@ impl<'a> Growing<'a> {
         hull
     }
 
-    /// Adds a facet, and records which of some points see it.
+    /// Adds a facet, and records which candidates see it.
     fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
         let plane = self.points.plane(corners);
         let mut seen_by = self.spare.pop().unwrap_or_default();
         for &v in candidates {
-            let is_new = std::mem::replace(&mut self.held[v as usize], number) != number;
+            let is_new = std::mem::replace(&mut self.last_tested[v as usize], number) != number;
             if is_new && self.points.is_in_front(&plane, corners, v) {
                 self.sees[v as usize] = number;
                 seen_by.push(v);
             }
         }
-        // Most facets are seen by no point to come.
+        // Most facets are seen by no remaining point.
         if seen_by.is_empty() {
             self.spare.push(std::mem::take(&mut seen_by));
         }
@@ -111,20 +110,20 @@ impl<'a> Growing<'a> {
             across,
             seen_by,
             is_there: true,
-            asked: (NONE, false),
+            last_test: (NONE, false),
         });
     }
 
     fn insert(&mut self, v: u32) {
         let first = self.sees[v as usize];
-        // A point that sees a new facet sees one of the two at its edge of the rim: none is forgotten.
+        // A point that sees a new facet also saw one of the two facets at its rim edge, so that no conflict is lost.
         if first == NONE || !self.facets[first as usize].is_there {
             return;
         }
-        let (gone, rim) = self.remove_seen(first, v);
+        let (removed, rim) = self.remove_seen(first, v);
         let base = self.facets.len() as u32;
         for (k, edge) in (base..).zip(&rim) {
-            self.starting[edge.ends[0] as usize] = k;
+            self.starting_at[edge.ends[0] as usize] = k;
         }
         let mut candidates = Vec::new();
         for (k, edge) in (base..).zip(&rim) {
@@ -133,8 +132,8 @@ impl<'a> Growing<'a> {
             for facet in [edge.seen, edge.beyond] {
                 candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
             }
-            // The facet before it is known once all are there.
-            let across = [edge.beyond, self.starting[b as usize], NONE];
+            // The previous facet is set once all are added.
+            let across = [edge.beyond, self.starting_at[b as usize], NONE];
             self.push([a, b, v], across, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
@@ -145,7 +144,7 @@ impl<'a> Growing<'a> {
             let after = self.facets[k as usize].across[1];
             self.facets[after as usize].across[2] = k;
         }
-        for facet in gone {
+        for facet in removed {
             let mut seen_by = std::mem::take(&mut self.facets[facet as usize].seen_by);
             if seen_by.capacity() <= SPARED {
                 seen_by.clear();
@@ -156,11 +155,11 @@ impl<'a> Growing<'a> {
 
     /// Removes the facets that a point sees, which are connected over edges, and returns them with their rim.
     fn remove_seen(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
-        let (mut rim, mut gone) = (Vec::new(), vec![first]);
+        let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_there = false;
         let mut at = 0;
         // Every facet is removed once.
-        while let Some(&seen) = gone.get(at) {
+        while let Some(&seen) = removed.get(at) {
             at += 1;
             let Facet {
                 corners, across, ..
@@ -172,28 +171,28 @@ impl<'a> Growing<'a> {
                 }
                 if self.is_seen(beyond, v) {
                     self.facets[beyond as usize].is_there = false;
-                    gone.push(beyond);
+                    removed.push(beyond);
                 } else {
                     let ends = [corners[k], corners[(k + 1) % 3]];
                     rim.push(RimEdge { ends, beyond, seen });
                 }
             }
         }
-        (gone, rim)
+        (removed, rim)
     }
 
     fn is_seen(&mut self, facet: u32, v: u32) -> bool {
         let Facet {
             corners,
             plane,
-            asked,
+            last_test,
             ..
         } = self.facets[facet as usize];
-        if asked.0 == v {
-            return asked.1;
+        if last_test.0 == v {
+            return last_test.1;
         }
         let seen = self.points.is_in_front(&plane, corners, v);
-        self.facets[facet as usize].asked = (v, seen);
+        self.facets[facet as usize].last_test = (v, seen);
         seen
     }
 }

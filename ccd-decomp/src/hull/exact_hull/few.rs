@@ -1,10 +1,9 @@
-//! The hull of few points: each is tested with all facets, without a conflict graph.
+//! Incremental hulls of few points: each point is tested with all facets, without a conflict graph.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind its
-/// plane.
+/// Computes the facets of the hull of points that span a volume, from an initial tetrahedron.
 ///
 /// O(n²), with hardly any memory: the fastest method for few points.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {

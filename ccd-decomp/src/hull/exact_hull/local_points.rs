@@ -1,4 +1,4 @@
-//! Points in front of a facet: decided by their rounded height where rounding cannot matter, else exactly.
+//! Exact side tests with a floating-point filter.
 
 use crate::exact::predicates::side_of;
 use ccd_core::glam::DVec3;
@@ -6,7 +6,7 @@ use ccd_core::order::greater;
 use ccd_core::tolerance::height_rounding;
 use std::cmp::Ordering;
 
-/// Points, and their positions relative to the first one.
+/// Points, with positions relative to the first one.
 pub(super) struct LocalPoints<'a> {
     points: &'a [DVec3],
     relative: Vec<DVec3>,
@@ -19,7 +19,7 @@ pub(super) struct LocalPoints<'a> {
 pub(super) struct Plane {
     normal: DVec3,
     height: f64,
-    /// A bound on the rounding error of a point's height over it.
+    /// A bound on the rounding error of a height above the plane.
     rounding: f64,
 }
 

@@ -34,7 +34,7 @@ proptest! {
         let all_flat = points.iter().all(|&a| points.iter().all(|&b| {
             points.iter().all(|&c| in_plane([a, b, c]))
         }));
-        match ExactHull::of(&points) {
+        match ExactHull::new(&points) {
             Some(hull) => check(&points, &hull)?,
             None => prop_assert!(all_flat),
         }
@@ -44,7 +44,7 @@ proptest! {
     #[test]
     fn changes_stay_within_their_box(points in coarse(), new in [-2.0..6.0, -2.0..6.0, -2.0..6.0]) {
         let mut points = points;
-        let Some(mut hull) = ExactHull::of(&points) else { return Ok(()) };
+        let Some(mut hull) = ExactHull::new(&points) else { return Ok(()) };
         points.push(DVec3::from_array(new));
         let last = points.len() as u32 - 1;
         let before = hull.facets().to_vec();

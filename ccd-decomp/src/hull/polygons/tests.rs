@@ -8,7 +8,7 @@ fn the_squares_of_a_box_are_polygons() {
     let points: Vec<DVec3> = (0..27)
         .map(|k| dvec3(f64::from(k % 3), f64::from(k / 3 % 3), f64::from(k / 9)))
         .collect();
-    let hull = ExactHull::of(&points).unwrap();
+    let hull = ExactHull::new(&points).unwrap();
     let polygons = polygons(&points, hull.facets());
     assert_eq!(polygons.len(), 6);
     for polygon in &polygons {
@@ -40,7 +40,7 @@ proptest! {
     #[test]
     fn polygons_are_as_large_as_can_be(cells in prop::collection::vec([0..3i32, 0..3i32, 0..3i32], 4..20)) {
         let points: Vec<DVec3> = cells.iter().map(|c| DVec3::from_array(c.map(f64::from))).collect();
-        let Some(hull) = ExactHull::of(&points) else { return Ok(()) };
+        let Some(hull) = ExactHull::new(&points) else { return Ok(()) };
         let polygons = polygons(&points, hull.facets());
         let total: usize = polygons.iter().map(|p| p.triangles.len()).sum();
         prop_assert_eq!(total, hull.facets().len());

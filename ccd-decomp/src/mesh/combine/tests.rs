@@ -28,7 +28,7 @@ fn a_mesh_is_moved_and_scaled() {
     assert_eq!(same.vertices(), cube().vertices());
 }
 
-/// A mirror image of a solid has its material on the inside.
+/// A mirrored solid is still oriented outward.
 #[test]
 fn a_mirror_turns_the_faces_round() {
     for map in [stretched(-1.0, 1.0, 1.0), stretched(-1.0, -2.0, -0.5)] {
@@ -43,7 +43,7 @@ fn a_mirror_turns_the_faces_round() {
     );
 }
 
-/// A cube that is pressed flat keeps a face on each side of it. The others collapse to edges of these.
+/// A flattened cube keeps a face on each side; the others collapse to edges of these.
 #[test]
 fn a_flattened_mesh_is_repaired() {
     let flat = cube().transformed(stretched(1.0, 1.0, 0.0)).unwrap();
@@ -51,7 +51,7 @@ fn a_flattened_mesh_is_repaired() {
     assert_eq!(flat.faces().len(), 4);
     assert_eq!(volume(&flat), 0.0);
     assert!(body_from_mesh(&flat, Detail::Auto).is_ok());
-    // A point is still something to touch.
+    // A single point is a valid mesh.
     let point = cube().transformed(stretched(0.0, 0.0, 0.0)).unwrap();
     assert_eq!(point.faces().len(), 1);
     assert_eq!(point.bounding_box(), [DVec3::ZERO; 2]);
@@ -79,14 +79,14 @@ fn images_out_of_range_are_refused() {
 
 #[test]
 fn numbers_go_on_in_merged_meshes() {
-    // Faces 0 and 1 are a polygon, 2 is dropped, and 3 is the next one.
+    // Triangles 0 and 1 are one polygon, face 2 is dropped, and face 3 is the next.
     let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\nf 1 1 2\nf 4 3 2\n";
     let one = TriangleMesh::from_reader(Format::Obj, text.as_bytes()).unwrap();
     assert_eq!(one.face_ids(), [0, 0, 2]);
     let other = one.transformed(Pose::at([0.0, 0.0, 1.0]).unwrap()).unwrap();
     let both = TriangleMesh::merge([&one, &other, &one]).unwrap();
     assert_eq!(both.vertices().len(), 15);
-    // The last mesh is at the place of the first: its faces are there already.
+    // The last mesh equals the first: its faces are duplicates.
     assert_eq!(both.face_ids(), [0, 0, 2, 3, 3, 5]);
     assert_eq!(both.faces()[4], [5, 7, 8]);
     let repairs = both.repairs();
@@ -98,8 +98,7 @@ fn numbers_go_on_in_merged_meshes() {
     assert!(matches!(error.fault, MeshFault::NoVertices), "{error}");
 }
 
-/// Two halves of a cube that share a square of points are one solid once the squares between them are gone, and two
-/// that touch while they are there.
+/// Two halves of a cube are one solid without the squares between them, and two touching solids with them.
 #[test]
 fn merged_solids_are_solid() {
     let moved = cube()

@@ -1,4 +1,4 @@
-//! Shapes that are placed, once or more often, as parts of a scene.
+//! Assemblies: scenes whose parts are placed shapes.
 
 use super::allowance::{Allowance, cost};
 use crate::mesh::affine::AffineMap;
@@ -7,20 +7,20 @@ use crate::mesh::polygons::Polygons;
 use crate::mesh::unit::Conversion;
 use std::ops::Range;
 
-/// Objects, and the parts that are made of them.
+/// Objects, and the parts of a scene that place them.
 ///
 /// # Guarantee
-/// No object holds itself. Every number names an object. Every part has a face.
+/// No object is a member of itself, directly or not. Every number names an object. Every part has a face.
 #[derive(Debug)]
 pub(crate) struct Assembly {
     objects: Vec<Object>,
     pub(crate) parts: Vec<Part>,
-    /// What it costs to make each object, its members included.
+    /// The cost of expanding each object, including its members.
     sizes: Vec<u64>,
     allowance: Allowance,
 }
 
-/// A shape of its own, and other objects.
+/// An object: a shape, and placed members.
 #[derive(Debug, Default)]
 pub(crate) struct Object {
     /// Triangles whose corners are all among its vertices; it may be empty.
@@ -28,7 +28,7 @@ pub(crate) struct Object {
     pub(crate) members: Vec<Placed>,
 }
 
-/// An object in a place.
+/// An object with its transform.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placed {
     pub(crate) object: usize,
@@ -48,7 +48,7 @@ pub(crate) struct Circle {
 }
 
 impl Assembly {
-    /// Puts parts together; those without faces are left out.
+    /// Creates an assembly; parts without faces are omitted.
     pub(crate) fn new(
         objects: Vec<Object>,
         mut parts: Vec<Part>,
@@ -73,7 +73,7 @@ impl Assembly {
         })
     }
 
-    /// The triangles of some parts, one part after the other.
+    /// Returns the triangles of some parts, one part after the other.
     pub(super) fn expanded(
         &self,
         parts: Range<usize>,
@@ -94,7 +94,7 @@ impl Assembly {
         Ok(all)
     }
 
-    /// Checks that some parts are together no larger than the file may make them.
+    /// Checks that some parts together do not exceed the allowance.
     pub(super) fn check_size(&self, parts: Range<usize>) -> Result<(), MeshFault> {
         let mut allowance = self.allowance;
         let mut sizes = self.parts[parts]
@@ -104,7 +104,7 @@ impl Assembly {
     }
 }
 
-/// Adds the image of a shape. A map that mirrors turns the triangles round, so that a solid stays one.
+/// Appends the image of a shape. A mirroring map reverses the triangles, so that a solid stays one.
 fn add(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conversion) {
     let first = all.vertices.len() as i64;
     let image = |&point| conversion.apply(map.apply(point));
@@ -148,7 +148,7 @@ fn members_first(objects: &[Object]) -> Result<Vec<usize>, Circle> {
     }
 }
 
-/// Finds an object of a circle: from any that still waits, on to a member that waits, until one comes again.
+/// Finds an object on a cycle: follows members that are not ordered until one repeats.
 fn circle(objects: &[Object], waits_for: &[usize]) -> Option<usize> {
     let mut object = waits_for.iter().position(|&count| count > 0)?;
     let mut seen = vec![false; objects.len()];

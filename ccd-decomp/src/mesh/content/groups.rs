@@ -1,4 +1,4 @@
-//! Named groups of the faces of a list.
+//! Named groups of faces.
 
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
@@ -7,12 +7,12 @@ use crate::mesh::polygons::Polygons;
 #[derive(Debug)]
 pub(crate) struct Groups {
     pub(crate) names: Vec<Option<String>>,
-    /// The group of each face; empty where all faces are in the first one.
+    /// The group of each face; empty if all faces are in the first group.
     pub(crate) of_face: Vec<u32>,
 }
 
 impl Groups {
-    /// One group without a name, of all faces.
+    /// Returns one unnamed group of all faces.
     pub(crate) fn one() -> Self {
         Groups {
             names: vec![None],
@@ -20,13 +20,13 @@ impl Groups {
         }
     }
 
-    /// Copies the faces of one group, and the vertices that they use, in the order of the list.
+    /// Copies the faces of one group, and the vertices that they use, in the list's order.
     pub(super) fn part(&self, list: &Polygons, group: usize) -> Result<Polygons, MeshFault> {
         let mut faces = self.faces(list);
         Ok(Copier::new(list)?.copy(&faces.swap_remove(group)))
     }
 
-    /// Copies each group in this way.
+    /// Copies each group, like [`Groups::part`].
     pub(super) fn all(&self, list: &Polygons) -> Result<Vec<Polygons>, MeshFault> {
         let mut copier = Copier::new(list)?;
         let faces = self.faces(list);
@@ -44,10 +44,10 @@ impl Groups {
     }
 }
 
-/// Copies faces of a list, with numbers of their own.
+/// Copies faces of a list and renumbers their vertices.
 struct Copier<'a> {
     list: &'a Polygons,
-    /// The number that each vertex has in the copy; only those of the copy's vertices mean anything.
+    /// The number in the copy of each vertex; only entries of copied vertices are valid.
     numbers: Vec<i64>,
 }
 

@@ -1,7 +1,7 @@
 //! glTF 2.0, text and binary.
 //!
-//! The crate `gltf` is not used: it rounds the transforms of nodes to f32, takes positions for floats where they are
-//! quantized integers, and overflows at lengths and counts that a hostile file states.
+//! The crate `gltf` is not used: it rounds node transforms to f32, reads quantized positions as floats, and overflows
+//! at the lengths and counts of hostile files.
 
 mod accessor;
 mod buffers;
@@ -13,11 +13,11 @@ mod schema;
 mod transform;
 mod whole;
 
-use super::{Beside, Reference};
+use super::{LinkedFiles, Reference};
 use crate::mesh::content::allowance::Allowance;
 use crate::mesh::content::assembly::Assembly;
 use crate::mesh::content::{Content, Layout};
-use crate::mesh::error::{MeshFault, Quote};
+use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::unit::Unit;
 use accessor::Accessors;
 use buffers::Buffers;
@@ -27,16 +27,16 @@ use schema::{BufferList, Root};
 use std::collections::BTreeMap;
 
 /// Reads the parts of a glTF.
-pub(super) fn parse(bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault> {
+pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let container = Container::of(bytes)?;
+    let container = Container::read(bytes)?;
     let root = Root::read(container.json)?;
     extensions::check_required(&root)?;
-    let buffers = Buffers::new(&root, container.binary, beside)?;
-    let all_bytes = bytes.len() + beside.values().map(Vec::len).sum::<usize>();
-    let allowance = Allowance::of(all_bytes as u64);
+    let buffers = Buffers::new(&root, container.binary, linked)?;
+    let all_bytes = bytes.len() + linked.values().map(Vec::len).sum::<usize>();
+    let allowance = Allowance::for_file(all_bytes as u64);
     let accessors = Accessors::new(&root, &buffers, allowance);
     let Scene {
         objects,
@@ -54,18 +54,18 @@ pub(super) fn parse(bytes: &[u8], beside: &Beside) -> Result<Content, MeshFault>
     })
 }
 
-/// Finds the buffers that are in files of their own.
+/// Returns the buffers that are separate files.
 pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     if bytes.is_empty() {
         return Ok(Vec::new());
     }
     let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-    let list = BufferList::read(Container::of(unmarked)?.json)?;
+    let list = BufferList::read(Container::read(unmarked)?.json)?;
     let mut needed = BTreeMap::new();
     for (k, buffer) in list.buffers.iter().enumerate() {
         let reference = buffers::reference(buffer);
         if let Some(Reference { name, bytes }) =
-            reference.map_err(|fault| fault.at(name("buffer", k, None)))?
+            reference.map_err(|fault| fault.at(element_name("buffer", k, None)))?
         {
             let most = needed.entry(name).or_insert(bytes);
             *most = bytes.max(*most);
@@ -77,15 +77,7 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         .collect())
 }
 
-/// The name of an element in messages.
-fn name(kind: &str, number: usize, name: Option<&str>) -> String {
-    match name {
-        Some(name) => format!("{kind} {number} {:?}", Quote(name)),
-        None => format!("{kind} {number}"),
-    }
-}
-
-/// Finds an element by its number.
+/// Returns an element by its number.
 fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
     list.get(number).ok_or_else(|| {
         let count = list.len();

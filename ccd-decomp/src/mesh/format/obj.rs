@@ -1,4 +1,7 @@
 //! Wavefront OBJ.
+//!
+//! Without `tobj`: it numbers vertices by first use and object by object, does not say where an error is, and took
+//! more code around it than the statements `v` and `f` take.
 
 use crate::mesh::content::groups::Groups;
 use crate::mesh::content::{Content, Layout};
@@ -8,88 +11,169 @@ use crate::mesh::remark::Remarks;
 use ccd_core::glam::DVec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::fmt::Write as _;
-use std::io::{BufRead, Read};
-use tobj::{LoadError, LoadOptions, Mesh};
 
 /// Reads the vertices, faces and groups of an OBJ.
-///
-/// `tobj` numbers vertices by first use and object by object, and does not report the place of an error. It is
-/// therefore given the `v` and `f` statements alone, as one object, and before them one polygon over all
-/// vertices in their order, which makes its numbers those of the file. The number of bytes that it has read
-/// when it fails gives the line.
 pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
-    let statements = Statements::new(&text)?;
-    let vertices = statements.vertex_lines.len();
-    if vertices == 0 {
-        return Err(MeshFault::NoVertices);
+    let mut file = Reader::default();
+    let mut lines = (1..).zip(text.lines());
+    // Whether this line may continue one that was passed over.
+    let mut continues = false;
+    while let Some((number, line)) = lines.next() {
+        let statement = without_comment(line);
+        let may_continue = std::mem::replace(&mut continues, statement.ends_with('\\'));
+        match statement.split_whitespace().next().unwrap_or_default() {
+            keyword @ ("v" | "f") => {
+                continues = false;
+                let statement = continued(statement, lines.by_ref().map(|(_, line)| line));
+                if keyword == "v" {
+                    file.add_vertex(&statement, number)?;
+                } else {
+                    file.add_face(&statement, number)?;
+                }
+            }
+            "o" => file.objects.set(name(line)),
+            "g" => file.groups.set(name(line)),
+            "" => {}
+            word if may_continue && word.parse::<f64>().is_ok() => {}
+            other => pass_over(other, number, &mut file.polygons.remarks)
+                .map_err(|fault| fault.at(format!("line {number}")))?,
+        }
     }
-    let mut pin = String::from("f");
-    for vertex in 1..=vertices {
-        let _ = write!(pin, " {vertex}");
-    }
-    pin.push('\n');
-    let mut reader = pin.as_bytes().chain(statements.text.as_bytes());
-    let mesh = load(&mut reader).map_err(|error| {
-        let unread = reader.get_ref().1.len();
-        statements.fault(error, statements.text.len() - unread)
-    })?;
-    let groups = if statements.objects.is_used() {
-        statements.objects.groups()
-    } else {
-        statements.groups.groups()
-    };
-    let mut polygons = Polygons {
-        vertices: mesh
-            .positions
-            .chunks_exact(3)
-            .map(DVec3::from_slice)
-            .collect(),
-        corners: mesh.indices[vertices..].iter().map(|&v| v.into()).collect(),
-        vertex_lines: statements.vertex_lines,
-        face_lines: statements.face_lines,
-        ..Polygons::default()
-    };
-    // The library leaves the list out when all polygons, the first included, are triangles.
-    let mut end = 0;
-    polygons
-        .ends
-        .extend((0..polygons.face_lines.len()).map(|k| {
-            end += mesh.face_arities.get(k + 1).map_or(3, |&n| n as usize);
-            end
-        }));
-    Ok(Content {
-        unit: None,
-        layout: Layout::List(polygons, groups),
-        remarks: statements.remarks,
-    })
+    file.finish()
 }
 
-fn load(reader: &mut impl BufRead) -> Result<Mesh, LoadError> {
-    let no_materials = |_: &_| Err(LoadError::OpenFileFailed);
-    let (mut models, _) = tobj::load_obj_buf(reader, &LoadOptions::default(), no_materials)?;
-    models
-        .pop()
-        .map(|model| model.mesh)
-        .ok_or(LoadError::GenericFailure)
+fn without_comment(line: &str) -> &str {
+    line.split('#').next().unwrap_or_default().trim()
 }
 
-/// The `v` and `f` statements of a file, one per line, with the lines of the file that they stood on.
+/// Returns a statement with the lines that continue it: a line ends in a backslash if the next one does.
+fn continued<'a>(statement: &'a str, mut lines: impl Iterator<Item = &'a str>) -> Cow<'a, str> {
+    let mut statement = Cow::from(statement);
+    while statement.ends_with('\\') {
+        let next = without_comment(lines.next().unwrap_or_default());
+        statement.to_mut().pop();
+        statement.to_mut().extend([" ", next]);
+    }
+    statement
+}
+
+/// The content of a file, read up to some line.
 #[derive(Default)]
-struct Statements {
-    text: String,
-    vertex_lines: Vec<usize>,
-    face_lines: Vec<usize>,
+struct Reader {
+    polygons: Polygons,
     objects: Labels,
     groups: Labels,
-    remarks: Remarks,
+    /// The first corner that names no vertex before the first one: its face and its number in the file.
+    missing: Option<(usize, i64)>,
 }
 
-/// The names that one keyword gives to faces.
+impl Reader {
+    /// Adds a position. A fourth number divides it; three or more are a colour.
+    fn add_vertex(&mut self, statement: &str, line: usize) -> Result<(), MeshFault> {
+        let problem = |what| MeshFault::syntax(Some(line), format!("{statement:?} {what}"));
+        let mut words = statement.split_whitespace().skip(1);
+        let mut number = || words.next()?.parse::<f64>().ok();
+        let mut point = DVec3::ZERO;
+        for axis in 0..3 {
+            let what = "does not hold the three coordinates of a vertex";
+            point[axis] = number().ok_or_else(|| problem(what))?;
+        }
+        match (words.next(), words.count()) {
+            (Some(weight), 0) => {
+                let weight = weight.parse::<f64>().ok().filter(|&weight| weight != 0.0);
+                let weight = weight.ok_or_else(|| problem("divides a position by no number"))?;
+                if weight != 1.0 {
+                    let what = "vertices divided by their fourth number";
+                    self.polygons.remarks.add(what, 1, Some(line));
+                }
+                point /= weight;
+            }
+            (Some(_), 1) => return Err(problem("has two numbers after a position")),
+            _ => {}
+        }
+        self.polygons.vertices.push(point);
+        self.polygons.vertex_lines.push(line);
+        Ok(())
+    }
+
+    /// Adds a face. Negative numbers count back from the last vertex before it.
+    fn add_face(&mut self, statement: &str, line: usize) -> Result<(), MeshFault> {
+        let polygons = &mut self.polygons;
+        for corner in statement.split_whitespace().skip(1) {
+            let vertex = vertex_number(corner).ok_or_else(|| {
+                let what = "instead of the number of a vertex in";
+                MeshFault::syntax(Some(line), format!("{corner:?} {what} {statement:?}"))
+            })?;
+            let place = if vertex < 0 {
+                polygons.vertices.len() as i64 + vertex
+            } else {
+                vertex - 1
+            };
+            if place < 0 {
+                self.missing.get_or_insert((polygons.ends.len(), vertex));
+            }
+            polygons.corners.push(place);
+        }
+        polygons.ends.push(polygons.corners.len());
+        polygons.face_lines.push(line);
+        for labels in [&mut self.objects, &mut self.groups] {
+            labels.of_face.push(labels.now);
+        }
+        Ok(())
+    }
+
+    /// Checks that all corners name vertices.
+    fn finish(mut self) -> Result<Content, MeshFault> {
+        let polygons = &self.polygons;
+        let vertices = polygons.vertices.len();
+        let beyond = polygons.corners.iter().position(|&v| v >= vertices as i64);
+        let beyond = beyond.map(|at| {
+            let face = polygons.ends.partition_point(|&end| end <= at);
+            (face, polygons.corners[at] + 1)
+        });
+        let missing = self.missing.into_iter().chain(beyond);
+        match missing.min_by_key(|&(face, _)| face) {
+            _ if vertices == 0 => return Err(MeshFault::NoVertices),
+            None => {}
+            Some((face, vertex)) => {
+                return Err(MeshFault::NoSuchVertex {
+                    face,
+                    line: polygons.face_lines.get(face).copied(),
+                    vertex,
+                    vertices,
+                    base: 1,
+                });
+            }
+        }
+        let groups = if self.objects.is_used() {
+            self.objects.groups()
+        } else {
+            self.groups.groups()
+        };
+        Ok(Content {
+            unit: None,
+            remarks: std::mem::take(&mut self.polygons.remarks),
+            layout: Layout::List(self.polygons, groups),
+        })
+    }
+}
+
+/// Returns the number of a corner's vertex: 0 if the corner names none, as `/1/2`; `None` if it is no corner.
+fn vertex_number(corner: &str) -> Option<i64> {
+    let mut numbers = corner.split('/').map(|number| match number {
+        "" => Some(0),
+        number => number.parse().ok(),
+    });
+    let vertex = numbers.next()??;
+    let rest_is_valid = numbers.by_ref().take(2).all(|number| number.is_some());
+    (rest_is_valid && numbers.next().is_none()).then_some(vertex)
+}
+
+/// The labels of faces by one keyword.
 #[derive(Default)]
 struct Labels {
-    /// The number of each name, from 1, in the order of the file; 0 is that of faces without a name.
+    /// The number of each name, from 1, in the file's order; 0 means no name.
     numbers: HashMap<String, u32>,
     now: u32,
     of_face: Vec<u32>,
@@ -110,7 +194,7 @@ impl Labels {
         self.of_face.iter().any(|&label| label > 0)
     }
 
-    /// The labels that faces have, numbered by their first face.
+    /// Returns the used labels as groups, numbered by their first face.
     fn groups(self) -> Groups {
         let mut labels = vec![None; self.numbers.len() + 1];
         for (name, number) in self.numbers {
@@ -129,111 +213,7 @@ impl Labels {
     }
 }
 
-impl Statements {
-    fn new(text: &str) -> Result<Self, MeshFault> {
-        let mut out = Statements::default();
-        out.text.reserve(text.len());
-        let mut lines = (1..).zip(text.lines());
-        // Whether the line before is one of numbers that goes on.
-        let mut goes_on = false;
-        while let Some((number, whole)) = lines.next() {
-            let mut line = Cow::from(whole.split('#').next().unwrap_or_default().trim());
-            let continues = std::mem::replace(&mut goes_on, line.ends_with('\\'));
-            let keyword = line.split_whitespace().next().unwrap_or_default();
-            match keyword {
-                "v" | "f" => goes_on = false,
-                "o" => out.objects.set(name(whole)),
-                "g" => out.groups.set(name(whole)),
-                "" => {}
-                number if continues && number.parse::<f64>().is_ok() => {}
-                other => {
-                    let passed = pass_over(other, number, &mut out.remarks);
-                    passed.map_err(|fault| fault.at(format!("line {number}")))?;
-                }
-            }
-            let is_vertex = keyword == "v";
-            if !is_vertex && keyword != "f" {
-                continue;
-            }
-            // A backslash at its end continues a line.
-            while line.ends_with('\\') {
-                let (_, next) = lines.next().unwrap_or_default();
-                let next = next.split('#').next().unwrap_or_default().trim();
-                line.to_mut().pop();
-                line.to_mut().extend([" ", next]);
-            }
-            if is_vertex {
-                out.text.push_str(position(&line, number, &mut out.remarks));
-                out.vertex_lines.push(number);
-            } else {
-                out.text.push_str(&line);
-                out.face_lines.push(number);
-                for labels in [&mut out.objects, &mut out.groups] {
-                    labels.of_face.push(labels.now);
-                }
-            }
-            out.text.push('\n');
-        }
-        Ok(out)
-    }
-
-    /// Translates the library's error, after it has read `read` bytes of the statements.
-    fn fault(&self, error: LoadError, read: usize) -> MeshFault {
-        if error == LoadError::FaceVertexOutOfBounds
-            && let Some(fault) = self.missing_vertex()
-        {
-            return fault;
-        }
-        let statement = self.text[..read].lines().count().saturating_sub(1);
-        // Statements of both kinds are in the order of their lines.
-        let mut lines = [self.vertex_lines.as_slice(), &self.face_lines].concat();
-        lines.sort_unstable();
-        let problem = match self.text.lines().nth(statement) {
-            Some(text) => match no_vertex_number(text) {
-                Some(word) => format!("{word:?} instead of the number of a vertex in {text:?}"),
-                None => format!("{error} in {text:?}"),
-            },
-            None => error.to_string(),
-        };
-        MeshFault::syntax(lines.get(statement).copied(), problem)
-    }
-
-    /// Finds the first corner that names no vertex; the library only reports that there is one.
-    fn missing_vertex(&self) -> Option<MeshFault> {
-        let vertices = self.vertex_lines.len();
-        let (mut above, mut face) = (0, 0);
-        for statement in self.text.lines() {
-            let mut words = statement.split_whitespace();
-            if words.next() == Some("v") {
-                above += 1;
-                continue;
-            }
-            for word in words {
-                // A corner may leave its vertex out, as in `/1/2`; that names none either.
-                let number = word.split('/').next().unwrap_or_default();
-                let vertex: i64 = number.parse().unwrap_or(0);
-                let good = if vertex < 0 {
-                    -above..=-1
-                } else {
-                    1..=vertices as i64
-                };
-                if !good.contains(&vertex) {
-                    return Some(MeshFault::NoSuchVertex {
-                        face,
-                        line: self.face_lines.get(face).copied(),
-                        vertex,
-                        vertices,
-                        base: 1,
-                    });
-                }
-            }
-            face += 1;
-        }
-        None
-    }
-}
-
-/// The name after a keyword. A comment begins at a mark after a blank: names such as `lid#2` are common.
+/// Returns the name after a keyword. A comment begins at a `#` after a space: names such as `lid#2` are common.
 fn name(statement: &str) -> &str {
     let statement = statement.trim_start();
     let name = statement.get(1..).unwrap_or_default();
@@ -244,53 +224,14 @@ fn name(statement: &str) -> &str {
     name[..comment.map_or(name.len(), |(at, _)| at)].trim()
 }
 
-/// Finds the first corner of a face that does not begin with a whole number.
-fn no_vertex_number(statement: &str) -> Option<&str> {
-    let corners = statement.strip_prefix('f')?.split_whitespace();
-    let number = |corner: &str| corner.split('/').next().map(str::parse::<i64>);
-    corners
-        .into_iter()
-        .find(|corner| !matches!(number(corner), Some(Ok(_))))
-}
+/// Statements that do not affect the shape: normals, texture coordinates, materials, curve and display settings.
+const HARMLESS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj \
+                        ctech stech cstype deg bmat step parm trim hole scrv curv2 sp end con res";
 
-/// Statements that change no shape: normals, texture coordinates, materials, settings of curves and of displays.
-const HARMLESS: [&str; 30] = [
-    "vn",
-    "vt",
-    "vp",
-    "s",
-    "mg",
-    "usemtl",
-    "mtllib",
-    "usemap",
-    "maplib",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-    "stech",
-    "cstype",
-    "deg",
-    "bmat",
-    "step",
-    "parm",
-    "trim",
-    "hole",
-    "scrv",
-    "curv2",
-    "sp",
-    "end",
-    "con",
-    "res",
-];
-
-/// Passes over a statement, and remarks upon it unless it is harmless.
+/// Skips a statement, with a remark unless it is harmless.
 ///
 /// # Errors
-/// It would have made faces.
+/// The statement defines faces.
 fn pass_over(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
     let unsupported = |what: &str, instead| {
         Err(MeshFault::Unsupported {
@@ -306,35 +247,13 @@ fn pass_over(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), Me
         "l" => remarks.add("lines passed over", 1, Some(line)),
         "p" => remarks.add("points passed over", 1, Some(line)),
         "curv" | "cdc" => remarks.add("curves passed over", 1, Some(line)),
-        other if HARMLESS.contains(&other) => {}
-        other
-            if ["v", "f"]
-                .iter()
-                .any(|known| other.eq_ignore_ascii_case(known)) =>
-        {
-            let known = other.to_ascii_lowercase();
-            let problem = format!("{other:?} instead of {known:?}");
+        other if HARMLESS.split(' ').any(|harmless| harmless == other) => {}
+        "V" | "F" => {
+            let known = keyword.to_ascii_lowercase();
+            let problem = format!("{keyword:?} instead of {known:?}");
             return Err(MeshFault::syntax(None, problem));
         }
         other => remarks.add_named("statements", other, 1, Some(line)),
     }
     Ok(())
-}
-
-/// The position that a statement of a vertex has, with its weight, if any, but without the three or more numbers of a
-/// colour that some programs put there.
-fn position<'a>(line: &'a str, number: usize, remarks: &mut Remarks) -> &'a str {
-    const KEYWORD_AND_POSITION: usize = 4;
-    let mut words = line.split_whitespace().skip(KEYWORD_AND_POSITION);
-    match (words.next(), words.count()) {
-        (Some(weight), 0) => {
-            if weight.parse() != Ok(1.0) {
-                remarks.add("vertices divided by their fourth number", 1, Some(number));
-            }
-            line
-        }
-        // Both are slices of one line, so that their distance is the length to keep.
-        (Some(colour), 2..) => &line[..colour.as_ptr().addr() - line.as_ptr().addr()],
-        _ => line,
-    }
 }

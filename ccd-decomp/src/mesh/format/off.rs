@@ -43,7 +43,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
 }
 
-/// Reads the numbers of vertices and faces: on the first line, after the keyword, or on the next.
+/// Reads the counts of vertices and faces: on the first line, after the keyword, or on the next.
 fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), MeshFault> {
     let keyword = line.words.clone().next().unwrap_or_default();
     if keyword.parse::<u64>().is_err() {
@@ -75,7 +75,7 @@ fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), M
     Ok((line.number(what)?, line.number(what)?))
 }
 
-/// The lines that hold more than blanks and comments.
+/// The lines of a text, except blank ones and comments.
 struct Lines<'a> {
     rest: std::str::Lines<'a>,
     number: usize,

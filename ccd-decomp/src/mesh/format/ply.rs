@@ -1,4 +1,4 @@
-//! PLY, binary and text.
+//! PLY, binary and text, by `ply-rs-bw`: a reader of our own was longer. What the crate passes over is checked here.
 
 use super::text;
 use crate::mesh::error::MeshFault;
@@ -65,14 +65,14 @@ const FACE: &str = "face";
 /// The element of strips of triangles, as scanners write them.
 const STRIPS: &str = "tristrips";
 
-/// The triangles of a strip, all turned alike: every other one is turned round. −1 begins another strip.
+/// Returns the triangles of a strip in one orientation: every second one is reversed. −1 begins another strip.
 fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
     let runs = strip.split(|&corner| corner == -1);
     let triangles = runs.flat_map(|run| run.array_windows().enumerate());
     triangles.map(|(k, &[a, b, c])| if k % 2 == 0 { [a, b, c] } else { [b, a, c] })
 }
 
-/// The file with line feeds at the ends of its lines, also where it has carriage returns alone; numbers in binary stay.
+/// Converts lone carriage returns to line feeds, except in a binary payload.
 fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
     const END: &[u8] = b"end_header\r";
     let end = bytes.windows(END.len()).position(|window| window == END);
@@ -91,7 +91,7 @@ fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
     }
 }
 
-/// Checks that no two elements, and no two properties of an element, have one name: the library keeps the last alone.
+/// Checks that the names of elements, and of an element's properties, are unique: the library keeps only the last.
 fn check_names(bytes: &[u8]) -> Result<(), MeshFault> {
     let (mut elements, mut properties) = (HashSet::new(), HashSet::new());
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
@@ -131,7 +131,7 @@ fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
     }
 }
 
-/// Checks that no line of a text has more numbers than its properties: the library passes over them.
+/// Checks that no text line has numbers beyond its properties: the library skips them.
 fn check_lines(payload: &[u8], first: usize, header: &Header) -> Result<(), MeshFault> {
     let mut lines = (first..).zip(payload.split(|&byte| byte == b'\n'));
     for element in header.elements.values() {
@@ -157,8 +157,8 @@ fn check_lines(payload: &[u8], first: usize, header: &Header) -> Result<(), Mesh
     Ok(())
 }
 
-/// Checks that the header describes a mesh of points and polygons, and no more elements than the file has bytes: elements without
-/// properties take no bytes, and would be read for ever.
+/// Checks that the header describes points and polygons, and no more elements than the file has bytes: elements without
+/// properties take no bytes.
 fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
     for element in header.elements.values() {
         if element.count > bytes {
@@ -191,7 +191,7 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
     })
 }
 
-/// Checks that an element has a property of one of some names, and of a kind.
+/// Checks that an element has a property with one of the given names and a given type.
 fn check_property(
     element: &ElementDef,
     names: &[&str],
@@ -226,7 +226,7 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
         let missing = format!("what its header announces ({problem})");
         return MeshFault::Truncated { missing };
     }
-    // The library quotes the line. What it says of it are names of its own types, or a list of all that it knows.
+    // The library quotes the line; the rest of its message names its own types.
     let quoted = text
         .split("String: '")
         .nth(1)

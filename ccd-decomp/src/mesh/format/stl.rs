@@ -1,18 +1,19 @@
 //! STL, binary and text.
+//!
+//! Without `stl_io`: it stops at the end of the first solid, and refuses solids without a name and normals that
+//! are not finite.
 
 use super::text;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
-use ccd_core::glam::{DVec3, Vec3};
-use std::borrow::Cow;
+use ccd_core::glam::Vec3;
 use std::collections::HashMap;
-use std::fmt::Write as _;
-use std::io::{self, Cursor, ErrorKind};
-use stl_io::Triangle;
 
 const HEADER_BYTES: usize = 80;
 const COUNT_BYTES: usize = 4;
 const FACET_BYTES: usize = 50;
+/// The bytes of the normal, before the corners of a facet.
+const NORMAL_BYTES: usize = 12;
 
 /// Reads the facets of an STL and welds their corners.
 pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
@@ -24,7 +25,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
     let plain = text::plain(bytes);
     if is_text(&plain) {
-        parse_text(&String::from_utf8_lossy(&plain))
+        parse_text(&String::from_utf8_lossy(&plain).to_ascii_lowercase())
     } else {
         parse_binary(bytes)
     }
@@ -37,8 +38,7 @@ fn is_whole(bytes: &[u8]) -> bool {
     })
 }
 
-/// Returns whether a file is a text. Many programs begin a binary file with `solid`, too; only a text has no
-/// zero byte.
+/// Returns whether a file is text. Many programs begin a binary file with `solid`, too; only text has no zero byte.
 fn is_text(plain: &[u8]) -> bool {
     let first = plain.trim_ascii_start();
     let solid = first.len() >= 5 && first[..5].eq_ignore_ascii_case(b"solid");
@@ -56,7 +56,8 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         let missing = "the header of 84 bytes".into();
         return Err(MeshFault::Truncated { missing });
     };
-    let room = (bytes.len() - HEADER_BYTES - COUNT_BYTES) / FACET_BYTES;
+    let content = &bytes[HEADER_BYTES + COUNT_BYTES..];
+    let room = content.len() / FACET_BYTES;
     if room < facets as usize {
         let missing = format!("facet {room} of the {facets} that it announces");
         return Err(MeshFault::Truncated { missing });
@@ -65,98 +66,96 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         let problem = format!("announces {facets} facets, but has room for {room}");
         return Err(MeshFault::syntax(None, problem));
     }
-    // The header may hold anything; a blank one keeps the library from taking the file for text.
-    let mut blank = bytes.to_vec();
-    blank[..HEADER_BYTES].fill(0);
-    collect(blank, |facet, error| {
-        MeshFault::syntax(None, format!("facet {facet}: {error}"))
-    })
+    let mut facets = Facets::default();
+    for facet in content.as_chunks::<FACET_BYTES>().0 {
+        let coordinates = facet[NORMAL_BYTES..].as_chunks().0;
+        for corner in coordinates.as_chunks::<3>().0 {
+            facets.add_corner(corner.map(f32::from_le_bytes));
+        }
+    }
+    Ok(facets.polygons)
 }
 
-/// Reads a text of one or more solids.
-///
-/// `stl_io` stops at the end of the first solid, and needs a name after `solid` and finite normals. It is
-/// therefore given all facets as one solid with blank normals.
+/// The statements of a facet, one on each line.
+const FACET: [&[&str]; 7] = [
+    &["facet", "normal"],
+    &["outer", "loop"],
+    &["vertex"],
+    &["vertex"],
+    &["vertex"],
+    &["endloop"],
+    &["endfacet"],
+];
+
+/// Reads a text of one or more solids, in lower case.
 fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
-    let mut one_solid = String::with_capacity(text.len() + 32);
-    one_solid.push_str("solid all\n");
-    let (mut facet_lines, mut last) = (Vec::new(), "");
+    let mut facets = Facets::default();
+    // The number of statements of the current facet that were read.
+    let mut done = 0;
+    let mut is_closed = false;
     for (number, line) in (1..).zip(text.lines()) {
-        let lower: Cow<'_, str> = if line.bytes().any(|b| b.is_ascii_uppercase()) {
-            line.to_ascii_lowercase().into()
-        } else {
-            line.into()
+        let mut words = line.split_whitespace();
+        let Some(first) = words.clone().next() else {
+            continue;
         };
-        let mut words = lower.split_whitespace();
-        let Some(first) = words.next() else { continue };
-        match (first, words.next()) {
-            ("solid" | "endsolid", _) => {}
-            ("facet", Some("normal")) => {
-                facet_lines.push(number);
-                one_solid.push_str("facet normal 0 0 0\n");
-            }
-            ("vertex", _) if let Some(word) = not_finite(&lower) => {
-                let facet = facet_lines.len().saturating_sub(1);
-                let problem = format!("facet {facet}: {word:?} instead of a finite coordinate");
-                return Err(MeshFault::syntax(Some(number), problem));
-            }
-            _ => {
-                let _ = writeln!(one_solid, "{lower}");
-            }
+        is_closed = first == "endsolid";
+        if done == 0 && (is_closed || first == "solid") {
+            continue;
         }
-        last = if first == "endsolid" {
-            "endsolid\n"
-        } else {
-            ""
-        };
+        let facet = facets.polygons.ends.len();
+        let problem =
+            |problem| MeshFault::syntax(Some(number), format!("facet {facet}: {problem}"));
+        let is_expected = FACET[done].iter().all(|&word| words.next() == Some(word));
+        let numbers: Vec<&str> = words.collect();
+        let is_vertex = FACET[done] == ["vertex"];
+        if !is_expected || done > 0 && numbers.len() != if is_vertex { 3 } else { 0 } {
+            let expected = FACET[done].join(" ");
+            return Err(problem(format!(
+                "{:?} instead of {expected:?}",
+                line.trim()
+            )));
+        }
+        if is_vertex {
+            let mut corner = [0.0; 3];
+            for (coordinate, word) in corner.iter_mut().zip(numbers) {
+                let number = word.parse().ok().filter(|x: &f32| x.is_finite());
+                *coordinate = number
+                    .ok_or_else(|| problem(format!("{word:?} instead of a finite coordinate")))?;
+            }
+            facets.add_corner(corner);
+        } else if done == 0 {
+            facets.polygons.face_lines.push(number);
+        }
+        done = (done + 1) % FACET.len();
     }
-    one_solid.push_str(last);
-    let facets = facet_lines.len();
-    let mut polygons = collect(one_solid.into_bytes(), |facet, error| {
-        if error.kind() == ErrorKind::UnexpectedEof {
-            let missing = if facet < facets {
-                format!("facet {facet}")
-            } else {
-                "the last solid".into()
-            };
-            return MeshFault::Truncated { missing };
-        }
-        let line = facet_lines.get(facet).copied();
-        MeshFault::syntax(line, format!("facet {facet}: {error}"))
-    })?;
-    polygons.face_lines = facet_lines;
-    Ok(polygons)
+    let missing = match (done, is_closed) {
+        (0, true) => return Ok(facets.polygons),
+        (0, false) => "the last solid".into(),
+        _ => format!("facet {}", facets.polygons.face_lines.len() - 1),
+    };
+    Err(MeshFault::Truncated { missing })
 }
 
-/// Finds the first number of a line that is NaN or infinite.
-fn not_finite(line: &str) -> Option<&str> {
-    let infinite = |word: &&str| word.parse::<f32>().is_ok_and(|x| !x.is_finite());
-    line.split_whitespace().find(infinite)
+/// Facets whose corners at exactly the same point are one vertex.
+#[derive(Default)]
+struct Facets {
+    polygons: Polygons,
+    numbers: HashMap<[u32; 3], usize>,
 }
 
-/// Runs the library; `fault` translates an error at a facet.
-fn collect(
-    bytes: Vec<u8>,
-    fault: impl Fn(usize, io::Error) -> MeshFault,
-) -> Result<Polygons, MeshFault> {
-    let mut cursor = Cursor::new(bytes);
-    let facets = stl_io::create_stl_reader(&mut cursor).map_err(|error| fault(0, error))?;
-    let mut polygons = Polygons::default();
-    let mut numbers = HashMap::new();
-    for (k, facet) in facets.enumerate() {
-        let Triangle { vertices, .. } = facet.map_err(|error| fault(k, error))?;
-        for corner in vertices {
-            // Adding 0 makes −0 the same point as 0.
-            let key = corner.0.map(|x| (x + 0.0).to_bits());
-            let next = polygons.vertices.len();
-            let number = *numbers.entry(key).or_insert(next);
-            if number == next {
-                let point: DVec3 = Vec3::from_array(corner.0).as_dvec3();
-                polygons.vertices.push(point);
-            }
-            polygons.corners.push(number as i64);
+impl Facets {
+    fn add_corner(&mut self, corner: [f32; 3]) {
+        let polygons = &mut self.polygons;
+        // Adding 0 makes −0 the same point as 0.
+        let key = corner.map(|x| (x + 0.0).to_bits());
+        let next = polygons.vertices.len();
+        let number = *self.numbers.entry(key).or_insert(next);
+        if number == next {
+            polygons.vertices.push(Vec3::from_array(corner).as_dvec3());
         }
-        polygons.ends.push(polygons.corners.len());
+        polygons.corners.push(number as i64);
+        if polygons.corners.len().is_multiple_of(3) {
+            polygons.ends.push(polygons.corners.len());
+        }
     }
-    Ok(polygons)
 }

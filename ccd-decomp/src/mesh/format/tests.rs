@@ -35,13 +35,15 @@ const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
 /// A binary STL whose header begins like a text.
 fn binary_stl() -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let facets = FACES.map(|face| stl_io::Triangle {
-        normal: stl_io::Normal::new([0.0; 3]),
-        vertices: face.map(|v| stl_io::Vertex::new(POINTS[v as usize])),
-    });
-    stl_io::write_stl(&mut bytes, facets.iter()).unwrap();
+    let mut bytes = vec![0; 80];
     bytes[..10].copy_from_slice(b"solid bin\n");
+    bytes.extend(4_u32.to_le_bytes());
+    for face in FACES {
+        let corners = face.map(|v| POINTS[v as usize]);
+        let numbers = [[0.0; 3]].into_iter().chain(corners).flatten();
+        bytes.extend(numbers.flat_map(f32::to_le_bytes));
+        bytes.extend([0; 2]);
+    }
     bytes
 }
 
@@ -163,7 +165,6 @@ fn obj_keeps_the_numbers_of_the_file() {
 
 #[test]
 fn obj_of_three_vertices_and_of_few_polygons() {
-    // The library treats exactly three vertices, and all faces alike, as a special case.
     let three = read(Format::Obj, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1").unwrap();
     assert_eq!(three.faces(), [[0, 1, 2], [2, 1, 0]]);
     let mixed = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3 1\nf 3 2 1";

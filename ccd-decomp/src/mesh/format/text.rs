@@ -1,16 +1,15 @@
-//! Texts of any encoding and with any line ends, as they come.
+//! Decoding of texts: encodings and line endings.
 
 use std::borrow::Cow;
 
-/// A text in UTF-8, without a byte order mark, whose lines end in a line feed.
+/// Converts a text to UTF-8 with line feeds, without a byte order mark.
 ///
-/// A mark tells UTF-16. Bytes that are no UTF-8 stay as they are: names and comments may hold them, and so may formats
-/// that are no text at all.
+/// UTF-16 is recognised by its mark. Invalid UTF-8 is kept: names, comments and binary formats may hold it.
 pub(super) fn plain(bytes: &[u8]) -> Cow<'_, [u8]> {
     lines(decoded(bytes))
 }
 
-/// The text in UTF-8, without its mark: the first keyword would be lost in it.
+/// Converts a text to UTF-8 and removes the byte order mark, which would hide the first keyword.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
     let from_units = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes.as_chunks().0.iter().map(|&pair| unit(pair)).collect();
@@ -24,7 +23,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
     }
 }
 
-/// The text with a line feed in the place of every carriage return that none follows.
+/// Replaces every carriage return without a following line feed by a line feed.
 pub(super) fn lines(mut text: Cow<'_, [u8]>) -> Cow<'_, [u8]> {
     let alone = |text: &[u8], at: usize| text[at] == b'\r' && text.get(at + 1) != Some(&b'\n');
     if (0..text.len()).any(|at| alone(&text, at)) {

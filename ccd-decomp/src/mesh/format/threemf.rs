@@ -1,7 +1,7 @@
 //! 3MF: models in XML, packed in a zip.
 //!
-//! The crates for 3MF are not used: none limits what a package unpacks to, and `threemf` does not know which model of a
-//! package is which.
+//! The crates for 3MF are not used: none limits the unpacked size, and `threemf` does not distinguish the models of a
+//! package.
 
 mod model;
 mod package;
@@ -25,7 +25,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    let mut models = Models::of(Package::open(bytes)?)?;
+    let mut models = Models::read(Package::open(bytes)?)?;
     let unit = models.list[0].model.unit.unwrap_or(Unit::Millimetre);
     let parts = models.parts()?;
     let objects = models.objects()?;
@@ -41,7 +41,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
             None,
         );
     }
-    let allowance = Allowance::of(models.package.unpacked() + bytes.len() as u64);
+    let allowance = Allowance::for_file(models.package.unpacked() + bytes.len() as u64);
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
         let problem = "is a component of itself".into();
         MeshFault::syntax(None, problem).at(models.place(circle.object))
@@ -53,15 +53,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     })
 }
 
-/// The models of a package: the first one is its own, the others are those that it refers to.
+/// The models of a package: the root model first, then those that it refers to.
 struct Models<'a> {
     package: Package<'a>,
     list: Vec<Named>,
     /// The number of each model by its path.
     numbers: BTreeMap<String, usize>,
-    /// The objects of all models, by the number of the model and the identity of the object.
+    /// The objects of all models, by model number and object id.
     known: BTreeMap<(usize, u32), usize>,
-    /// Where each object is: its model, and its place in it.
+    /// The model of each object, and its index there.
     places: Vec<(usize, usize)>,
 }
 
@@ -71,8 +71,8 @@ struct Named {
 }
 
 impl<'a> Models<'a> {
-    /// Reads all models that the first one needs.
-    fn of(mut package: Package<'a>) -> Result<Self, MeshFault> {
+    /// Reads the root model and all models that it needs.
+    fn read(mut package: Package<'a>) -> Result<Self, MeshFault> {
         let first = package.first_model()?;
         let mut models = Models {
             package,
@@ -94,7 +94,7 @@ impl<'a> Models<'a> {
         Ok(models)
     }
 
-    /// The number of a model, which is read if it is not known.
+    /// Returns the number of a model, and reads it if necessary.
     fn number(&mut self, path: &str) -> Result<usize, MeshFault> {
         let key = package::normalized(path);
         if let Some(&number) = self.numbers.get(&key) {
@@ -122,7 +122,7 @@ impl<'a> Models<'a> {
         Ok(())
     }
 
-    /// Checks that no model is in another unit than the first one, which speaks for all.
+    /// Checks that all models are in the unit of the first one.
     fn check_units(&self) -> Result<(), MeshFault> {
         let unit = self.list[0].model.unit.unwrap_or(Unit::Millimetre);
         let differs = |named: &&Named| named.model.unit.is_some_and(|other| other != unit);
@@ -135,7 +135,7 @@ impl<'a> Models<'a> {
         }
     }
 
-    /// The items of the first model's build.
+    /// Returns the build items of the root model, as parts.
     fn parts(&self) -> Result<Vec<Part>, MeshFault> {
         let items = &self.list[0].model.items;
         if items.is_empty() {
@@ -157,7 +157,7 @@ impl<'a> Models<'a> {
         items.iter().enumerate().map(part).collect()
     }
 
-    /// The object that an item or a component of a model uses.
+    /// Returns the object that an item or component refers to.
     fn find(&self, from: usize, used: &Use) -> Result<usize, MeshFault> {
         let model = match &used.path {
             None => Some(&from),
@@ -170,7 +170,7 @@ impl<'a> Models<'a> {
         })
     }
 
-    /// All objects, with the shapes moved out of the models.
+    /// Returns all objects, with the shapes moved out of the models.
     fn objects(&mut self) -> Result<Vec<Object>, MeshFault> {
         let mut objects = Vec::with_capacity(self.places.len());
         for number in 0..self.places.len() {
@@ -209,7 +209,7 @@ impl<'a> Models<'a> {
         components.iter().enumerate().map(member).collect()
     }
 
-    /// Checks that every object that a part uses is one of triangles. Returns the number of those that none uses.
+    /// Checks that all used objects are triangle meshes. Returns the number of unused objects.
     fn check_used(&self, objects: &[Object], parts: &[Part]) -> Result<usize, MeshFault> {
         let mut seen = vec![false; objects.len()];
         let mut waiting: Vec<usize> = parts.iter().map(|part| part.placed.object).collect();
@@ -230,7 +230,7 @@ impl<'a> Models<'a> {
         Ok(seen.iter().filter(|seen| !**seen).count())
     }
 
-    /// The name of an object in messages.
+    /// Returns the name of an object for messages.
     fn place(&self, number: usize) -> String {
         let (model, place) = self.places[number];
         let Named { path, model } = &self.list[model];

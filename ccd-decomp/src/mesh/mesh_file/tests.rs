@@ -3,7 +3,7 @@ use crate::test_files::Folder;
 use crate::{Format, MeshFault, TriangleMesh, Unit};
 use ccd_core::glam::DVec3;
 
-/// Two objects that share vertices and come in turns, and a face before either.
+/// Two objects that share vertices and alternate, and a face before both.
 const OBJ: &str = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 3 4\no lid #2 # a comment\n\
     f 2 3 5\ng inner\no base#1\nf 3 4 5\ng\no lid #2\nf 4 2 5\no empty\n";
 
@@ -89,7 +89,7 @@ fn a_fault_of_a_part_names_the_part() {
     );
     let error = file.into_parts().unwrap_err().to_string();
     assert!(error.starts_with(r#"part 1 "b": "#), "{error}");
-    // A face of another part does not hinder.
+    // A bad face of another part does not matter.
     let file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nf 1 2 3\no b\nf 1 2\n");
     let error = file.part("a").unwrap_err().to_string();
     assert!(error.contains("line 7: face 1 has 2 corners"), "{error}");
@@ -104,7 +104,7 @@ fn a_file_without_a_unit_is_taken_as_it_is() {
     assert_eq!(file.into_mesh().unwrap().vertices()[0], DVec3::splat(9.0));
 }
 
-/// A hundred thousand groups are read one by one in the time of the file, not of its square.
+/// A hundred thousand groups are read in linear time.
 #[test]
 fn many_groups_are_read_at_once() {
     let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
@@ -140,7 +140,10 @@ mod beside {
         let gltf = Gltf::triangle();
         let path = folder.write("part.gltf", gltf.text_at("./deep%20er//da%74a.bin"));
         let error = TriangleMesh::read(&path).unwrap_err();
-        assert!(matches!(error.fault, MeshFault::Beside { .. }), "{error}");
+        assert!(
+            matches!(error.fault, MeshFault::LinkedFile { .. }),
+            "{error}"
+        );
         let message = error.to_string();
         assert!(
             message.contains(r#"part.gltf: refers to the file "deep er/data.bin""#),
@@ -151,7 +154,7 @@ mod beside {
         let mesh = TriangleMesh::read(&path).unwrap();
         assert_eq!(mesh.vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
         assert_eq!(files_of(&path).unwrap(), [path.clone(), data.clone()]);
-        // A file that is too short is named as the buffer that it is.
+        // A truncated buffer file is named as that buffer.
         std::fs::write(&data, &gltf.binary[..35]).unwrap();
         let message = TriangleMesh::read(&path).unwrap_err().to_string();
         assert!(

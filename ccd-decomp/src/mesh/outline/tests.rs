@@ -31,8 +31,8 @@ fn meets_itself(points: &[DVec3]) -> bool {
     (0..n).any(folded) || (0..n).any(|k| (k + 2..n).any(|l| (l + 1) % n != k && meet(k, l)))
 }
 
-/// Outlines about the origin and at random, on a grid and not, are filled if and only if they do not meet
-/// themselves, by triangles whose areas add up to the outline's.
+/// Random outlines are triangulated if and only if they do not intersect themselves; the areas of the triangles add up
+/// to the outline's.
 #[test]
 fn outlines_are_filled_unless_they_meet_themselves() {
     let radii = prop::collection::vec((0.5..4.0_f64, -4..=4_i32, -4..=4_i32), 4..12);
@@ -91,7 +91,7 @@ fn outlines_are_filled_from_whichever_side() {
         assert_eq!(fill(&points), Some(vec![[0, 1, 2], [0, 2, 3]]));
         let turned: Vec<DVec3> = points.iter().rev().copied().collect();
         let filled = fill(&turned).unwrap();
-        let plane = Projection::of([points[0], points[2], points[1]]).unwrap();
+        let plane = Projection::new([points[0], points[2], points[1]]).unwrap();
         let [a, b, c] = filled[0].map(|k| turned[k]);
         assert_eq!(plane.turn(a, b, c), Ordering::Greater);
     }
@@ -113,7 +113,7 @@ fn outlines_without_an_inside_are_not_filled() {
     assert_eq!(fill(&fine), None);
 }
 
-/// Outlines of many corners on or near a line, or in convex position, which a sweep takes minutes for.
+/// Outlines of many corners on or near a line, or in convex position, for which a sweep takes minutes.
 #[test]
 fn outlines_of_many_corners_take_no_longer_than_others() {
     let count = 60_000;
@@ -145,7 +145,7 @@ fn outlines_of_many_corners_take_no_longer_than_others() {
         let whole: f64 = pairs.map(|(p, q)| p.cross(*q).z).sum();
         let sum: f64 = filled.iter().map(|&triangle| area(triangle)).sum();
         assert!((sum - whole).abs() < 1e-6 * whole.abs(), "{sum}, {whole}");
-        // With a corner twice, or an edge through another corner.
+        // Outlines with a repeated corner, or an edge through another corner.
         points.push(points[count / 3]);
         assert_eq!(fill(&points), None);
     }

@@ -19,13 +19,13 @@ pub(super) struct GrowingPatch {
     has_volume: bool,
 }
 
-/// The result of a polygon's attempt to join.
+/// The result of adding a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Join {
     Joined,
-    /// The polygon cannot join, now or later.
+    /// The polygon can never join.
     Refused,
-    /// The polygon is in the plane of a patch that has no volume yet.
+    /// The polygon is coplanar with a patch that has no volume yet.
     InPlane,
 }
 
@@ -38,12 +38,12 @@ impl GrowingPatch {
         }
     }
 
-    /// The number of its polygons.
+    /// Returns the number of polygons.
     pub(super) fn len(&self) -> usize {
         self.flats.len()
     }
 
-    /// The polygons, in the order they joined.
+    /// Returns the polygons, in the order in which they joined.
     pub(super) fn flats(&self) -> &[u32] {
         &self.flats
     }
@@ -52,7 +52,7 @@ impl GrowingPatch {
         &self.hull
     }
 
-    /// Takes a polygon in if the patch stays a patch. The answer is meaningful only while there is work left.
+    /// Adds a polygon if the result is a valid patch. The result is meaningful only if work is left.
     pub(super) fn join(
         &mut self,
         manifold: &Manifold<'_>,
@@ -114,7 +114,7 @@ impl GrowingPatch {
         Join::Joined
     }
 
-    /// Returns the side of a plane with the highest of the hull's corners.
+    /// Returns the side of a plane on which the highest corner of the hull is.
     fn highest_over(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
         let corners = self.hull.corners().iter();
         let mut highest = Ordering::Less;
@@ -140,7 +140,7 @@ impl GrowingPatch {
         }
     }
 
-    /// Computes the hull with some more points, and the box of the change, if there is one.
+    /// Returns the hull with the points `new` added, and the bounding box of what changed.
     fn grown(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;

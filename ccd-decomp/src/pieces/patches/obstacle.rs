@@ -1,4 +1,4 @@
-//! Hulls as obstacles: the test whether a triangle reaches into the inside of a hull.
+//! Tests whether a triangle enters the interior of a hull.
 
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
@@ -6,12 +6,12 @@ use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// A hull that triangles of the same mesh are tested with.
+/// A hull to test triangles of the same mesh against.
 pub(super) struct Obstacle<'a> {
     points: &'a [DVec3],
     hull: &'a ExactHull,
     edges: OnceCell<Vec<Edge>>,
-    /// The corners of all facets, in order, each with its facet.
+    /// The corners of all facets with their facets, sorted by corner.
     meeting: OnceCell<Vec<(u32, u32)>>,
 }
 
@@ -23,7 +23,7 @@ struct Edge {
 }
 
 impl<'a> Obstacle<'a> {
-    /// Takes a hull that has volume.
+    /// Creates the test of a hull with volume.
     pub(super) fn new(points: &'a [DVec3], hull: &'a ExactHull) -> Self {
         Obstacle {
             points,
@@ -33,14 +33,14 @@ impl<'a> Obstacle<'a> {
         }
     }
 
-    /// Returns whether a triangle stays out of the open inside of the hull; touching is allowed.
+    /// Returns whether a triangle is disjoint from the interior of the hull.
     ///
-    /// Exact. If the answer is yes, some plane has the hull on one side and the triangle on the other. Such planes form
-    /// a cone. A plane on an extreme ray of the cone passes through three corners that span it: it is the plane of a
-    /// facet, the triangle's own, or one through an edge of either and a corner of the other. Among the latter, only
-    /// those matter that touch the hull on its outline, seen from the triangle's corner.
+    /// Exact. If so, some plane separates the hull from the triangle. Such planes form a cone. A plane on an extreme
+    /// ray of the cone passes through three corners that span it: it is the plane of a facet, the triangle's own, or
+    /// one through an edge of either and a corner of the other. Among the latter, only those matter that touch the hull
+    /// on its outline, seen from the triangle's corner.
     pub(super) fn is_apart_from(&self, triangle: [u32; 3]) -> bool {
-        // The triangle is most likely in front of a facet that it meets at a corner, then of a new facet.
+        // The triangle is most likely in front of a facet that shares a corner, or of a new facet.
         let mut facets = self.hull.facets().iter().rev();
         triangle.iter().any(|&v| self.is_in_front_at(v, triangle))
             || facets.any(|&facet| self.is_in_front(facet, triangle))
@@ -48,7 +48,7 @@ impl<'a> Obstacle<'a> {
             || (0..3).any(|k| self.is_apart_at(triangle, k))
     }
 
-    /// Returns whether the triangle is in front of a facet that has one of the triangle's corners.
+    /// Returns whether the triangle is in front of a facet at one of its corners.
     fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
         let meeting = self.meeting.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());
@@ -67,7 +67,7 @@ impl<'a> Obstacle<'a> {
         !triangle.iter().any(behind)
     }
 
-    /// Returns whether a plane through corner `k` of the triangle separates.
+    /// Returns whether a plane through corner `k` of the triangle separates it from the hull.
     fn is_apart_at(&self, triangle: [u32; 3], k: usize) -> bool {
         let p = triangle[k];
         let facets = self.hull.facets().iter();
@@ -85,8 +85,8 @@ impl<'a> Obstacle<'a> {
         })
     }
 
-    /// Returns whether a plane through three points has the hull on one side, and the triangle on the other
-    /// one or in the plane. Three points on a line span none: the whole hull would be in it.
+    /// Returns whether the plane through three points has the hull strictly on one side, and the triangle on the other
+    /// or in the plane. Collinear points separate nothing.
     fn separates(&self, plane: [u32; 3], triangle: [u32; 3]) -> bool {
         let mut hull_side = Ordering::Equal;
         for &v in self.hull.corners() {

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 /// The order in which patches begin and grow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Order {
-    /// Patches begin at the polygons farthest from any reflex edge, on the crests, and grow breadth first.
+    /// Patches begin at the polygons farthest from reflex edges and grow breadth first.
     #[default]
     Cresting,
     /// Patches begin in the mesh's order, and grow breadth first.
@@ -16,7 +16,7 @@ pub enum Order {
     DepthFirst,
 }
 
-/// Lists all polygons in the order in which patches begin at them.
+/// Returns all polygons in the order in which they seed patches.
 pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == Order::Cresting {
@@ -26,8 +26,7 @@ pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec
     seeds
 }
 
-/// Computes, by polygon, the number of steps over edges to one with a reflex edge; `u32::MAX` where none can be
-/// reached.
+/// Returns the number of steps from each polygon to one with a reflex edge; `u32::MAX` if there is none.
 fn heights(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();

@@ -1,4 +1,4 @@
-//! Finished patches: polytopes with the faces of the mesh that they are made of.
+//! Finished patches: polytopes with their faces of the mesh.
 
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
@@ -16,8 +16,8 @@ pub struct Patch {
     /// The triangles, as indices into [`TriangleMesh::faces`](crate::TriangleMesh::faces), in ascending
     /// order.
     pub faces: Vec<u32>,
-    /// The hull. Its points are vertices of the mesh, with their numbers. Its facets name the faces of the mesh
-    /// that they consist of; the other facets are virtual.
+    /// The hull. Its points are vertices of the mesh, with their numbers. Facets name their faces of the mesh; other
+    /// facets are virtual.
     pub polytope: Polytope,
 }
 
@@ -37,33 +37,33 @@ impl Patch {
         Patch { faces, polytope }
     }
 
-    /// The number of facets that are not wholly part of the mesh.
+    /// Returns the number of facets that are not entirely covered by faces of the mesh.
     pub fn virtual_facets(&self) -> usize {
         let facets = self.polytope.facets.iter();
         facets.filter(|f| f.origin == Origin::Virtual).count()
     }
 }
 
-/// Finds the faces of a patch that lie in a facet of its hull.
+/// Returns a facet of a patch's hull with the faces that lie in it.
 fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: Vec<u32>) -> CoveredFacet {
     let at = |v: u32| manifold.point(v);
     let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
     let triangle = [corners[0], corners[1], corners[2]];
-    let Some(plane) = Projection::of(triangle) else {
+    let Some(plane) = Projection::new(triangle) else {
         return CoveredFacet {
             corners: facet,
             faces: Vec::new(),
             is_covered: false,
         };
     };
-    // In the facet's plane, with the same normal.
+    // Coplanar with the facet, with the same normal.
     let within = |flat: &&&Flat| {
         let own = manifold.triangle(flat.faces[0]);
         own.iter().all(|&p| side(triangle, p) == Ordering::Equal)
             && plane.turn(own[0], own[1], own[2]) == Ordering::Greater
     };
     let members: Vec<&Flat> = members.iter().filter(within).copied().collect();
-    // Faces that cover the facet end at its outline only.
+    // Faces cover the facet if they end only at its outline.
     let ours = |face: u32| members.iter().any(|f| f.faces.binary_search(&face).is_ok());
     let mut rims = members.iter().flat_map(|f| f.rim.iter().copied());
     let on_outline = |edge: u32| {

@@ -120,7 +120,7 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// The number of patches is pinned: a change that needs more of them for the same solid is a loss.
+/// The number of patches is pinned: more patches for the same solid are a regression.
 #[rstest]
 #[case::notched(notched(12), 2)]
 #[case::star(star(9, 0.4), 4)]
@@ -148,7 +148,7 @@ fn patches_are_few_and_within_the_solid(#[case] mesh: TriangleMesh, #[case] coun
     assert!(thick > 3, "{thick}");
 }
 
-/// A patch that could grow further ends where it would become slow: the flank of a cone on a disc.
+/// A patch stops at the maximum number of polygons: the flank of a cone on a disc.
 #[test]
 fn patches_are_capped() {
     let count = 4 * PATCH_POLYGONS as u32;
@@ -192,14 +192,14 @@ fn patches_are_capped() {
     assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
 }
 
-/// All patches meet in both apices, and still the work grows with their number.
+/// All patches meet in both apices, yet the work is linear in their number.
 #[test]
 fn patches_of_slivers_take_linear_work() {
     for corners in [100, 1_000, 10_000] {
         let mesh = star(corners, 0.5);
         let manifold = bounding_solid(&mesh).unwrap();
         let flats = Flats::new(&manifold);
-        let work = Work::of(1_000 * u64::from(corners));
+        let work = Work::with_steps(1_000 * u64::from(corners));
         let decomposition = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
         check(&mesh, &decomposition);
         assert_eq!(decomposition.patches.len(), corners as usize / 2);

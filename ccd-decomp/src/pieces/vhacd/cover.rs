@@ -15,7 +15,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use rayon::prelude::*;
 
-/// The content of a cube.
+/// The content of a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
     /// The content is not known yet.
@@ -28,8 +28,8 @@ pub(super) enum Content {
     Nothing,
 }
 
-/// Computes, by part, points whose hull, grown by the rounding of cuts, contains all that the solid has in the
-/// cubes of that label.
+/// Returns points of each part whose hull, enlarged by the rounding of cuts, contains the solid within the voxels of
+/// the part.
 pub(super) fn points_by_part(
     target: &Target<'_>,
     voxels: &Voxels,
@@ -56,10 +56,10 @@ pub(super) fn points_by_part(
     parts.into_par_iter().map(each_once).collect()
 }
 
-/// The label of a cube that has nothing of the solid.
+/// The label of a voxel outside the solid.
 const NO_PART: u32 = u32::MAX;
 
-/// The number of triangles that are cut as one task.
+/// The number of triangles in a task.
 const SHARE: usize = 1024;
 
 /// Computes the content of every cube.
@@ -83,7 +83,7 @@ pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
     contents
 }
 
-/// Cuts some triangles, and returns points of them with the numbers of their parts.
+/// Cuts some triangles at voxels, and returns the corners with the numbers of their parts.
 fn pieces(
     triangles: &[[DVec3; 3]],
     voxels: &Voxels,
@@ -106,7 +106,7 @@ fn pieces(
     all
 }
 
-/// Removes the points of a triangle that are between two others on one of its edges, up to rounding.
+/// Removes points that are between two others on an edge of the triangle, up to rounding.
 fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
     for [from, to] in [[a, b], [b, c], [c, a]] {
         let Some(along) = unit(to - from) else {
@@ -122,14 +122,14 @@ fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> 
     points
 }
 
-/// Removes duplicates: most points are corners of several triangles.
+/// Removes duplicates.
 pub(super) fn each_once(mut points: Vec<DVec3>) -> Vec<DVec3> {
     points.sort_unstable_by(|&p, &q| lexicographic(p, q));
     points.dedup();
     points
 }
 
-/// Separates full cubes from empty ones: cubes that are connected without meeting the surface are alike.
+/// Classifies the remaining voxels: those connected without meeting the surface are all full or all empty.
 fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     let mut stack = Vec::new();
     for seed in 0..contents.len() {
@@ -154,7 +154,7 @@ fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     }
 }
 
-/// Adds to the parts those corners of their cubes that are in the solid, except corners within one part.
+/// Adds voxel corners in the solid to their parts, except corners inside one part.
 fn add_corners(
     target: &Target<'_>,
     voxels: &Voxels,
@@ -189,7 +189,7 @@ fn add_corners(
     }
 }
 
-/// Iterates over the cubes, up to eight, about a corner.
+/// Iterates over the voxels, up to eight, at a corner.
 fn cells_around(voxels: &Voxels, corner: Cell) -> impl Iterator<Item = usize> {
     let counts = voxels.counts();
     (0..8_usize).filter_map(move |k| {

@@ -1,4 +1,4 @@
-//! An upper bound on how far hulls stick out of a solid, by branch and bound.
+//! An upper bound on how far hulls extend beyond a solid, by branch and bound.
 
 mod part_planes;
 mod under;
@@ -14,17 +14,16 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Bounds the distance from the solid to any point of the parts.
+/// Returns an upper bound of the distance from the solid to any point of the parts.
 ///
-/// The distance to the solid changes by no more than a point moves, so that its value at the centre of a box
-/// bounds it in the box. Where the surface is nearly flat, [`under`] gives a better bound. Boxes about the parts are
-/// split, the one with the largest bound first, until that bound is hardly more than a distance that was found,
-/// the work is spent, or too many boxes wait.
+/// The distance is 1-Lipschitz, so that its value at the centre of a box bounds it in the box. For nearly flat surfaces
+/// [`under`] gives a better bound. Boxes around the parts are split, largest bound first, until that bound is near a
+/// distance that was found, the work is spent, or too many boxes wait.
 pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
     let floor = EXCESS_FLOOR * target.reach();
     let parts: Vec<PartPlanes<'_>> = parts
         .iter()
-        .map(|part| PartPlanes::of(part, target))
+        .map(|part| PartPlanes::new(part, target))
         .collect();
     let mut search = Search {
         target,
@@ -33,59 +32,55 @@ pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
         found: 0.0,
         heap: BinaryHeap::new(),
     };
-    let mut settled = 0.0_f64;
-    for (k, part) in parts.iter().enumerate() {
-        match part.excess_by_shrinking(target, floor) {
-            Some(bound) => settled = greater(settled, bound),
-            None => search.begin(k),
-        }
+    for part in 0..parts.len() {
+        search.begin(part);
     }
     while search.split_worst(floor) {}
     let open = search.heap.peek().map_or(0.0, |cell| cell.bound);
-    greater(greater(open, search.found), settled)
+    greater(open, search.found)
 }
 
-/// The number of corners of a part that are examined, about.
+/// The approximate number of corners of a part that are examined.
 const CORNERS: usize = 256;
 
-/// The number of boxes that are split at a time, on all cores.
+/// The number of boxes that are split in parallel.
 const BATCH: usize = 16;
 
-/// The number of planes that take as long as a triangle.
+/// The number of planes that cost as much as a triangle.
 const PLANES_A_STEP: usize = 16;
 
 struct Search<'a> {
     target: &'a Target<'a>,
     parts: &'a [PartPlanes<'a>],
-    /// The number of steps that were taken.
+    /// The number of steps taken.
     taken: u64,
-    /// The largest distance of a point of a part that was examined.
+    /// The largest distance found.
     found: f64,
     heap: BinaryHeap<Cell>,
 }
 
-/// A box, and a bound on the distance to the solid of any point of a part in it.
+/// A box, with a bound on the distance from the solid to the part within the box.
 #[derive(Clone, Debug)]
 struct Cell {
     bound: f64,
     part: usize,
     bounds: [DVec3; 2],
-    /// The planes of the part that the box is not all behind.
+    /// The planes of the part that the box is not entirely behind.
     planes: Vec<u32>,
 }
 
 /// The result of examining a box.
 #[derive(Default)]
-struct Look {
-    /// The distance of the box's centre, if that is in the part.
+struct Examined {
+    /// The distance of the centre, if that is in the part.
     distance: f64,
-    /// The box; none if it has no point of the part that is farther than the largest known distance.
+    /// The box; `None` if it cannot exceed the largest known distance.
     cell: Option<Cell>,
     taken: u64,
 }
 
 impl Search<'_> {
-    /// Examines some corners of a part, and its box.
+    /// Examines some corners of a part, and its bounding box.
     fn begin(&mut self, number: usize) {
         let PartPlanes {
             part,
@@ -105,12 +100,12 @@ impl Search<'_> {
             bounds: [bounds.lo, bounds.hi],
             planes: (0..planes.len() as u32).collect(),
         };
-        let look = self.look(&whole, whole.bounds);
-        self.note(look);
+        let examined = self.examine(&whole, whole.bounds);
+        self.note(examined);
     }
 
-    /// Splits some boxes in eight, those with the largest bounds. Returns false once these are hardly more than the
-    /// largest distance found, the work is spent, or too many wait.
+    /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
+    /// found, the work is spent, or too many boxes wait.
     fn split_worst(&mut self, floor: f64) -> bool {
         let target = greater(EXCESS_RATIO * self.found, self.found + floor);
         let worst: Vec<Cell> = (0..BATCH)
@@ -123,35 +118,37 @@ impl Search<'_> {
             .iter()
             .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
             .collect();
-        let looks: Vec<Look> = parts
+        let examined: Vec<Examined> = parts
             .par_iter()
-            .map(|(cell, bounds)| self.look(cell, *bounds))
+            .map(|(cell, bounds)| self.examine(cell, *bounds))
             .collect();
-        looks.into_iter().for_each(|look| self.note(look));
+        examined
+            .into_iter()
+            .for_each(|examined| self.note(examined));
         !worst.is_empty() && self.taken < EXCESS_WORK && self.heap.len() < EXCESS_BOXES
     }
 
-    fn note(&mut self, look: Look) {
-        self.taken += look.taken;
-        self.found = greater(self.found, look.distance);
-        self.heap.extend(look.cell);
+    fn note(&mut self, examined: Examined) {
+        self.taken += examined.taken;
+        self.found = greater(self.found, examined.distance);
+        self.heap.extend(examined.cell);
     }
 
-    /// Examines a box within one that was examined.
-    fn look(&self, within: &Cell, bounds: [DVec3; 2]) -> Look {
+    /// Examines a box within an examined one.
+    fn examine(&self, within: &Cell, bounds: [DVec3; 2]) -> Examined {
         let planes = &within.planes;
         let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.slack();
         work.spend(1 + planes.len() / PLANES_A_STEP);
-        let mut look = Look::default();
+        let mut examined = Examined::default();
         if let Some(meeting) = part.meets(centre, half, planes) {
             let near = match target.locate(centre, work) {
                 Location::Inside { depth } => reach - depth,
                 Location::Outside { distance } => {
                     if meeting.has_centre {
-                        look.distance = distance;
+                        examined.distance = distance;
                     }
                     distance + reach
                 }
@@ -164,15 +161,15 @@ impl Search<'_> {
             if !is_known(bound) {
                 bound = under().map_or(bound, |under| lesser(under, bound));
             }
-            look.cell = (!is_known(bound)).then_some(Cell {
+            examined.cell = (!is_known(bound)).then_some(Cell {
                 bound,
                 part: within.part,
                 bounds,
                 planes,
             });
         }
-        look.taken = work.taken();
-        look
+        examined.taken = work.taken();
+        examined
     }
 }
 

@@ -1,5 +1,4 @@
-//! Reduction of points to those that matter to their hull: the extreme points in some directions, and the points
-//! that are not within the hull of these.
+//! Reduces points to candidates for hull corners: extreme points, and the points outside the hull of these.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{side, too_fine};
@@ -8,17 +7,17 @@ use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-/// Finds the extreme points in a number of directions, each once, in the order of the list.
+/// Returns the extreme points in a number of directions, without duplicates, in the order of the list.
 ///
 /// The directions are spread evenly over the box of the points, stretched to a cube.
 pub(super) fn farthest(points: &[DVec3], directions: u32) -> Vec<DVec3> {
-    let Bounds { lo, hi } = Bounds::of(points.iter().copied());
+    let Bounds { lo, hi } = Bounds::enclosing(points.iter().copied());
     let stretch = |x: f64| if x > 0.0 { x.recip() } else { 0.0 };
     let scale = DVec3::from_array((hi - lo).to_array().map(stretch));
     let mut found: Vec<usize> = (0..directions)
         .filter_map(|k| {
-            let way = scale * direction(k, directions);
-            let along = points.iter().map(|&p| way.dot(p - lo)).enumerate();
+            let direction_of = scale * direction(k, directions);
+            let along = points.iter().map(|&p| direction_of.dot(p - lo)).enumerate();
             let best = along.reduce(|best, next| if next.1 > best.1 { next } else { best });
             best.map(|(place, _)| place)
         })
@@ -28,7 +27,7 @@ pub(super) fn farthest(points: &[DVec3], directions: u32) -> Vec<DVec3> {
     found.into_iter().map(|place| points[place]).collect()
 }
 
-/// Computes the `k`-th of a number of directions that are spread evenly: along a spiral, by the golden angle.
+/// Returns the `k`-th of evenly spread directions (golden-angle spiral).
 fn direction(k: u32, count: u32) -> DVec3 {
     let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(count);
     let radius = (1.0 - z * z).sqrt();
@@ -39,17 +38,17 @@ fn direction(k: u32, count: u32) -> DVec3 {
 /// The number of directions whose extreme points make the inner hull.
 const DIRECTIONS: u32 = 32;
 
-/// Removes inner points, and keeps the hull.
+/// Removes inner points without changing the hull.
 ///
 /// # Guarantee
-/// Exact: a removed point is in the hull of points that are kept. All points are kept if a coordinate is too near
-/// to 0 for exact predicates.
+/// Exact: a removed point is in the hull of the others. No point is removed if a coordinate is too near to 0 for exact
+/// predicates.
 pub(super) fn without_inner(points: Vec<DVec3>) -> Vec<DVec3> {
     if points.len() <= DIRECTIONS as usize || too_fine(&points).is_some() {
         return points;
     }
     let far = farthest(&points, DIRECTIONS);
-    let Some(hull) = ExactHull::of(&far) else {
+    let Some(hull) = ExactHull::new(&far) else {
         return points;
     };
     let facets: Vec<[DVec3; 3]> = hull

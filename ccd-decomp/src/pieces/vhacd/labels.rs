@@ -1,4 +1,4 @@
-//! The part of every voxel, by the library.
+//! Labels of voxels, by the library's V-HACD.
 
 use super::target::Target;
 use super::voxels::Voxels;
@@ -10,10 +10,9 @@ use parry3d_f64::transformation::voxelization::FillMode;
 use std::collections::VecDeque;
 use std::panic::catch_unwind;
 
-/// Labels every cube with the number of a part; none when the library fails.
+/// Returns the part of every voxel; `None` if the library fails.
 ///
-/// Cubes that the library leaves out get the part of a cube near by. The guarantee holds with any labels, because
-/// parts of any shape are covered.
+/// Voxels that the library omits get the part of a nearby voxel. The guarantee holds for any labels.
 pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<u32>> {
     let parts = decompose(target, voxels, hulls)?;
     const NONE: u32 = u32::MAX;
@@ -35,15 +34,15 @@ pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option
             }
         }
     }
-    // Without a label from the library, all cubes are one part.
+    // Without labels from the library, all voxels are one part.
     for label in labels.iter_mut().filter(|label| **label == NONE) {
         *label = 0;
     }
     Some(labels)
 }
 
-/// Assigns cubes to parts through the library. There are more parts than hulls were asked for; the library makes
-/// up to twice its parameter.
+/// Assigns voxels to parts by the library. There are more parts than requested hulls; the library makes up to twice its
+/// parameter.
 fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usize; 3], u32)>> {
     let fill_mode = if target.is_closed() {
         FillMode::FloodFill {
@@ -61,7 +60,7 @@ fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([u
         alpha: BALANCE,
         ..VHACDParameters::default()
     };
-    // Scaled, so that the library's absolute tolerances mean something.
+    // Scaled to suit the library's absolute tolerances.
     let scale = f64::from(voxels.resolution() - 1);
     let scaled = |p: DVec3| Vector::from((voxels.in_steps(p) / scale).to_array());
     let points: Vec<Vector> = target.triangles().flatten().map(scaled).collect();

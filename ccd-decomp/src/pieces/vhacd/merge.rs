@@ -1,4 +1,4 @@
-//! Merging of parts: those that fill their common hull best first.
+//! Merges parts, best filled common hull first.
 
 use super::extremes::{farthest, without_inner};
 use crate::bounds::Bounds;
@@ -8,18 +8,17 @@ use crate::tolerance::PRICED_POINTS;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
 
-/// Merges pairs of parts, given by points of their hulls, until at most `most` are left: always the pair whose hull
-/// has the least volume beyond their own.
+/// Merges parts, given by points, until at most `most` are left: always the pair whose common hull adds the least
+/// volume.
 ///
 /// # Complexity
-/// O(n²) hulls of few points each, for any number of a part's points. Boxes replace the hulls of parts that
-/// are apart from each other.
+/// O(n²) hulls of few points each, for any number of a part's points. Boxes replace the hulls of disjoint parts.
 ///
 /// # Guarantee
 /// The hull of merged parts contains these parts. Rounded volumes only affect the choice.
 pub(super) fn down_to(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
     let mut merger = Merger::new(parts);
-    // Each step leaves one less.
+    // Each step removes one part.
     while merger.count > most && merger.merge_best() {}
     let parts = merger.parts.into_iter().flatten();
     parts.map(|part| part.points).collect()
@@ -28,13 +27,13 @@ pub(super) fn down_to(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
 struct Merger {
     parts: Vec<Option<Measured>>,
     count: usize,
-    /// The price of merging the pairs `(k, l)`, `k < l`, at `[l][k]`.
+    /// The cost of merging `(k, l)`, `k < l`, at `[l][k]`.
     prices: Vec<Vec<f64>>,
 }
 
 struct Measured {
     points: Vec<DVec3>,
-    /// A few of the points, whose hull is about as large.
+    /// A few of the points, whose hull is nearly as large.
     priced: Vec<DVec3>,
     /// The volume of the hull of `priced`.
     volume: f64,
@@ -43,7 +42,7 @@ struct Measured {
 
 impl Merger {
     fn new(parts: Vec<Vec<DVec3>>) -> Self {
-        let measured = |points: Vec<DVec3>| Some(Measured::of(points));
+        let measured = |points: Vec<DVec3>| Some(Measured::new(points));
         let parts: Vec<_> = parts.into_par_iter().map(measured).collect();
         let mut merger = Merger {
             count: parts.len(),
@@ -81,7 +80,7 @@ impl Merger {
         };
         if let (Some(mut one), Some(other)) = (self.parts[k].take(), self.parts[l].take()) {
             one.points.extend(other.points);
-            self.parts[k] = Some(Measured::of(one.points));
+            self.parts[k] = Some(Measured::new(one.points));
         }
         self.count -= 1;
         for other in 0..self.parts.len() {
@@ -95,20 +94,19 @@ impl Merger {
 }
 
 impl Measured {
-    fn of(points: Vec<DVec3>) -> Self {
+    fn new(points: Vec<DVec3>) -> Self {
         let points = without_inner(points);
         let priced = farthest(&points, PRICED_POINTS);
-        let hull = ExactHull::of(&priced);
+        let hull = ExactHull::new(&priced);
         Measured {
             volume: hull.map_or(0.0, |hull| volume(&priced, hull.facets().iter().copied())),
-            bounds: Bounds::of(points.iter().copied()),
+            bounds: Bounds::enclosing(points.iter().copied()),
             priced,
             points,
         }
     }
 
-    /// Computes the volume that merging adds. The box is larger than the hull, so that parts that are apart are
-    /// merged last.
+    /// Returns the volume that merging adds. Boxes are larger than hulls, so that disjoint parts are merged last.
     fn price_with(&self, other: &Measured) -> f64 {
         let common = || {
             let points = [&self.priced[..], &other.priced].concat();
@@ -122,7 +120,7 @@ impl Measured {
     }
 }
 
-/// Computes the volume within triangles, rounded, for comparisons.
+/// Returns the rounded volume enclosed by triangles, for comparisons.
 fn volume(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> f64 {
     let at = |v: u32| points[v as usize] - points[0];
     let six = triangles.map(|[a, b, c]| at(a).dot(at(b).cross(at(c))));

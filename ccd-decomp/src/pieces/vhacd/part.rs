@@ -12,7 +12,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    pub(super) fn of(points: &[DVec3]) -> Result<Self, HullError> {
+    pub(super) fn hull_of(points: &[DVec3]) -> Result<Self, HullError> {
         let at = |v: u32| points[v as usize];
         match hull(points) {
             Ok(hull) => {

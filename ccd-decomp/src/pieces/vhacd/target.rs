@@ -1,4 +1,4 @@
-//! The target of an approximation: its points, and the distances of other points.
+//! The target of an approximation, with distance queries.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{side, turn_along};
@@ -15,7 +15,7 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::Triangle;
 use std::cmp::Ordering;
 
-/// The solid to be approximated, with its surface; the surface alone if the mesh is open.
+/// The solid to approximate, or the surface if the mesh is open.
 pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
     search: BoxTree,
@@ -34,9 +34,9 @@ pub(super) enum Location {
 }
 
 impl<'a> Target<'a> {
-    pub(super) fn of(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
+    pub(super) fn new(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
         let corners = mesh.faces().iter().flatten();
-        let Bounds { lo, hi } = Bounds::of(corners.map(|&v| mesh.vertices()[v as usize]));
+        let Bounds { lo, hi } = Bounds::enclosing(corners.map(|&v| mesh.vertices()[v as usize]));
         Target {
             mesh,
             search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
@@ -64,12 +64,12 @@ impl<'a> Target<'a> {
         self.closed
     }
 
-    /// The orientation: 1 where the normals point out of the solid, −1 where they point into it.
+    /// Returns 1 if the normals point out of the solid, −1 if they point into it.
     pub(super) fn orientation(&self) -> f64 {
         if self.inside_out { -1.0 } else { 1.0 }
     }
 
-    /// Finds the triangles whose boxes meet a box; none if there are more than `most`.
+    /// Returns the triangles whose boxes meet a box; `None` if there are more than `most`.
     pub(super) fn triangles_in(
         &self,
         [lo, hi]: [DVec3; 2],
@@ -84,12 +84,12 @@ impl<'a> Target<'a> {
         all.then_some(found)
     }
 
-    /// The smallest box that holds it.
+    /// Returns the bounding box.
     pub(super) fn bounds(&self) -> [DVec3; 2] {
         self.bounds
     }
 
-    /// Half the diagonal of that box.
+    /// Returns half the diagonal of the bounding box.
     pub(super) fn reach(&self) -> f64 {
         (self.bounds[1] - self.bounds[0]).length() / 2.0
     }
@@ -99,7 +99,7 @@ impl<'a> Target<'a> {
         lo.abs().max(hi.abs()).max_element()
     }
 
-    /// A bound on the rounding error of distances.
+    /// Returns a bound on the rounding error of distances.
     pub(super) fn slack(&self) -> f64 {
         NEAREST_SLACK * self.reach()
     }
@@ -118,9 +118,8 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Bounds the distance to the surface from below, up to the slack, and computes the distance to a point that is
-    /// certainly on a triangle: the weights of its projection by the library are clamped, because those of a needle
-    /// may be anything.
+    /// Returns a lower bound of the distance to the surface, up to the slack, and the distance to a point that is
+    /// certainly on a triangle: the library's projection with clamped weights, which may be wrong for needles.
     fn nearest(&self, point: DVec3, work: &Work) -> (f64, f64) {
         let query = vector(point);
         let project = |corners: [DVec3; 3]| {
@@ -147,12 +146,18 @@ impl<'a> Target<'a> {
         let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
         let reached = on.length();
         // NaN counts as infinitely far.
-        let far = |way: f64| if way.is_nan() { f64::INFINITY } else { way };
+        let far = |offset: f64| {
+            if offset.is_nan() {
+                f64::INFINITY
+            } else {
+                offset
+            }
+        };
         (if found.is_nan() { 0.0 } else { found }, far(reached))
     }
 
-    /// Returns whether the mesh winds about a point, by exact predicates. For a point on the surface, the
-    /// answer is that of a point next to it. An open mesh winds about no point.
+    /// Returns whether the mesh winds about a point, by exact predicates. A point on the surface counts as a point next
+    /// to it. An open mesh winds about no point.
     pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
         if !self.closed {
             return false;
@@ -168,8 +173,8 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Bounds the distance of a point from a needle: no point of it is farther from its longest side than its height.
-/// None for other triangles.
+/// Returns a lower bound of the distance of a point from a needle: the distance from its longest side, less its height.
+/// Returns `None` for other triangles.
 fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     let longer = |one: &(DVec3, DVec3, DVec3), other: &(DVec3, DVec3, DVec3)| {
         let square = |of: &(DVec3, DVec3, DVec3)| of.0.distance_squared(of.1);
@@ -182,17 +187,16 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     let (square, area) = (side.length_squared(), side.cross(apex - from).length());
     // Written so that NaN is no needle.
     (area < NEEDLE * square).then(|| {
-        let way = from - point;
-        let share = (-way.dot(side) / square).clamp(0.0, 1.0);
-        greater(0.0, (way + side * share).length() - area / square.sqrt())
+        let offset = from - point;
+        let share = (-offset.dot(side) / square).clamp(0.0, 1.0);
+        greater(0.0, (offset + side * share).length() - area / square.sqrt())
     })
 }
 
-/// Counts the crossing of a ray from a point along z with a triangle: 1 to the front, −1 to the back, 0 if it
-/// misses.
+/// Returns how a ray from a point along z crosses a triangle: 1 to the front, −1 to the back, 0 if it misses.
 ///
-/// A point in line with an edge is moved a little in the direction of x, and less in that of y. This decides for
-/// each edge, and for all triangles at it alike, on which side the ray passes.
+/// Degenerate cases are decided by symbolic perturbation of the point along x, and less along y, consistently for all
+/// triangles at an edge.
 fn crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
     let [a, b, c] = triangle;
     let around: i32 = [(a, b), (b, c), (c, a)]

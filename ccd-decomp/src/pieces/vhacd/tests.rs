@@ -66,7 +66,7 @@ fn torus(around: u32, across: u32, thickness: f64) -> TriangleMesh {
     mesh(&points, &faces.collect::<Vec<_>>())
 }
 
-/// An L, two by two with legs of one, up to 1.
+/// An L of size two by two with legs of width one, and height 1.
 fn angle() -> TriangleMesh {
     let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     prism(&outline.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0)))
@@ -97,7 +97,7 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-/// A point of the hull of some points.
+/// Returns a point of the hull of some points.
 fn mix(points: &[DVec3], mut next: impl FnMut() -> f64) -> DVec3 {
     let weights: Vec<f64> = points.iter().map(|_| -(1.0 - next()).ln()).collect();
     let sum: f64 = weights.iter().sum();
@@ -185,7 +185,7 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
     assert!(found.uncovered <= 1e-12 * size);
     let mut next = noise();
     let closed = crate::Topology::of(&mesh).is_closed();
-    let [lo, hi] = Target::of(&mesh, &Topology::of(&mesh)).bounds();
+    let [lo, hi] = Target::new(&mesh, &Topology::of(&mesh)).bounds();
     let mut samples: Vec<DVec3> = triangles(&mesh)
         .iter()
         .flat_map(|t| [mix(t, &mut next), mix(t, &mut next)])
@@ -225,8 +225,8 @@ fn far_off() -> TriangleMesh {
     mesh(&moved, torus.faces())
 }
 
-/// The hole of a torus is filled, and the farthest points are the middles of its two mouths; a cavity
-/// is filled, and only its middle is that far.
+/// One hull fills the hole of a torus, whose farthest points are at its two mouths; a cavity is filled, whose farthest
+/// point is its centre.
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
 #[case::cavity(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
@@ -304,7 +304,7 @@ fn refusals() {
 #[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(cubes(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 fn places(#[case] mesh: TriangleMesh) {
-    let (target, surface) = (Target::of(&mesh, &Topology::of(&mesh)), triangles(&mesh));
+    let (target, surface) = (Target::new(&mesh, &Topology::of(&mesh)), triangles(&mesh));
     for k in 0..21 * 21 * 21 {
         let point = DVec3::new((k % 21) as f64, (k / 21 % 21) as f64, (k / 441) as f64) / 4.0 - 2.5;
         let way = distance(&surface, point);
@@ -323,7 +323,7 @@ fn places(#[case] mesh: TriangleMesh) {
     }
 }
 
-/// A convex solid is one hull, however thin its triangles are, and however many hulls are asked for.
+/// A convex solid is one hull, for any aspect of triangles and any number of hulls.
 #[test]
 fn a_convex_solid_is_one_hull() {
     let cones = crate::test_meshes::star(400, 1.0);

@@ -1,4 +1,4 @@
-//! Voxels: a grid of cubes about a mesh.
+//! The voxel grid of a mesh.
 
 use super::target::Target;
 use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
@@ -6,25 +6,25 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
 
-/// A grid of cubes between planes at exactly the stored coordinates, so that neighbours leave no gap.
+/// A grid of voxels between planes at stored coordinates, so that neighbours share planes exactly.
 pub(super) struct Voxels {
     planes: [Vec<f64>; 3],
-    /// The least corner of the mesh, which is the centre of the first cube.
+    /// The lower corner of the mesh, which is the centre of the first voxel.
     origin: DVec3,
-    /// The size of the cubes.
+    /// The size of a voxel.
     step: f64,
     resolution: u32,
-    /// The width that is added to cubes when something is cut to them, so that rounding loses nothing.
+    /// The margin by which voxels are widened for cuts, so that rounding loses nothing.
     margin: f64,
 }
 
-/// A cube, by its place along each axis.
+/// A voxel, by its index along each axis.
 pub(super) type Cell = [usize; 3];
 
 impl Voxels {
-    /// Makes the grid for a number of hulls: coarser where the mesh's large triangles meet too many cubes, none
-    /// where its coordinates are too coarse for any grid.
-    pub(super) fn of(target: &Target<'_>, hulls: u32) -> Option<Self> {
+    /// Creates the grid for a number of hulls, coarser if large triangles meet too many voxels; `None` if coordinates
+    /// are too coarse for any grid.
+    pub(super) fn new(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
         while resolution >= tolerance::LEAST_RESOLUTION {
@@ -68,7 +68,7 @@ impl Voxels {
         self.resolution
     }
 
-    /// Converts a point to the units of the grid: 0 is the centre of the first cube.
+    /// Converts a point to grid units: 0 is the centre of the first voxel.
     pub(super) fn in_steps(&self, point: DVec3) -> DVec3 {
         (point - self.origin) / self.step
     }
@@ -91,7 +91,7 @@ impl Voxels {
         [index / z / y, index / z % y, index % z]
     }
 
-    /// Iterates over the cubes that share a face with one.
+    /// Iterates over the voxels that share a face with one.
     pub(super) fn neighbours(&self, cell: Cell) -> impl Iterator<Item = usize> {
         let counts = self.counts();
         (0..6).filter_map(move |k| {
@@ -104,12 +104,12 @@ impl Voxels {
         })
     }
 
-    /// The point where three planes meet.
+    /// Returns the intersection of three planes.
     pub(super) fn corner(&self, [i, j, k]: Cell) -> DVec3 {
         DVec3::new(self.planes[0][i], self.planes[1][j], self.planes[2][k])
     }
 
-    /// The cubes that the box of a triangle may meet, and some next to it.
+    /// Returns the range of voxels that the box of a triangle may meet, slightly widened.
     fn ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
         let counts = self.counts();
         [0, 1, 2].map(|axis| {
@@ -123,7 +123,7 @@ impl Voxels {
         })
     }
 
-    /// Calls back with every cube that a triangle meets.
+    /// Calls `visit` for every voxel that a triangle meets.
     pub(super) fn for_each_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
         let [xs, ys, zs] = self.ranges(triangle);
         let (mut slab, mut beam, mut part) = (Vec::new(), Vec::new(), Vec::new());
@@ -141,11 +141,11 @@ impl Voxels {
         }
     }
 
-    /// Cuts a triangle where the labels of the cubes change, and calls back with the pieces: the label, and the
-    /// corners of a polygon whose hull, grown by the margin, contains the part of the triangle in its cubes.
+    /// Cuts a triangle where labels change, and calls `visit` with each label and a polygon whose hull, enlarged by the
+    /// margin, contains the triangle within its voxels.
     ///
-    /// Each cut makes corners that are on a line except for rounding. Blocks of cubes are therefore halved only
-    /// while their labels differ.
+    /// Cuts make corners that are nearly collinear. Blocks of voxels are therefore halved only while their labels
+    /// differ.
     pub(super) fn for_each_piece(
         &self,
         triangle: [DVec3; 3],
@@ -153,7 +153,7 @@ impl Voxels {
         mut visit: impl FnMut(u32, &[DVec3]),
     ) {
         let mut stack = vec![(self.ranges(triangle), triangle.to_vec())];
-        // Blocks are halved, and one cube has one label.
+        // Terminates: blocks are halved, and a single voxel has one label.
         while let Some((block, polygon)) = stack.pop() {
             if polygon.is_empty() {
                 continue;
@@ -184,7 +184,7 @@ impl Voxels {
         }
     }
 
-    /// Cuts a polygon to some layers of cubes, widened by the margin.
+    /// Clips a polygon to some layers of voxels, widened by the margin.
     fn cut(
         &self,
         polygon: &[DVec3],
@@ -201,7 +201,7 @@ impl Voxels {
     }
 }
 
-/// Cuts a triangle to a box.
+/// Clips a triangle to a box.
 pub(super) fn cut_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
     let mut rest = Vec::new();
     part.clear();
@@ -212,7 +212,7 @@ pub(super) fn cut_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut
     }
 }
 
-/// Cuts a convex polygon to one side of a plane (Sutherland and Hodgman).
+/// Clips a convex polygon to one side of a plane (Sutherland and Hodgman).
 fn cut_at(
     polygon: &[DVec3],
     axis: usize,

@@ -21,7 +21,7 @@ fn convex_solids_are_hulls() {
     assert_eq!(why(&cubes(&block([3, 3, 3]))), Why::Convex);
 }
 
-/// Large plane parts of many triangles become a few patches; of few triangles they stay triangles.
+/// Large planar parts become patches if they have many triangles, and stay triangles if few.
 #[test]
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
@@ -50,7 +50,7 @@ fn the_largest_plane_is_found_whole() {
     assert_eq!(plane.polygons, 1);
 }
 
-/// The largest plane by walking from polygon to polygon.
+/// The largest planar part by a walk over polygons.
 fn largest_slowly(manifold: &Manifold<'_>) -> PlanarRegion {
     let flats = Merger::merged(manifold).finish();
     let mut seen = vec![false; flats.len()];
@@ -114,7 +114,7 @@ fn slow_decompositions_stay_triangles() {
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
-        let (parts, why) = within(&mesh, &Topology::of(&mesh), None, &Work::of(steps));
+        let (parts, why) = within(&mesh, &Topology::of(&mesh), None, &Work::with_steps(steps));
         assert_eq!(why, Why::TooLong);
         assert!(matches!(parts, Parts::Triangles));
     }

@@ -1,4 +1,4 @@
-//! Tests of boxes against fractions, in the worst cases that a search finds.
+//! Box tests against exact fractions, in the worst cases that a search finds.
 
 use super::{Extent, OrientedBox};
 use crate::rational::{Exact3, exact};
@@ -24,7 +24,7 @@ fn setting(tape: &mut Tape) -> (OrientedBox, [DVec3; 3]) {
     (OrientedBox::about(&[element]), points)
 }
 
-/// How far a box reaches along a direction from its centre, exactly.
+/// The exact extent of a box along a direction from its centre.
 fn reach(of: &OrientedBox, direction: DVec3) -> Relaxed {
     let along = Exact3::of(direction);
     let absolute = |x: Relaxed| if x < Relaxed::ZERO { -x } else { x };
@@ -35,14 +35,14 @@ fn reach(of: &OrientedBox, direction: DVec3) -> Relaxed {
     axes.fold(slack, |sum, x| sum + x)
 }
 
-/// A shape along a direction, against the box: by how much more it is apart than it is exactly.
+/// The error of the separation of a shape and the box along a direction.
 #[test]
 fn worst_extent() {
     let found = Worst::of("box_rounding, an extent", 10_000).search(|tape| {
         let (of, points) = setting(tape);
         let direction = unit(tape.vector(-40..=0).into())?;
-        let extent = Extent::of(&points, direction);
-        // As `Extent::misses` has it.
+        let extent = Extent::along(&points, direction);
+        // The same as `Extent::misses`.
         let along = extent.direction.dot(of.centre - extent.base);
         let apart = along - of.depth(extent.direction) - extent.hi;
         let exactly = Exact3::of(direction);

@@ -1,4 +1,4 @@
-//! Plates: convex polygons of many slivers, which are examined one by one only where something reaches in.
+//! Plates: convex polygons of many slivers, whose triangles are tested only if another face enters the polygon.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{Projection, side};
@@ -13,10 +13,9 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// The plates of a surface, which are its convex polygons with a large fan, and the remaining triangles.
+/// The plates of a surface (convex polygons with a large fan), and the remaining triangles.
 ///
-/// The triangles of a polygon are glued edge to edge, the two at an edge on either side of it, and cover it
-/// once: two of them meet only in corners and edges that both have.
+/// The triangles of a polygon cover it once: two of them meet only in shared corners and edges.
 pub(super) struct Plates<'a, 'm> {
     manifold: &'a Manifold<'m>,
     plates: Vec<Plate>,
@@ -24,45 +23,45 @@ pub(super) struct Plates<'a, 'm> {
     plate_of: Vec<u32>,
     /// The boxes of the plates.
     bvh: Bvh,
-    /// The faces of no plate.
+    /// The faces outside all plates.
     rest: Group,
 }
 
 const NONE: u32 = u32::MAX;
 
-/// A convex polygon: its triangles, its plane, and its rim by vertex.
+/// A convex polygon: triangles, plane, and rim.
 struct Plate {
     number: u32,
     faces: Vec<u32>,
     plane: [DVec3; 3],
     projection: Projection,
     /// The vertices of the rim with their neighbours on it, in ascending order.
-    rim: Vec<Passage>,
+    rim: Vec<RimVertex>,
     bounds: Bounds,
-    /// The boxes of the triangles, made when something reaches in.
+    /// The boxes of the triangles, created on demand.
     group: OnceCell<Group>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Passage {
+struct RimVertex {
     at: u32,
     before: u32,
     after: u32,
 }
 
-/// Some faces, with their boxes.
+/// Faces with their boxes.
 struct Group {
     faces: Vec<u32>,
     boxes: TriangleBoxes,
 }
 
-/// The approximate number of predicates that prove that a face is next to a polygon.
+/// The approximate number of predicates that separate a face from a polygon.
 const BESIDE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
-    /// Finds the plates; none where no polygon has a large fan, so that the boxes of all triangles suffice.
-    /// O(n log n), the time of [`Flats::new`].
-    pub(super) fn of(manifold: &'a Manifold<'m>) -> Option<Self> {
+    /// Finds the plates; `None` if no polygon has a large fan, so that the boxes of all triangles suffice. O(n log n),
+    /// the time of [`Flats::new`].
+    pub(super) fn find(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
             count[v as usize] += 1;
@@ -76,7 +75,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         for number in 0..flats.len() as u32 {
             let flat = flats.get(number);
             let is_large = has_fan(manifold, &flat.faces);
-            let Some(plate) = is_large.then(|| Plate::of(manifold, flat)).flatten() else {
+            let Some(plate) = is_large.then(|| Plate::new(manifold, flat)).flatten() else {
                 continue;
             };
             let number = plates.len() as u32;
@@ -89,7 +88,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             return None;
         }
         let rest = (0..).zip(&plate_of).filter(|(_, plate)| **plate == NONE);
-        let rest = Group::of(manifold, rest.map(|(face, _)| face).collect());
+        let rest = Group::new(manifold, rest.map(|(face, _)| face).collect());
         let boxes: Vec<_> = plates.iter().map(|plate| plate.bounds.as_aabb()).collect();
         Some(Plates {
             manifold,
@@ -100,9 +99,8 @@ impl<'a, 'm> Plates<'a, 'm> {
         })
     }
 
-    /// Calls back with the faces that may meet a face elsewhere than where they are glued, until the answer is no,
-    /// or the work is spent. Each such pair comes up for one of its two faces at least: faces of lower number
-    /// may be left out.
+    /// Calls `holds` for the faces that may intersect a face, until it returns false or the work is spent. Each pair is
+    /// reported for at least one of its faces: faces of lower number may be omitted.
     pub(super) fn all_meeting(
         &self,
         face: u32,
@@ -111,7 +109,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let own = self.plate_of[face as usize];
-        // Pairs with a face of a plate come up for the other face.
+        // Pairs with a face of a plate are reported for the other face.
         if own == NONE {
             let faces = &self.rest.faces;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
@@ -134,20 +132,19 @@ impl<'a, 'm> Plates<'a, 'm> {
             }
             let group = plate
                 .group
-                .get_or_init(|| Group::of(self.manifold, plate.faces.clone()));
+                .get_or_init(|| Group::new(self.manifold, plate.faces.clone()));
             group.boxes.all_meeting(region, work, |other| {
                 let other = group.faces[other as usize];
-                // Pairs of faces of two plates come up twice.
+                // Pairs of faces of two plates are found twice.
                 own != NONE && other < face || holds(other)
             })
         })
     }
 
-    /// Returns whether a face shares no more with a plate than a corner, or an edge, of the rim and of both.
+    /// Returns whether a face shares at most a common corner or edge of the rim with a plate.
     ///
-    /// The part of the face in the plate's plane is then out of the box about the plate; or it is on the other
-    /// side of a line along the rim, and has only a common corner on that line, or the edge at which they are
-    /// glued.
+    /// The part of the face in the plate's plane is then outside the plate's box, or beyond a line along the rim with
+    /// only a shared corner or edge on that line.
     fn is_beside(&self, face: u32, plate: &Plate) -> bool {
         let (corners, points) = (
             self.manifold.faces()[face as usize],
@@ -166,7 +163,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             }
             let mut on = level().filter(|&k| turn(k) == Ordering::Equal);
             match [on.next(), on.next(), on.next()] {
-                // The one is the corner of the rim that the line goes through.
+                // The one corner is the rim vertex on the line.
                 [Some(_), None, None] => true,
                 [Some(k), Some(l), None] => {
                     let start = if (k + 1) % 3 == l { k } else { l };
@@ -176,16 +173,16 @@ impl<'a, 'm> Plates<'a, 'm> {
                 _ => false,
             }
         };
-        let mut level_corners = level().map(|k| plate.passage(corners[k]));
-        // The bounds of no points meet none.
-        !Bounds::of(level().map(|k| points[k])).meets(&plate.bounds)
-            || level_corners.any(|passage| {
-                passage.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
+        let mut level_corners = level().map(|k| plate.rim_vertex(corners[k]));
+        // The bounds of no points meet no bounds.
+        !Bounds::enclosing(level().map(|k| points[k])).meets(&plate.bounds)
+            || level_corners.any(|rim_vertex| {
+                rim_vertex.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
             })
     }
 }
 
-/// Returns whether a vertex is a corner of many of these faces.
+/// Returns whether many of these faces share a vertex.
 fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
     if faces.len() < FAN_TRIANGLES as usize {
         return false;
@@ -198,20 +195,20 @@ fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
 }
 
 impl Plate {
-    fn of(manifold: &Manifold<'_>, flat: &Flat) -> Option<Self> {
+    fn new(manifold: &Manifold<'_>, flat: &Flat) -> Option<Self> {
         let plane = manifold.triangle(*flat.faces.first()?);
         let starts = || flat.rim.iter().map(|&h| manifold.ends(h)[0]);
         let triples = starts()
             .zip(starts().cycle().skip(1))
             .zip(starts().cycle().skip(2));
-        let mut rim: Vec<Passage> = triples
-            .map(|((before, at), after)| Passage { at, before, after })
+        let mut rim: Vec<RimVertex> = triples
+            .map(|((before, at), after)| RimVertex { at, before, after })
             .collect();
-        rim.sort_unstable_by_key(|passage| passage.at);
+        rim.sort_unstable_by_key(|rim_vertex| rim_vertex.at);
         Some(Plate {
             number: NONE,
-            projection: Projection::of(plane)?,
-            bounds: Bounds::of(starts().map(|v| manifold.point(v))),
+            projection: Projection::new(plane)?,
+            bounds: Bounds::enclosing(starts().map(|v| manifold.point(v))),
             faces: flat.faces.clone(),
             plane,
             rim,
@@ -219,16 +216,18 @@ impl Plate {
         })
     }
 
-    /// Finds a vertex on the rim, with its neighbours; none for a vertex that is not on it.
-    fn passage(&self, vertex: u32) -> Option<Passage> {
-        let found = self.rim.binary_search_by_key(&vertex, |passage| passage.at);
+    /// Returns a rim vertex with its neighbours; `None` if the vertex is not on the rim.
+    fn rim_vertex(&self, vertex: u32) -> Option<RimVertex> {
+        let found = self
+            .rim
+            .binary_search_by_key(&vertex, |rim_vertex| rim_vertex.at);
         found.ok().map(|k| self.rim[k])
     }
 }
 
 impl Group {
     /// O(n log n) in the number of these faces.
-    fn of(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
+    fn new(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
         let corners = faces.iter().map(|&f| manifold.faces()[f as usize]);
         let mut vertices: Vec<u32> = corners.clone().flatten().collect();
         vertices.sort_unstable();

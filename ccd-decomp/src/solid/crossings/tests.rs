@@ -42,7 +42,7 @@ fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
     assert_eq!(meet(offset), expected);
 }
 
-/// Two tetrahedra at one corner are one surface, pinched there: they share only the corner.
+/// Two tetrahedra that share only a corner do not intersect.
 #[test]
 fn a_shared_corner_is_no_intersection() {
     assert!(!meet(DVec3::X));
@@ -96,7 +96,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
         let mesh = prism(&(0..corners).map(corner).collect::<Vec<_>>());
         let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
         // All pairs about a corner of 5,000 would be 2,500 for each triangle.
-        let work = Work::of(100 * mesh.faces().len() as u64);
+        let work = Work::with_steps(100 * mesh.faces().len() as u64);
         assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
     }
 }
@@ -105,7 +105,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
     assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
-    let too_few = Work::of(100);
+    let too_few = Work::with_steps(100);
     assert_eq!(
         check_solid(&manifold, &too_few),
         Err(DecomposeError::TooLong)
@@ -115,7 +115,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     work.taken() / mesh.faces().len() as u64
 }
 
-/// Slivers that are not all visible from one point, and walls along them: each is near a few others.
+/// A solid of slivers that is not star-shaped: each sliver is near a few others.
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {

@@ -43,7 +43,7 @@ fn polygons_are_convex_and_leave_nothing_out() {
     for k in 0..flats.len() as u32 {
         let flat = flats.get(k);
         let at = |i: usize| manifold.point(flat.corners[i % flat.corners.len()]);
-        let plane = Projection::of(manifold.triangle(flat.faces[0])).unwrap();
+        let plane = Projection::new(manifold.triangle(flat.faces[0])).unwrap();
         for i in 0..flat.corners.len() {
             assert_eq!(plane.turn(at(i), at(i + 1), at(i + 2)), Ordering::Greater);
         }
@@ -78,8 +78,7 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
     }
 }
 
-/// Nothing is merged over a fold of any mesh whose edges pair up: triangles back to back, or a flat
-/// tetrahedron, either next to a solid.
+/// Nothing is merged over a fold: triangles back to back, or a flat tetrahedron, each next to a solid.
 #[test]
 fn folds_are_no_polygons() {
     let back_to_back = mesh(

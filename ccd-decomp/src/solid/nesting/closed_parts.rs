@@ -7,10 +7,10 @@ use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Numbers the parts: the number by face.
+/// Returns the part of each face.
 ///
-/// Parts are connected over edges of two faces. At an edge of more faces, parts that would stay open are
-/// connected across the material that they bound, so that solids that share a face stay separate.
+/// Parts are connected over edges of two faces. At an edge of more faces, open parts are connected across the material
+/// between them, so that solids that share a face stay separate.
 pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     let mut parts = DisjointSets::new(mesh.faces().len());
     let mut is_manifold = true;
@@ -29,17 +29,17 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
             }
         }
     }
-    numbers(&mut parts, mesh.faces().len())
+    parts.numbers()
 }
 
 /// The use of an edge by a face.
 #[derive(Clone, Copy, Debug)]
 struct Use {
-    /// The ends by welded vertex, the smaller first.
+    /// The welded end vertices, the smaller first.
     ends: [u32; 2],
     face: u32,
-    /// 1 where the face runs from the first end to the second, else −1.
-    way: i32,
+    /// 1 if the face runs from the first end to the second, else −1.
+    direction: i32,
 }
 
 impl Use {
@@ -47,37 +47,40 @@ impl Use {
         Use {
             ends,
             face: of.half_edge() / 3,
-            way: if of.is_backward() { -1 } else { 1 },
+            direction: if of.is_backward() { -1 } else { 1 },
         }
     }
 }
 
-/// Finds the faces at an edge of those parts that run along it more often one way than the other.
+/// Returns the faces at an edge of parts that are open there: with more uses in one direction than in the other.
 fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
     let mut of_parts: Vec<(u32, Use)> = edge.iter().map(|&u| (parts.root(u.face), u)).collect();
     of_parts.sort_by_key(|of| of.0);
     of_parts
         .chunk_by(|one, next| one.0 == next.0)
-        .filter(|part| part.iter().map(|of| of.1.way).sum::<i32>() != 0)
+        .filter(|part| part.iter().map(|of| of.1.direction).sum::<i32>() != 0)
         .flatten()
         .map(|of| of.1)
         .collect()
 }
 
-/// Pairs the faces at one edge that have material between them: it is behind each of the two, and as few others
-/// as possible are between. All are paired where the faces cannot be ordered.
+/// Pairs the faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all are paired.
 fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
-    let Some(around) = AngularOrder::of(mesh, edge) else {
+    let Some(around) = AngularOrder::new(mesh, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face, pair[1].face)).collect();
     };
     let mut order = edge.to_vec();
-    // Among faces in one direction, those that end a material come first.
-    order.sort_by(|one, other| around.order(one, other).then(other.way.cmp(&one.way)));
+    // Among faces at one angle, those that end a wedge come first.
+    order.sort_by(|one, other| {
+        around
+            .order(one, other)
+            .then(other.direction.cmp(&one.direction))
+    });
     let (mut begun, mut pairs) = (Vec::new(), Vec::new());
-    // A material that began before the first face ends in the second round; paired faces are removed.
+    // A wedge that begins before the first face ends in the second round; paired faces are removed.
     for _ in 0..2 {
-        order.retain(|one| match one.way {
+        order.retain(|one| match one.direction {
             1 => match begun.pop() {
                 Some(other) => {
                     pairs.push((one.face, other));
@@ -94,7 +97,7 @@ fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
     pairs
 }
 
-/// The order of faces around an edge, from one of them on: counter-clockwise, with the edge pointing at the
+/// The angular order of faces around an edge, starting at one of them: counter-clockwise, with the edge pointing at the
 /// viewer.
 struct AngularOrder<'m> {
     mesh: &'m TriangleMesh,
@@ -105,13 +108,13 @@ struct AngularOrder<'m> {
 }
 
 impl<'m> AngularOrder<'m> {
-    /// Starts at the first face; none where a face has no area, or a coordinate is too near to 0 for exact
+    /// Starts at the first face. Returns `None` if a face is degenerate or a coordinate is too near to 0 for exact
     /// predicates.
-    fn of(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
+    fn new(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
         let [v, w] = edge.first()?.ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|one| apex(mesh, one)).collect();
         let is_fine = too_fine(&[v, w]).or(too_fine(&apexes)).is_some();
-        let flat = |&p: &DVec3| Projection::of([v, w, p]).is_none();
+        let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
         if is_fine || apexes.iter().any(flat) {
             return None;
         }
@@ -119,7 +122,7 @@ impl<'m> AngularOrder<'m> {
             mesh,
             ends: [v, w],
             first: apexes[0],
-            projection: Projection::of([v, w, apexes[0]])?,
+            projection: Projection::new([v, w, apexes[0]])?,
         })
     }
 
@@ -132,7 +135,8 @@ impl<'m> AngularOrder<'m> {
             .then_with(by_turn)
     }
 
-    /// Computes the quarter of a point: in the first face's half plane, before the half turn, there, or beyond.
+    /// Returns the angular class of a point: at the first face (0), before half a turn (1), at half a turn (2), or
+    /// after (3).
     fn quarter(&self, point: DVec3) -> u32 {
         let [v, w] = self.ends;
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
@@ -145,7 +149,7 @@ impl<'m> AngularOrder<'m> {
     }
 }
 
-/// The corner of a face opposite to an edge.
+/// Returns the corner of a face opposite to an edge.
 fn apex(mesh: &TriangleMesh, of: &Use) -> DVec3 {
     let mut at = mesh
         .welded_face(of.face)
@@ -154,20 +158,4 @@ fn apex(mesh: &TriangleMesh, of: &Use) -> DVec3 {
     let off = at.find(|(v, _)| !of.ends.contains(v));
     // A face with two corners at one point has no other corner.
     off.map_or(mesh.vertices()[of.ends[0] as usize], |(_, p)| p)
-}
-
-/// Numbers the parts in the order of their first faces: the number by face.
-fn numbers(parts: &mut DisjointSets, faces: usize) -> Vec<u32> {
-    let mut number = vec![u32::MAX; faces];
-    let mut count = 0;
-    (0..faces as u32)
-        .map(|face| {
-            let number = &mut number[parts.root(face) as usize];
-            if *number == u32::MAX {
-                *number = count;
-                count += 1;
-            }
-            *number
-        })
-        .collect()
 }

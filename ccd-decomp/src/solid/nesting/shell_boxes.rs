@@ -1,30 +1,30 @@
-//! The boxes of shells, to find those that may surround a point.
+//! Bounding boxes of shells, to find shells that may surround a point.
 
 use crate::bounds::Bounds;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// The boxes of shells, in the order of their lower ends along one axis.
+/// Bounding boxes of shells, sorted by their lower ends along one axis.
 pub(super) struct ShellBoxes {
     axis: usize,
     boxes: Vec<ShellBox>,
-    /// The place of each shell among them.
+    /// The index of each shell's box.
     places: Vec<u32>,
 }
 
 struct ShellBox {
     shell: u32,
     bounds: Bounds,
-    /// The greatest upper end of this box and those before it.
+    /// The largest upper end of this box and all before it.
     reach: f64,
 }
 
 impl ShellBoxes {
-    /// Takes the vertices of each shell.
+    /// Creates the boxes from the vertices of each shell.
     pub(super) fn new<V: Iterator<Item = DVec3>>(shells: impl Iterator<Item = V>) -> Self {
         let boxes = shells.zip(0..).map(|(vertices, shell)| ShellBox {
             shell,
-            bounds: Bounds::of(vertices),
+            bounds: Bounds::enclosing(vertices),
             reach: f64::NEG_INFINITY,
         });
         let mut boxes: Vec<ShellBox> = boxes.collect();
@@ -44,14 +44,14 @@ impl ShellBoxes {
         }
     }
 
-    /// Returns whether a point is in the box of a shell. A shell winds about no point outside of its box.
+    /// Returns whether a point is in the box of a shell. A shell winds about no point outside its box.
     pub(super) fn is_about(&self, shell: u32, point: DVec3) -> bool {
         self.boxes[self.places[shell as usize] as usize].holds(point)
     }
 
     /// Returns whether a point is in the box of a shell other than its own.
     ///
-    /// Exact. It looks at the boxes that overlap the point along the mesh's longest axis.
+    /// Exact. Tests the boxes that overlap the point along the mesh's longest axis.
     pub(super) fn any_other_about(&self, own: u32, point: DVec3) -> bool {
         let along = point[self.axis];
         let begun = self

@@ -95,7 +95,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     assert_eq!(counts(&cubes(&pair(false))), [0, 0]);
     assert_eq!(counts(&cubes(&pair(true))), [1, 0]);
     let around = |inward: bool| (0.1 * DVec3::ONE, 9.0, inward);
-    // Two shells with the same orientation as their surroundings are part of them.
+    // Crossing shells with the orientation of their surroundings are part of the solid.
     let part = [pair(false).as_slice(), &[around(false)]].concat();
     assert_eq!(counts(&cubes(&part)), [0, 0]);
     // Two cavities that cross, or a solid that crosses a cavity.
@@ -113,7 +113,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     );
 }
 
-/// Cubes that share an edge, one of them inside out: every edge has as many faces one way as the other.
+/// Cubes that share an edge, one of them inside out: every edge has equally many faces in both directions.
 #[test]
 fn shells_that_share_an_edge_are_distinguished() {
     for (one, other) in [(true, false), (false, true), (false, false)] {
@@ -150,8 +150,8 @@ fn shells_that_share_faces_are_distinguished() {
     assert!(shared > 40, "{shared}");
 }
 
-/// The points on either side of a face are on either side of it, by nearly as much as they are meant to be: for
-/// needles of an aspect of a million, too, and far from the origin.
+/// The points on both sides of a face are at nearly the intended distance, also for needles of an aspect of a million
+/// and far from the origin.
 #[test]
 fn worst_middle() {
     let found = Worst::of("FACE_ROUNDING", 10_000).search(|tape| {
@@ -165,7 +165,7 @@ fn worst_middle() {
         let (middle, across) = around_middle(face, size).filter(|_| area > 1e-6 * size * size)?;
         let [a, b, c] = face.map(Exact3::of);
         let normal = b.minus(&a).cross(&c.minus(&a));
-        // Rounded once: far below what is looked for.
+        // The rounding here is far below the tested error.
         let unit = normal.dot(&normal).to_f64().value().sqrt();
         let height = |p: DVec3| Exact3::of(p).minus(&a).dot(&normal).to_f64().value() / unit;
         let [behind, ahead] = across.map(height);

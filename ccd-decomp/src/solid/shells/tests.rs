@@ -20,9 +20,9 @@ fn a_cavity_looks_inward() {
     let inner = placed(&cubes(&block([1, 1, 1])), 1.0, DVec3::ONE);
     let hollow = joined(&[&outer, &turned(&inner)]);
     assert!(bounding_solid(&hollow).is_ok());
-    // One solid within another is solid all the same.
+    // A solid within another is still solid.
     assert!(bounding_solid(&joined(&[&outer, &inner])).is_ok());
-    // And a third one in the cavity.
+    // A third solid in the cavity.
     let core = placed(&tetrahedron(), 0.5, dvec3(1.1, 1.1, 1.1));
     assert!(bounding_solid(&joined(&[&outer, &turned(&inner), &core])).is_ok());
 }

@@ -32,14 +32,14 @@ fn others_are_not() {
     assert!(!is_seen(&mesh(corners, &[[0, 1, 2], [0, 2, 1]])));
 }
 
-/// A cone about an axis that goes around twice: every face turned outward, every edge convex.
+/// A cone that winds twice around its axis: every face outward, every edge convex.
 #[test]
 fn a_surface_that_winds_twice_is_not_star_shaped() {
     let turns = 10;
     let mut vertices = vec![DVec3::Z, -DVec3::Z];
     for k in 0..turns {
         let angle = 2.0 * std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(turns);
-        // Two rims that no vertex is common to.
+        // Two rims without a common vertex.
         let radius = if k < turns / 2 { 1.0 } else { 1.25 };
         vertices.push(DVec3::new(radius * angle.cos(), radius * angle.sin(), 0.0));
     }

@@ -105,7 +105,7 @@ fn a_moebius_strip_cannot_be_oriented() {
 
 #[test]
 fn a_klein_bottle_has_no_rim_and_is_not_closed() {
-    // A 4 × 4 grid; going round one way mirrors the other.
+    // A 4 × 4 grid, mirrored around one direction.
     let number = |i: u32, j: u32| {
         if i == 4 {
             (4 - j % 4) % 4
@@ -134,8 +134,7 @@ fn a_klein_bottle_has_no_rim_and_is_not_closed() {
 
 #[test]
 fn faces_without_area_close_the_mesh() {
-    // The face 0 1 3 is split at a point of its side 0–1 that the face below does not know; the
-    // triangle without area between them closes the seam.
+    // The face 0 1 3 is split at a point of its side 0–1 (a T-junction); a degenerate triangle closes the seam.
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, 0.5 * DVec3::X];
     let seam = [
         [0, 2, 1],

@@ -1,11 +1,11 @@
-//! Agglomeration: nodes that are each other's best neighbours along a space-filling curve become siblings, pass by
-//! pass, until a single node is left (`[PLOC18]`).
+//! Agglomeration: mutual best neighbours along a space-filling curve become siblings, pass by pass, until one node is
+//! left (`[PLOC18]`).
 
 use super::nodes::{Below, Cuboid, Node};
 use crate::tolerance::{SEARCH_DEPTH, SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
-/// Memory that one agglomeration after the other uses.
+/// Scratch memory of agglomerations.
 #[derive(Debug, Default)]
 pub(super) struct Workspace {
     leaves: Vec<Node>,
@@ -17,11 +17,11 @@ pub(super) struct Workspace {
     tree: Vec<Node>,
 }
 
-/// Returns the nodes of a tree over leaves: its root first, then pairs of siblings, parents before their children.
+/// Builds a tree over leaves: the root first, then pairs of siblings, parents before children.
 ///
 /// # Complexity
-/// O(n log n) if a fair share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as among
-/// boxes with a common centre.
+/// O(n log n) if a constant share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as for boxes
+/// with a common centre.
 pub(super) fn agglomerate(
     leaves: impl Iterator<Item = Node>,
     workspace: &mut Workspace,
@@ -70,7 +70,7 @@ pub(super) fn agglomerate(
     tree
 }
 
-/// Finds the neighbour of every node in a row that gives the smallest box together with it, the last of equals.
+/// Finds for every node in a row the neighbour with the smallest joint box, the last of equals.
 fn best_neighbours(
     row: &[Node],
     reach: usize,
@@ -78,7 +78,7 @@ fn best_neighbours(
     best: &mut Vec<usize>,
 ) {
     best.clear();
-    // The prices of the pairs of a node with those after it: those of an earlier row are overwritten before use.
+    // The costs of pairing a node with later ones; old values are overwritten before use.
     prices.resize(prices.len().max(row.len()), [0.0; SEARCH_DISTANCE]);
     for index in 0..row.len() {
         let (mut least, mut other) = (f32::INFINITY, index);
@@ -99,7 +99,7 @@ fn best_neighbours(
     }
 }
 
-/// Sorts leaves along a curve through the box of them all, which keeps near ones together: by their Morton codes.
+/// Sorts leaves by the Morton codes of their centres.
 fn along_curve(leaves: &[Node], order: &mut Vec<(u64, u64)>, row: &mut Vec<Node>) {
     let all = leaves
         .iter()
@@ -118,7 +118,7 @@ fn morton(point: DVec3) -> u64 {
     spread(cell.x as u32) | spread(cell.y as u32) << 1 | spread(cell.z as u32) << 2
 }
 
-/// Moves bit k of 21 bits to place 3 k.
+/// Moves bit k of 21 bits to position 3 k.
 fn spread(bits: u32) -> u64 {
     let mut x = u64::from(bits) & 0x1f_ffff;
     x = (x | x << 32) & 0x001f_0000_0000_ffff;

@@ -1,8 +1,8 @@
-//! A binary tree under construction: nodes in pairs of siblings, and their boxes.
+//! Nodes of a binary tree under construction, in pairs of siblings.
 
 use ccd_core::glam::{DVec3, Vec3A};
 
-/// A box along the coordinate axes, in single precision.
+/// An axis-aligned box in single precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cuboid {
     pub(super) lo: Vec3A,
@@ -22,7 +22,7 @@ impl Cuboid {
         }
     }
 
-    /// The smallest box that holds two boxes.
+    /// Returns the bounding box of two boxes.
     pub(super) fn union(self, other: Self) -> Self {
         Cuboid {
             lo: self.lo.min(other.lo),
@@ -47,27 +47,27 @@ impl Cuboid {
         }
     }
 
-    /// Half of the surface area, the price of a node: the chance that a search among many meets it.
+    /// Returns half of the surface area, the cost of a node: it is proportional to the probability of a visit.
     pub(super) fn half_area(self) -> f32 {
         let size = self.extent();
         (size.x + size.y) * size.z + size.x * size.y
     }
 
-    /// The place of a box's centre within this one, from 0 to 1 along every axis.
+    /// Returns the relative position of a box's centre in this box, from 0 to 1 along every axis.
     pub(super) fn place(self, inner: Self) -> DVec3 {
         let scale = self.extent().as_dvec3().recip();
         inner.centre().as_dvec3() * scale - self.lo.as_dvec3() * scale
     }
 }
 
-/// A node of the tree. The children of an inner node stand side by side: the first at an odd index.
+/// A node of the tree. The children of an inner node are adjacent, the first at an odd index.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) cuboid: Cuboid,
     pub(super) below: Below,
 }
 
-/// What stands below a node.
+/// The content of a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Below {
     Piece(u32),
@@ -76,7 +76,7 @@ pub(super) enum Below {
 }
 
 impl Below {
-    /// The index of the piece, or of the first child.
+    /// Returns the index of the piece, or of the first child.
     pub(super) fn index(self) -> u32 {
         match self {
             Below::Piece(index) | Below::Children(index) => index,
@@ -93,7 +93,7 @@ impl Node {
     }
 }
 
-/// The other child of a node's parent. The root, node 0, has none.
+/// Returns the sibling of a node. The root, node 0, has none.
 pub(super) fn sibling(node: u32) -> u32 {
     ((node - 1) ^ 1) + 1
 }

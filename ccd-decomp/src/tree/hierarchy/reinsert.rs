@@ -1,13 +1,13 @@
-//! Reinsertion: moves the largest subtrees of a tree to where they make its boxes smallest (`[REINSERT18]`).
+//! Reinsertion: moves the largest subtrees to where they minimise the total area of boxes (`[REINSERT18]`).
 
 use super::nodes::{Below, Node, sibling};
 use crate::tolerance::REINSERTED_SHARE;
 use rayon::prelude::*;
 
-/// The subtrees that one thread takes at a time: with fewer, sharing takes as long as the work.
+/// The number of subtrees in a task; smaller tasks cost more than they gain.
 const SHARE: usize = 32;
 
-/// Improves a tree in rounds. The first tries a share of the nodes, the later ones ever fewer, nearer to the root.
+/// Improves a tree in rounds, each with fewer nodes, nearer to the root.
 pub(super) fn reinsert(nodes: &mut [Node]) {
     if nodes.len() < 2 {
         return;
@@ -22,11 +22,11 @@ pub(super) fn reinsert(nodes: &mut [Node]) {
 struct Tree<'a> {
     nodes: &'a mut [Node],
     parents: Vec<u32>,
-    /// Whether a move of this round has changed a node.
+    /// Whether a node was changed in this round.
     touched: Vec<bool>,
 }
 
-/// A subtree, the node that becomes its sibling, and by how much the areas of all boxes shrink.
+/// A move: the subtree, its new sibling, and the reduction of the total area.
 struct Move {
     from: u32,
     to: u32,
@@ -48,7 +48,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Tries the largest nodes at other places, and makes the best moves that do not touch each other.
+    /// Searches better places for the largest nodes, and makes the best moves that do not conflict.
     fn improve(&mut self, count: usize) {
         // The first nodes are near the root, and most of the largest are among them.
         let first = self.nodes.len().min(2 * (count + 1));
@@ -59,7 +59,7 @@ impl<'a> Tree<'a> {
             largest.truncate(count);
         }
         largest.sort_unstable_by(by_area);
-        // The tree stays as it is until all places are found, so that they can be searched side by side.
+        // The tree is not changed until all places are found, so that the search is parallel.
         let mut moves: Vec<Move> = (largest.par_iter().with_min_len(SHARE))
             .map_init(Vec::new, |stack, &(_, node)| self.best_move(node, stack))
             .flatten_iter()
@@ -78,8 +78,8 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Finds the best place for a subtree: climbs to the root, and searches every subtree beside the way. A branch
-    /// is left when its boxes grow by more than the best place gains.
+    /// Finds the best place for a subtree: climbs to the root, and searches every subtree beside the path. A branch is
+    /// pruned if its boxes grow by more than the best gain.
     fn best_move(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Move> {
         let cuboid = self.nodes[from as usize].cuboid;
         let area = cuboid.half_area();
@@ -89,7 +89,7 @@ impl<'a> Tree<'a> {
             to: 0,
             gain: 0.0,
         };
-        // The boxes above the old place shrink to what is left in them.
+        // The boxes above the old place shrink.
         let mut gain = self.area(parent);
         let (mut pivot, mut beside) = (parent, sibling(from));
         let mut left = self.nodes[beside as usize].cuboid;
@@ -126,10 +126,10 @@ impl<'a> Tree<'a> {
         (best.gain > 0.0).then_some(best)
     }
 
-    /// Makes a subtree the sibling of a node; its old sibling takes the place of its old parent.
+    /// Makes a subtree the sibling of a node; its old sibling replaces its old parent.
     fn make(&mut self, from: u32, to: u32) {
         let (beside, parent) = (sibling(from), self.parents[from as usize]);
-        // A sibling is never chosen: it gains nothing, since a box is exactly that of the two below.
+        // A sibling is never chosen: it gains nothing, because a box is exactly the union of its children's.
         debug_assert_ne!(to, beside);
         let [moved, raised] = [to, beside].map(|node| self.nodes[node as usize]);
         self.nodes[to as usize].below = Below::Children(from.min(beside));
@@ -148,7 +148,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Fits the boxes from a node up to the root.
+    /// Recomputes the boxes from a node up to the root.
     fn refit(&mut self, mut node: u32) {
         loop {
             if let Below::Children(first) = self.nodes[node as usize].below {

@@ -80,7 +80,7 @@ fn rounded_pieces_count_with_their_radius() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_hierarchy() {
-    // More than are shared out at once, in places without an order.
+    // More pieces than one task takes, at pseudorandom places.
     let place = |k: f64| {
         dvec3(
             (1.3 * k).sin(),

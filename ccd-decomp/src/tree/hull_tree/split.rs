@@ -1,4 +1,4 @@
-//! The split of pieces in two.
+//! Splits pieces in two.
 
 use crate::hull::likely_triangles;
 use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
@@ -8,7 +8,7 @@ use ccd_core::order::greater;
 use ccd_core::vector::unit;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-/// Pieces by their centres, the means of their points.
+/// The centres of all pieces, as means of their points.
 pub(super) struct Splitter {
     centres: Vec<DVec3>,
 }
@@ -21,7 +21,7 @@ impl Splitter {
         }
     }
 
-    /// Sorts at least two pieces so that those of one side come first, and returns the number of these.
+    /// Partitions at least two pieces, and returns the size of the first side.
     pub(super) fn split(&self, pieces: &mut [u32]) -> usize {
         if pieces.len() == 2 {
             return 1;
@@ -43,9 +43,9 @@ impl Splitter {
         }
     }
 
-    /// Computes the unit vector along which the surface of the hull of the centres is spread most.
+    /// Returns the unit vector along which the surface of the hull of the centres spreads most.
     fn longest(&self, pieces: &[u32]) -> DVec3 {
-        // A sample of many pieces is enough for their spread.
+        // A sample is enough.
         let stride = pieces.len().div_ceil(SPREAD_PIECES);
         let some = pieces.iter().step_by(stride);
         let centres: Vec<DVec3> = some.map(|&k| self.centres[k as usize]).collect();
@@ -55,9 +55,9 @@ impl Splitter {
         if !(size > 0.0) {
             return DVec3::X;
         }
-        // Scaled, so that no product is too small.
+        // Scaled to avoid underflow.
         let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
-        // Any axis gives a correct tree, so that nothing has to be proven.
+        // Any axis gives a correct tree: no proof is needed.
         let spread = match likely_triangles(&unit) {
             Some(triangles) => of_surface(&unit, &triangles),
             None => of_points(&unit),
@@ -75,7 +75,7 @@ fn of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
         let middle = (p + q + r) / 3.0;
         area += weight;
         first += weight * middle;
-        // A triangle's moments are those of its corners and three times its middle.
+        // The second moments of a triangle: those of its corners plus 9 times that of its middle, over 12.
         let corners = square(p) + square(q) + square(r) + 9.0 * square(middle);
         second += weight / 12.0 * corners;
     }
@@ -92,7 +92,7 @@ fn square(p: DVec3) -> Matrix3<f64> {
     p * p.transpose()
 }
 
-/// The unit eigenvector of the largest eigenvalue.
+/// Returns the unit eigenvector of the largest eigenvalue.
 fn principal(matrix: Matrix3<f64>) -> Option<DVec3> {
     let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, EIGEN_ROUNDS)?;
     let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());

@@ -1,4 +1,4 @@
-//! Trees over pieces of every shape: hulls hold the pieces below, classes mark the facets of pieces.
+//! Trees over pieces of every shape: hulls contain their pieces, and mark the facets of pieces.
 
 use super::*;
 use crate::exact::predicates::side;
@@ -34,7 +34,7 @@ fn piece() -> impl Strategy<Value = Polytope> {
     })
 }
 
-/// The hull of points with all its facets, which are no part of a mesh.
+/// The hull of points, with virtual facets.
 fn polytope(points: &[DVec3]) -> Polytope {
     let hull = joint_hull(points).unwrap();
     let facet = |corners: &[u32]| ccd_core::Facet {
@@ -59,7 +59,7 @@ fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
     }
 }
 
-/// Returns whether a hull holds a point up to `slack`, by testing every facet.
+/// Returns whether a hull contains a point up to `slack`, by testing every facet.
 fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
     let beyond = hull.facets.iter().map(|corners| {
         let at = |k: usize| hull.points[corners[k] as usize];

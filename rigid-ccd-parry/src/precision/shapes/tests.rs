@@ -5,7 +5,7 @@ use super::*;
 use crate::Excess;
 
 fn prepared(shape: &dyn Shape) -> Prepared {
-    body(shape, &Settings::default()).expect("served")
+    body(shape, &Options::default()).expect("served")
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn voxels_are_boxes_on_the_grid() {
         assert!(found, "{x} {y} {z}");
     }
     let far = IVector::new(1 << 21, 0, 0);
-    let refused = body(&Voxels::new(Vector::ONE, &[far]), &Settings::default());
+    let refused = body(&Voxels::new(Vector::ONE, &[far]), &Options::default());
     assert!(matches!(refused, Err(ShapeError::Grid)), "{refused:?}");
 }
 
@@ -87,7 +87,7 @@ fn parts_of_a_compound_have_their_numbers() {
 
 #[test]
 fn what_is_refused_says_why() {
-    let refused = |shape: &dyn Shape| body(shape, &Settings::default()).expect_err("refused");
+    let refused = |shape: &dyn Shape| body(shape, &Options::default()).expect_err("refused");
     let plane = SharedShape::halfspace(Vector::Y);
     assert_eq!(refused(&*plane), ShapeError::HalfSpace);
     assert!(matches!(
@@ -109,9 +109,9 @@ fn what_is_refused_says_why() {
 #[test]
 fn cylinders_and_cones_are_along_y_and_exceed_their_shapes_by_what_is_told() {
     use super::super::library::shape::{Cone, Cylinder};
-    let within = |excess| Settings {
+    let within = |excess| Options {
         excess,
-        ..Settings::default()
+        ..Options::default()
     };
     for excess in [Excess::Fine, Excess::Length(1e-3)] {
         let (cylinder, cone) = (Cylinder::new(0.5, 0.25), Cone::new(0.5, 0.25));

@@ -1,6 +1,6 @@
 use super::*;
 use ccd_core::glam::DVec3;
-use ccd_core::{Body, Config, Motion, Outcome, Pose};
+use ccd_core::{Body, Motion, Outcome, Pose, Settings};
 use ccd_decomp::{Detail, Order, TriangleMesh, build_hull_tree, prepare};
 
 /// A knot in patches, with the tree of their hulls.
@@ -11,6 +11,14 @@ fn knot() -> Body {
     let tree = build_hull_tree(&model.pieces).expect("a tree");
     let body = model.body().expect("a body");
     body.with_hull_tree(tree).expect("its own tree")
+}
+
+fn first_contact(kind: SolverKind, query: &Query<'_>) -> Answer {
+    let mut solver = kind.solver(Instructions::Best);
+    let answer = solver.answer(Question::FirstContact, query);
+    answer
+        .expect("all schedules find it")
+        .expect("motions are in range")
 }
 
 /// A knot that passes another one, or meets it: from brief motions to long ones.
@@ -35,9 +43,9 @@ fn answers_are_the_same_bits_for_prepared_bodies() {
         for motion in motions().take(6) {
             let answers = [&fresh, &prepared].map(|body| {
                 let query = ((body, motion), (body, Motion::STILL));
-                let config = Config::default();
-                let problem = Problem::new(query.0, query.1, 1.0, &config).expect("in range");
-                kind.solver(Instructions::Best).solve(&problem)
+                let config = Settings::DEFAULT;
+                let query = Query::new(query.0, query.1, 1.0, &config).expect("in range");
+                first_contact(kind, &query)
             });
             assert_eq!(answers[0], answers[1], "{kind:?}");
         }
@@ -47,21 +55,21 @@ fn answers_are_the_same_bits_for_prepared_bodies() {
 #[test]
 fn hull_trees_give_the_answers_of_boxes() {
     let body = knot();
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-6,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let (mut met, mut free) = (0, 0);
     for motion in motions() {
         let query = ((&body, motion), (&body, Motion::STILL));
-        let problem = Problem::new(query.0, query.1, 1.0, &config).expect("in range");
+        let query = Query::new(query.0, query.1, 1.0, &config).expect("in range");
         let outcome = |schedule, oracle| {
             let kind = SolverKind {
                 schedule,
                 oracle,
                 bound: BoundKind::Sound,
             };
-            kind.solver(Instructions::Best).solve(&problem).outcome
+            first_contact(kind, &query).outcome
         };
         let boxes = outcome(ScheduleKind::BestFirst, OracleKind::Direct);
         for oracle in OracleKind::value_variants() {

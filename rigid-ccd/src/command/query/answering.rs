@@ -5,7 +5,7 @@ use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Settings, Solve, Timed, time};
+use crate::batch::{BatchSize, Bodies, Solve, Timed, Timing, time};
 use crate::command::bad_rows::BadRows;
 use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
@@ -22,7 +22,7 @@ use std::time::Instant;
 pub(super) struct Answering<'a> {
     pub(super) args: &'a QueryArgs,
     pub(super) bodies: Bodies<'a>,
-    pub(super) settings: Settings,
+    pub(super) timing: Timing,
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
     pub(super) batch: BatchSize,
     pub(super) outputs: Outputs,
@@ -64,11 +64,11 @@ impl Answering<'_> {
 
     /// Answers a batch of rows, and writes their results and contacts.
     fn answer(&mut self, batch: &[CourseRow]) -> Result<(), CannotWrite> {
-        let (bodies, settings, progress) = (self.bodies, &self.settings, &self.progress);
+        let (bodies, timing, progress) = (self.bodies, &self.timing, &self.progress);
         let start = Instant::now();
         let answers = self.solver.map(batch, |solver, row| {
             let answer = match row {
-                Ok((_, course)) => time(bodies, course, settings, solver.as_mut()),
+                Ok((_, course)) => time(bodies, course, timing, solver.as_mut()),
                 Err(error) => Err(error.problem.clone()),
             };
             progress.step();
@@ -108,7 +108,7 @@ impl Answering<'_> {
     fn result(&self, course: &Course, timed: &Timed) -> ResultRow {
         let Timed { answer, micros } = timed;
         let compared = Compared::of(self.bodies, self.args.clearance);
-        let row = ResultRow::new(course, answer, *micros, compared);
+        let row = ResultRow::new(course, (self.timing.question, answer), *micros, compared);
         ResultRow {
             micros: row.micros.filter(|_| !self.args.no_micros),
             ..row
@@ -123,11 +123,15 @@ impl Answering<'_> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());
         };
-        let (bodies, config) = (self.bodies, &self.settings.config);
+        let bodies = self.bodies;
+        let Timing {
+            question, settings, ..
+        } = &self.timing;
+        let question = *question;
         // A row may have very many contacts.
         for few in answered.chunks(ROWS_OF_CONTACTS) {
             let all = self.solver.map(few, |_, (_, course, timed)| {
-                contacts::rows(bodies, course, config, &timed.answer)
+                contacts::rows(bodies, course, settings, (question, &timed.answer))
             });
             for ((position, ..), rows) in few.iter().zip(all) {
                 match rows {

@@ -1,5 +1,6 @@
 use super::*;
 use crate::table::motions::Query;
+use ccd_core::Unresolved;
 use ccd_core::{Feature, Limit, Stats};
 
 fn pair() -> FeaturePair {
@@ -49,17 +50,19 @@ fn outcomes_without_a_contact_have_no_rows() {
         b: still,
         duration: 1.0,
     });
-    let unresolved = Outcome::Unresolved {
-        safe_until: 0.5,
-        reason: Limit::Budget,
-    };
+    let unresolved = Outcome::Unresolved(Unresolved::until(0.5, Limit::Budget));
     for outcome in [Outcome::Free { proven_gap: 1.0 }, unresolved] {
         let answer = Answer {
-            outcome: Found::First(outcome),
+            outcome,
             tolerance: 1e-3,
             stats: Stats::default(),
         };
-        let rows = rows(bodies, &course, &Config::default(), &answer);
+        let rows = rows(
+            bodies,
+            &course,
+            &Settings::DEFAULT,
+            (Question::FirstContact, &answer),
+        );
         assert_eq!(rows, Ok(Vec::new()));
     }
 }

@@ -1,10 +1,7 @@
 //! What became of a row, in one word.
 
-use crate::batch::Found;
-use ccd_core::Outcome;
-use ccd_core::schedule::{
-    AnyContact, Clearance, ClosestApproach, ContactInterval, GreatestDistance, Touch,
-};
+use crate::batch::Question;
+use ccd_core::{Clearance, HitKind, Outcome};
 use serde::{Deserialize, Serialize};
 
 /// The kind of an answer, or an error.
@@ -79,54 +76,16 @@ impl Status {
         }
     }
 
-    /// Returns the status of an answer; distances are compared to `clearance`, if there is one.
-    pub fn of(found: &Found, clearance: Option<f64>) -> Self {
-        match found {
-            Found::First(outcome) => Status::from(outcome),
-            Found::Any(any) => match any {
-                AnyContact::Contact { .. } => Status::Contact,
-                AnyContact::Free { .. } => Status::Free,
-                AnyContact::Overlapping { .. } => Status::Overlapping,
-                AnyContact::Unresolved { .. } => Status::Unresolved,
-            },
-            Found::Interval(interval) => match interval {
-                ContactInterval::Within { first, .. } => Status::of_touch(first),
-                ContactInterval::Free { .. } => Status::Free,
-                ContactInterval::Unresolved { .. } => Status::Unresolved,
-            },
-            Found::Distance(closest) => Status::of_distance(closest, clearance),
-            Found::Greatest(greatest) => match greatest {
-                GreatestDistance::Farthest { .. } => Status::Measured,
-                GreatestDistance::Unresolved { .. } => Status::Unresolved,
-            },
-        }
-    }
-
-    /// Returns what the first contact on its own is called.
-    fn of_touch(first: &Touch) -> Self {
-        match (first.overlap, first.time > 0.0) {
-            (Some(_), _) => Status::Overlapping,
-            (None, false) => Status::Touching,
-            (None, true) => Status::Contact,
-        }
-    }
-
-    fn of_distance(closest: &ClosestApproach, clearance: Option<f64>) -> Self {
-        if let Some(required) = clearance {
-            return match closest.clearance(required) {
+    /// Returns the status of an outcome. Distances are compared to `clearance`, if there is one.
+    pub fn of(question: Question, outcome: &Outcome, clearance: Option<f64>) -> Self {
+        if let (true, Some(required)) = (question.is_for_a_clearance(), clearance) {
+            return match outcome.clearance(required) {
                 Clearance::Kept => Status::Kept,
                 Clearance::Violated => Status::Violated,
                 Clearance::Unverified => Status::Unverified,
             };
         }
-        match closest {
-            ClosestApproach::Nearest { .. } => Status::Measured,
-            // Only where a distance was required.
-            ClosestApproach::Farther { .. } => Status::Kept,
-            ClosestApproach::Nearer { .. } => Status::Violated,
-            ClosestApproach::Overlapping { .. } => Status::Overlapping,
-            ClosestApproach::Unresolved { .. } => Status::Unresolved,
-        }
+        Status::from(outcome)
     }
 }
 
@@ -137,7 +96,19 @@ impl From<&Outcome> for Status {
             Outcome::Free { .. } => Status::Free,
             Outcome::Touching { .. } => Status::Touching,
             Outcome::Overlapping { .. } => Status::Overlapping,
-            Outcome::Unresolved { .. } => Status::Unresolved,
+            Outcome::Interval { first, .. } => Status::from(&first.kind),
+            Outcome::Measured { .. } => Status::Measured,
+            Outcome::Unresolved(_) => Status::Unresolved,
+        }
+    }
+}
+
+impl From<&HitKind> for Status {
+    fn from(kind: &HitKind) -> Self {
+        match kind {
+            HitKind::Contact(_) => Status::Contact,
+            HitKind::Touching(_) => Status::Touching,
+            HitKind::Overlapping(_) => Status::Overlapping,
         }
     }
 }

@@ -1,9 +1,8 @@
 use super::*;
 use crate::table::motions::Query;
-use ccd_core::schedule::Touch;
-use ccd_core::{Effort, Feature, Limit, Motion, Separation};
+use ccd_core::{Effort, Feature, Hit, Limit, Motion, Separation, Unresolved};
 
-fn answer(outcome: Found) -> Answer<Found> {
+fn answer(outcome: Outcome) -> Answer {
     Answer {
         outcome,
         tolerance: 1e-3,
@@ -53,20 +52,28 @@ fn table(extent: Extent, row: &ResultRow) -> String {
 
 /// The cells of a row as written, by column.
 fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
-    cells_of(Found::First(outcome), None, Extent::default())
+    cells_of((Question::FirstContact, outcome), None, Extent::default())
 }
 
 /// The cells of a row of any answer as written, by column.
-fn cells_of(found: Found, clearance: Option<f64>, extent: Extent) -> Vec<(&'static str, String)> {
+fn cells_of(
+    asked: (Question, Outcome),
+    clearance: Option<f64>,
+    extent: Extent,
+) -> Vec<(&'static str, String)> {
     let compared = Compared {
         clearance,
         excess: 0.0,
     };
-    cells_compared(found, compared, extent)
+    cells_compared(asked, compared, extent)
 }
 
-fn cells_compared(found: Found, compared: Compared, extent: Extent) -> Vec<(&'static str, String)> {
-    let row = ResultRow::new(&course(2.5), &answer(found), 12.75, compared);
+fn cells_compared(
+    (question, outcome): (Question, Outcome),
+    compared: Compared,
+    extent: Extent,
+) -> Vec<(&'static str, String)> {
+    let row = ResultRow::new(&course(2.5), (question, &answer(outcome)), 12.75, compared);
     let text = table(extent, &row);
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let columns = columns(extent);
@@ -129,6 +136,7 @@ fn contacts_at_the_start_have_time_0() {
     assert_eq!(cell(&touching, "feature_a"), "e3-7");
     let inside = written(Outcome::Overlapping {
         overlap: Overlap::AInsideB(DVec3::new(1.0, 2.0, 3.0)),
+        upper: 0.0,
     });
     assert_eq!(
         (cell(&inside, "status"), cell(&inside, "time")),
@@ -140,10 +148,7 @@ fn contacts_at_the_start_have_time_0() {
 
 #[test]
 fn an_unresolved_row_has_its_safe_time_and_its_limit() {
-    let row = written(Outcome::Unresolved {
-        safe_until: 0.75,
-        reason: Limit::Budget,
-    });
+    let row = written(Outcome::Unresolved(Unresolved::until(0.75, Limit::Budget)));
     assert_eq!(
         (cell(&row, "status"), cell(&row, "time")),
         ("unresolved".into(), "0.75".into())
@@ -188,9 +193,14 @@ fn counters_follow_the_other_columns() {
             },
             ..Stats::default()
         },
-        ..answer(Found::First(Outcome::Free { proven_gap: 0.25 }))
+        ..answer(Outcome::Free { proven_gap: 0.25 })
     };
-    let row = ResultRow::new(&course(2.5), &answer, 12.75, Compared::default());
+    let row = ResultRow::new(
+        &course(2.5),
+        (Question::FirstContact, &answer),
+        12.75,
+        Compared::default(),
+    );
     let text = |extent| table(extent, &row);
     let (plain, counted) = (text(Extent::default()), text(COUNTED));
     for (line, (with, more)) in plain.lines().zip(counted.lines().zip([
@@ -208,38 +218,32 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
         last_time: true,
         ..COUNTED
     };
-    let touch = |time| Touch {
-        time,
-        contact: Some(contact()),
-        overlap: None,
-    };
-    let within = Found::Interval(ContactInterval::Within {
-        first: touch(0.5),
-        last: touch(2.0),
-    });
-    let row = cells_of(within, None, extent);
+    let hit = |time, kind| Hit { time, kind };
+    let later = |time| hit(time, HitKind::Contact(contact()));
+    let interval = |first, last| (Question::ContactInterval, Outcome::Interval { first, last });
+    let row = cells_of(interval(later(0.5), later(2.0)), None, extent);
     let [status, time, last] = ["status", "time", "last_time"].map(|name| cell(&row, name));
     assert_eq!([&*status, &*time, &*last], ["contact", "0.5", "2.0"]);
     assert_eq!(row[COLUMNS.len()].0, "last_time");
     assert_eq!(row.len(), COLUMNS.len() + 1 + COUNTER_COLUMNS.len());
     let overlap = Overlap::AInsideB(DVec3::X);
-    let inside = Touch {
-        contact: None,
-        overlap: Some(overlap),
-        ..touch(0.0)
-    };
+    let (upper, contact) = (0.0, contact());
     for (first, outcome) in [
-        (inside, Outcome::Overlapping { overlap }),
-        (touch(0.0), Outcome::Touching { contact: contact() }),
+        (
+            HitKind::Overlapping(overlap),
+            Outcome::Overlapping { overlap, upper },
+        ),
+        (HitKind::Touching(contact), Outcome::Touching { contact }),
     ] {
-        let last = touch(2.0);
-        let within = Found::Interval(ContactInterval::Within { first, last });
-        let row = cells_of(within, None, extent);
+        let row = cells_of(interval(hit(0.0, first), later(2.0)), None, extent);
         // But for the last time it is the row of the first contact.
         assert_eq!(row[..COLUMNS.len()], written(outcome)[..]);
         assert_eq!(cell(&row, "last_time"), "2.0");
     }
-    let free = Found::Interval(ContactInterval::Free { proven_gap: 0.25 });
+    let free = (
+        Question::ContactInterval,
+        Outcome::Free { proven_gap: 0.25 },
+    );
     let row = cells_of(free, None, extent);
     assert_eq!(
         (cell(&row, "time"), cell(&row, "last_time")),
@@ -249,30 +253,27 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
 
 #[test]
 fn distances_are_compared_to_the_clearance() {
-    let nearest = Found::Distance(ClosestApproach::Nearest {
-        lower: 0.05,
-        time: 1.5,
-        contact: contact(),
-    });
-    let unresolved = Found::Distance(ClosestApproach::Unresolved {
+    let measured = |lower| Outcome::Measured {
+        lower,
+        upper: contact().separation.upper,
+        at: Some((1.5, contact())),
+    };
+    let (nearest, at_zero) = (measured(0.05), measured(0.0));
+    let unresolved = Outcome::Unresolved(Unresolved {
         lower: 0.01,
-        nearest: Some((1.5, contact())),
-        reason: Limit::Budget,
+        upper: contact().separation.upper,
+        at: Some((1.5, contact())),
+        ..Unresolved::until(0.0, Limit::Budget)
     });
-    let farther = Found::Distance(ClosestApproach::Farther { lower: 0.3 });
-    let nearer = Found::Distance(ClosestApproach::Nearer {
+    let farther = Outcome::Free { proven_gap: 0.3 };
+    let nearer = Outcome::Contact {
         time: 1.5,
         contact: contact(),
-    });
-    let overlapping = Found::Distance(ClosestApproach::Overlapping {
+    };
+    let overlapping = Outcome::Overlapping {
         overlap: Overlap::AInsideB(DVec3::ZERO),
         upper: 0.0,
-    });
-    let at_zero = Found::Distance(ClosestApproach::Nearest {
-        lower: 0.0,
-        time: 1.5,
-        contact: contact(),
-    });
+    };
     let within =
         "--clearance is within the bounds of the distance; a smaller --tolerance may decide";
     let touch = "--clearance is within the bounds of the distance: the bodies may touch";
@@ -291,7 +292,7 @@ fn distances_are_compared_to_the_clearance() {
         (overlapping, None, "overlapping", "", ""),
         (overlapping, Some(0.0), "violated", "", ""),
     ] {
-        let row = cells_of(found, clearance, Extent::default());
+        let row = cells_of((Question::Distance, found), clearance, Extent::default());
         let cells = ["status", "distance_lower", "reason"].map(|name| cell(&row, name));
         assert_eq!(cells, [status, lower, reason].map(str::to_owned));
     }
@@ -300,11 +301,9 @@ fn distances_are_compared_to_the_clearance() {
 /// Bodies that exceed their shapes: overlapping ones violate no clearance up to the excess, and the reason names it.
 #[test]
 fn what_bodies_exceed_their_shapes_by_is_told() {
-    let overlapping = |overlap| {
-        Found::Distance(ClosestApproach::Overlapping {
-            overlap,
-            upper: 0.01,
-        })
+    let overlapping = |overlap| Outcome::Overlapping {
+        overlap,
+        upper: 0.01,
     };
     let inside = overlapping(Overlap::AInsideB(DVec3::ZERO));
     let pieces = overlapping(Overlap::Pieces(contact()));
@@ -319,7 +318,7 @@ fn what_bodies_exceed_their_shapes_by_is_told() {
             clearance,
             excess: 0.01,
         };
-        let row = cells_compared(found, compared, Extent::default());
+        let row = cells_compared((Question::Distance, found), compared, Extent::default());
         let cells = ["status", "distance_upper"].map(|name| cell(&row, name));
         assert_eq!(cells, [status, upper].map(str::to_owned));
         let names = cell(&row, "reason").contains("excess of the bodies over their shapes");

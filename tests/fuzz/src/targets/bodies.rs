@@ -2,7 +2,7 @@
 
 use crate::engine::Method;
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Body, Config, Motion, Moving, Outcome, Pose, Problem};
+use ccd_core::{Answer, Body, Motion, Moving, Outcome, Pose, Settings};
 use ccd_decomp::Model;
 
 /// The budget of each query.
@@ -45,20 +45,14 @@ pub(super) fn queries_agree(body: &Body) {
     let Some(falls) = moves(last - 2.0 * way, 4.0 * way) else {
         return;
     };
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-3 * size + 1e-6,
         budget: BUDGET,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
-    let ball = Moving {
-        body: &ball,
-        motion: falls,
-    };
-    let still = Moving {
-        body,
-        motion: Motion::STILL,
-    };
-    let Ok(problem) = Problem::new(ball, still, 1.0, &config) else {
+    let ball = Moving::from((&ball, falls));
+    let still = Moving::from((body, Motion::STILL));
+    let Ok(problem) = ccd_core::Query::new(ball, still, 1.0, &config) else {
         return;
     };
     agree(&problem, body.hull_tree().is_some());
@@ -68,7 +62,7 @@ fn moves(from: DVec3, velocity: DVec3) -> Option<Motion> {
     Motion::new(Pose::at(from).ok()?, velocity, DVec3::ZERO).ok()
 }
 
-fn agree(problem: &Problem<'_>, hull_tree: bool) {
+fn agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
     let mut methods = vec![Method::Direct, Method::Gjk, Method::Vmarch, Method::Naive];
     methods.extend(hull_tree.then_some(Method::Fast));
     let answers: Vec<(Method, Answer)> = methods
@@ -95,8 +89,8 @@ fn excludes(free: &Answer, contact: &Answer) -> bool {
     let safe_until = match free.outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Free { .. } => f64::INFINITY,
-        Outcome::Unresolved { safe_until, .. } => safe_until,
-        Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
+        Outcome::Unresolved(known) => known.safe_until,
+        _ => 0.0,
     };
     match contact.outcome {
         Outcome::Contact { time, contact } => {

@@ -22,7 +22,7 @@ const MOST_TRIANGLES: usize = 48;
 /// The most triangles that are made into bodies at all: scenes of few bytes may have many.
 const MOST_OF_SCENES: usize = 1 << 11;
 /// Approximate hulls take a hundred times as long as all else, and are made of one file in so many.
-const APPROXIMATED: usize = 16;
+const APPROXIMATED: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {
     read(format, bytes, MEMORY);

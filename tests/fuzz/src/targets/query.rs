@@ -7,7 +7,7 @@ mod source;
 use crate::case::Case;
 use crate::engine::{Bodies, Kind, Method, Trees};
 use crate::trial::ask;
-use ccd_core::{Config, ContactsError, Instructions, Outcome};
+use ccd_core::{ContactsError, Instructions, Outcome, Settings};
 pub use encode::encode;
 
 /// A query, and whom to ask.
@@ -37,9 +37,9 @@ fn equal_bits(case: &Case) {
         return;
     };
     let answer = |instructions| {
-        let config = Config {
+        let config = Settings {
             instructions,
-            ..case.config
+            ..case.config.clone()
         };
         let problem = bodies.problem(case, &config).ok()?;
         let answer = Method::Direct.solve(&problem);

@@ -94,7 +94,7 @@ fn by_descent(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
 fn the_vector_is_the_shortest() {
     let mut rng = Pcg64::seed_from_u64(1);
     let (mut apart, mut meeting) = (0, 0);
-    for _ in 0..20_000 {
+    for _ in 0..6_000 {
         let (a, b, placement) = random_pair(&mut rng);
         let vector = between(a, b, &placement);
         let distance = vector.length();
@@ -135,7 +135,7 @@ fn the_vector_is_the_shortest() {
         }
     }
     assert!(
-        apart > 10_000 && meeting > 500,
+        apart > 3_000 && meeting > 150,
         "{apart} apart, {meeting} meeting"
     );
 }

@@ -20,9 +20,9 @@ fn plates_that_fall_flat_meet_at_little_cost() {
     };
     let plate = body(&(0..SQUARES * SQUARES).flat_map(square).collect::<Vec<_>>());
     for tolerance in [1e-3, 1e-7, 1e-9] {
-        let config = Config {
+        let config = Settings {
             tolerance,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let above = Pose::new(
             [0.013, 0.007, 1.0],
@@ -30,7 +30,7 @@ fn plates_that_fall_flat_meet_at_little_cost() {
         );
         let falling = Motion::new(above.unwrap(), -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
         let lying = Motion::still(Pose::new([0.0; 3], own.inverse()).unwrap());
-        let problem = Problem::new((&plate, falling), (&plate, lying), 1.0, &config).unwrap();
+        let problem = Problem::about((&plate, falling), (&plate, lying), 1.0, &config).unwrap();
         let answer = solve(&problem);
         let Outcome::Contact { time, .. } = answer.outcome else {
             panic!("{answer:?}");
@@ -70,14 +70,14 @@ fn thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
 #[test]
 fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
     let (bolt, nut) = (body(&thread(2.0, 2.4, 5)), body(&thread(2.15, 2.55, 3)));
-    let config = Config {
+    let config = Settings {
         tolerance: 1e-4,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let answer = |advance: f64| {
         let spin = 2.0 * std::f64::consts::TAU * DVec3::Z;
         let screwing = Motion::new(Pose::IDENTITY, advance * DVec3::Z, spin).unwrap();
-        solve(&Problem::new((&bolt, screwing), (&nut, Motion::STILL), 1.0, &config).unwrap())
+        solve(&Problem::about((&bolt, screwing), (&nut, Motion::STILL), 1.0, &config).unwrap())
     };
     // Two turns at its pitch. Without profiles it takes 680,000 visits.
     let right = answer(2.0);
@@ -111,13 +111,13 @@ fn long_needles_that_turn_about_their_own_direction_meet_at_little_cost() {
             |needle: &dyn Fn(u32) -> Triangle| body(&(0..8).map(needle).collect::<Vec<_>>());
         let moving = needles(&|k| needle(-steps(k), [0.0, 2.0 * length]));
         let still = needles(&|k| needle(1.0 + steps(k), [2.0 * length, 0.0]));
-        let config = Config {
+        let config = Settings {
             tolerance,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let turning = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1.5 * axis).unwrap();
         let problem =
-            Problem::new((&moving, turning), (&still, Motion::STILL), 1.0, &config).unwrap();
+            Problem::about((&moving, turning), (&still, Motion::STILL), 1.0, &config).unwrap();
         let answer = solve(&problem);
         let Outcome::Contact { time, .. } = answer.outcome else {
             panic!("{answer:?}");

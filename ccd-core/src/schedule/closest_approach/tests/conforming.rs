@@ -1,8 +1,9 @@
 //! Bodies with surfaces that stay beside each other while one of them turns.
 
 use super::*;
-use crate::config::Config;
 use crate::motion::pose::Pose;
+use crate::schedule::contract::Solve;
+use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::body;
 use glam::DVec3;
@@ -31,13 +32,13 @@ fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
     let wheel = body(&revolved(&[[5.2, 0.0], [5.2, 8.0]], 192));
     let axle = body(&revolved(&[[5.0, -4.0], [5.0, 12.0]], 192));
     let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, TAU * DVec3::Z).unwrap();
-    let config = Config::default();
-    let problem = Problem::new((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
+    let config = Settings::DEFAULT;
+    let problem = Problem::about((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
     let first = BestFirst::default().solve(&problem, &mut Exhaustive);
     assert!(matches!(first.outcome, Outcome::Free { .. }));
     let closest = approach(&problem);
     assert!(
-        matches!(closest.outcome, ClosestApproach::Nearest { .. }),
+        matches!(closest.outcome, Outcome::Measured { .. }),
         "{closest:?}"
     );
     assert!(closest.outcome.upper() - closest.outcome.lower() <= config.tolerance);

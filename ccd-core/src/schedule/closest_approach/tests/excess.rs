@@ -31,7 +31,7 @@ fn upper_bounds_have_the_excess_added_once() {
         );
         assert!(found.tolerance >= outcome.width(), "{number}: {found:?}");
         match outcome {
-            ClosestApproach::Overlapping { upper, .. } => {
+            Outcome::Overlapping { upper, .. } => {
                 overlapping += 1;
                 assert!(upper >= excess);
             }

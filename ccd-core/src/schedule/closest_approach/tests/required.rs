@@ -1,7 +1,6 @@
 //! Required distances on either side of the least one, and bounds where a search does not end.
 
 use super::*;
-use crate::schedule::AnyContact;
 
 #[test]
 fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
@@ -78,7 +77,12 @@ fn a_required_distance_costs_little_more_than_a_margin() {
     for number in 0..300 {
         let mut scene = scene(&mut rng, KINDS[number % 3], 12);
         let known = approach(&scene.problem());
-        let ClosestApproach::Nearest { lower, contact, .. } = known.outcome else {
+        let Outcome::Measured {
+            lower,
+            at: Some((_, contact)),
+            ..
+        } = known.outcome
+        else {
             continue;
         };
         for distance in [0.7 * lower, 1.5 * contact.separation.upper] {
@@ -86,12 +90,12 @@ fn a_required_distance_costs_little_more_than_a_margin() {
             required += approach(&scene.problem()).stats.work();
             scene.config.margin = distance;
             let problem = scene.problem();
-            let any = DepthFirst::default().any_contact(&problem, &mut Exhaustive);
+            let any = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
             margins += any.stats.work();
             measured += known.stats.work();
             scene.config.margin = 0.0;
             scene.config.clearance = None;
-            assert!(!matches!(any.outcome, AnyContact::Unresolved { .. }));
+            assert!(!matches!(any.outcome, Outcome::Unresolved(_)));
         }
     }
     assert!(required <= 2 * margins, "{required} {margins}");
@@ -111,7 +115,10 @@ fn searches_that_end_early_know_a_part_of_the_distance() {
         scene.config.budget = whole.stats.work() - 1;
         let problem = scene.problem();
         let answer = approach(&problem);
-        let ClosestApproach::Unresolved { lower, nearest, .. } = answer.outcome else {
+        let Outcome::Unresolved(Unresolved {
+            lower, at: nearest, ..
+        }) = answer.outcome
+        else {
             continue;
         };
         let found = sampled(&problem, 64);

@@ -1,12 +1,12 @@
 //! Rates and bends of two triangles against double-double arithmetic.
 
 use super::Approach;
-use crate::config::Config;
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{Problem, Side};
 use crate::schedule::nodes::placed::Placed;
+use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
@@ -85,8 +85,8 @@ fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
         0 => DVec3::ZERO,
         _ => DVec3::from(tape.vector(-20..=6)),
     });
-    let bodies = [a.into(), b.into()];
-    let problem = Problem::accelerated(bodies, pulls, 1.0, &Config::default()).ok()?;
+    let bodies = [a, b];
+    let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).ok()?;
     let (n, s) = (unit(tape.vector(-40..=0).into())?, tape.fraction());
     let sides = [&problem.a, &problem.b];
     let nodes = sides.map(|side| Placed::new(side, side.body.tree().nodes() as u32, s));

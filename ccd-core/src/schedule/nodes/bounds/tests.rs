@@ -7,11 +7,11 @@ mod worst;
 
 use super::*;
 use crate::body::tree::LANES;
-use crate::config::Instructions;
 use crate::math::order::{greater, lesser};
 use crate::schedule::nodes::axis::Axis;
 use crate::schedule::nodes::clock;
 use crate::schedule::nodes::lanes::{Vec3x8, load};
+use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use crate::tolerance::{ATTACHED_TIME, MUCH_LARGER};
 use crate::vectorize;

@@ -3,10 +3,10 @@
 mod worst;
 
 use super::*;
-use crate::config::Config;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{Pcg64, RngExt, body, distance, magnitude, rng, rotation, within};
 
@@ -35,13 +35,13 @@ fn flat_nodes_stay_apart_for_their_free_time() {
             -height * rng.random_range(-1.0..4.0) * DVec3::Z + [0.0, 0.1][number % 2] * DVec3::X;
         let falling = Pose::new(height * DVec3::Z, tilt).unwrap();
         let lying = Pose::new(DVec3::ZERO, own[1].inverse()).unwrap();
-        let config = Config {
+        let config = Settings {
             tolerance: 1e-9,
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let falling = (&bodies[0], Motion::new(falling, velocity, spin).unwrap());
         let lying = (&bodies[1], Motion::still(lying));
-        let problem = Problem::new(falling, lying, 1.0, &config).unwrap();
+        let problem = Problem::about(falling, lying, 1.0, &config).unwrap();
         let free = free_time(&problem, [0, 0], 0.0);
         if free > 0.0 {
             proven += 1;

@@ -3,7 +3,7 @@
 use super::super::lanes::load;
 use super::{FreeTimes, LANE_BITS};
 use crate::body::tree::LANES;
-use crate::config::Instructions;
+use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;
 
@@ -30,10 +30,10 @@ fn times_come_out_in_order_each_lane_once() {
         let level = Instructions::Best.level();
         let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
         let rounded = |lane: usize| {
-            if free[lane] <= 0.0 {
-                0.0
-            } else {
+            if free[lane] > 0.0 {
                 f32::from_bits(free[lane].to_bits() & !LANE_BITS)
+            } else {
+                0.0
             }
         };
         let waits = |lane: &usize| used >> lane & 1 == 1 && rounded(*lane) < f32::INFINITY;

@@ -1,13 +1,13 @@
 //! Profiles against the exact surfaces through the corners of a triangle.
 
 use super::{Profile, ScrewAxis};
-use crate::config::Config;
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::schedule::nodes::placed::Placed;
+use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::body;
 use crate::tests::worst::{Tape, Worst, share};
@@ -40,7 +40,7 @@ fn cylindrical(axis: &ScrewAxis, point: Double3, near: f64) -> [Double; 3] {
 fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let body = body(&[corners]);
-    let problem = Problem::new((&body, still), (&body, still), 1.0, &Config::default()).ok()?;
+    let problem = Problem::about((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
     let node = Placed::new(&problem.a, body.tree().nodes() as u32, 0.0);
     let profile = Profile::new(&node, axis)?;
     let (arm, distance) = {

@@ -4,10 +4,10 @@ mod worst;
 
 use super::*;
 use crate::body::Body;
-use crate::config::Config;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Pcg64, RngExt, body, direction, magnitude, rng, rotation, within};
 use glam::{DQuat, DVec3};
@@ -108,12 +108,12 @@ fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64)
 fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
     let mut rng = rng(1);
     let (mut proven, mut missed) = (0, 0);
-    for number in 0..1_500 {
+    for number in 0..600 {
         let passage = passage(&mut rng);
         let [a, b] = &passage.bodies;
-        let config = Config {
+        let config = Settings {
             tolerance: magnitude(&mut rng, -6.0, -2.0),
-            ..Config::default()
+            ..Settings::DEFAULT
         };
         let (mut first, mut second) = ((a, passage.screwing), (b, passage.still));
         if number % 2 == 1 {
@@ -122,8 +122,8 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         // Both fall alike, or nearly.
         let pull = direction(&mut rng) * [0.0, 3.0][number / 2 % 2];
         let pulls = [pull, pull * (1.0 + [0.0, 1e-3][number / 4 % 2])];
-        let bodies = [first.into(), second.into()];
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &config).unwrap();
+        let bodies = [first, second];
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &config.terms()).unwrap();
         // The axis may move too fast for small bodies.
         let mut profiles = Profiles::default();
         let Some(screw) = Screw::of(&problem, &mut profiles) else {
@@ -142,7 +142,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         }
     }
     assert!(
-        proven > 10_000 && missed > 1_000,
+        proven > 4_000 && missed > 400,
         "{proven} of them proven, {missed} not"
     );
 }
@@ -163,9 +163,9 @@ fn later_turns_count() {
         .unwrap()
     };
     for (turns, apart) in [(1.0, true), (2.0, false)] {
-        let config = Config::default();
+        let config = Settings::DEFAULT;
         let moving = (&moving, turn(turns));
-        let problem = Problem::new(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
+        let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
         let mut profiles = Profiles::default();
         let screw = Screw::of(&problem, &mut profiles).unwrap();
         assert_eq!(
@@ -184,7 +184,7 @@ fn any_number_of_turns_is_one_look() {
         let at = r * DVec3::X;
         body(&[[at, at + 0.02 * DVec3::Y, at + tall * DVec3::Z]])
     };
-    let config = Config::default();
+    let config = Settings::DEFAULT;
     for (pitch, turns, r, tall, apart) in [
         (0.0, 1e5, 1.1, 0.02, true),
         (0.0, 1e5, 1.0, 0.02, false),
@@ -207,7 +207,7 @@ fn any_number_of_turns_is_one_look() {
             turns * TAU * DVec3::Z,
         );
         let moving = (&moving, spin.unwrap());
-        let problem = Problem::new(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
+        let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
         let mut profiles = Profiles::default();
         let screw = Screw::of(&problem, &mut profiles).unwrap();
         assert_eq!(
@@ -224,9 +224,9 @@ fn what_is_no_screw_has_no_profiles() {
     let motion = |velocity: DVec3, spin: DVec3| {
         Motion::new(Pose::at(3.0 * DVec3::X).unwrap(), velocity, spin).unwrap()
     };
-    let config = Config::default();
+    let config = Settings::DEFAULT;
     let is_screw = |a: Motion, b: Motion| {
-        let problem = Problem::new((&cube, a), (&cube, b), 1.0, &config).unwrap();
+        let problem = Problem::about((&cube, a), (&cube, b), 1.0, &config).unwrap();
         Screw::of(&problem, &mut Profiles::default()).is_some()
     };
     let still = Motion::STILL;
@@ -240,7 +240,7 @@ fn what_is_no_screw_has_no_profiles() {
     ));
     let falls = |pulls: [DVec3; 2]| {
         let bodies = [(&cube, motion(DVec3::Z, DVec3::Z)), (&cube, still)];
-        let problem = Problem::accelerated(bodies.map(Into::into), pulls, 1.0, &config).unwrap();
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &config.terms()).unwrap();
         Screw::of(&problem, &mut Profiles::default()).is_some()
     };
     assert!(falls([9.8 * DVec3::X; 2]));
@@ -283,11 +283,11 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
         ];
         let [moving, still] = bodies.map(|triangles| body(&triangles));
         let turning = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1.7 * axis).unwrap();
-        let problem = Problem::new(
+        let problem = Problem::about(
             (&moving, turning),
             (&still, Motion::STILL),
             1.0,
-            &Config::default(),
+            &Settings::DEFAULT,
         );
         let problem = problem.unwrap();
         let mut profiles = Profiles::default();

@@ -5,10 +5,10 @@ mod worst;
 use super::*;
 use crate::body::Body;
 use crate::body::polytope::Polytope;
-use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Moving, Problem};
+use crate::problem::Problem;
+use crate::settings::Settings;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DQuat;
 
@@ -42,20 +42,11 @@ fn many_points_are_bounded_like_all_of_them() {
         let start = Pose::new(size * direction(&mut rng), rotation(&mut rng)).unwrap();
         let motion = Motion::about(start, velocity, spin, size * within(&mut rng, 2.0)).unwrap();
         let ball = Body::ball(0.1).unwrap();
-        let (moving, still) = (
-            Moving {
-                body: &body,
-                motion,
-            },
-            Moving {
-                body: &ball,
-                motion: Motion::still(Pose::IDENTITY),
-            },
-        );
+        let (moving, still) = ((&body, motion), (&ball, Motion::STILL));
         let pull =
             direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
         let (bodies, pulls) = ([moving, still], [pull, DVec3::ZERO]);
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &Config::default()).unwrap();
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
@@ -125,16 +116,13 @@ fn points_rise_and_sink_as_their_body_turns() {
         let start = Pose::new(within(&mut rng, 1.0), rotation(&mut rng)).unwrap();
         let (velocity, centre) = (within(&mut rng, 1.0), within(&mut rng, 1.0));
         let motion = Motion::about(start, velocity, spin, centre).unwrap();
-        let moving = Moving {
-            body: &body,
-            motion,
-        };
+        let moving = (&body, motion);
         let acceleration = within(&mut rng, [0.0, 1.0][number / 10 % 2]);
         let (bodies, pulls) = (
-            [moving, (&ball, Motion::STILL).into()],
+            [moving, (&ball, Motion::STILL)],
             [acceleration, DVec3::ZERO],
         );
-        let problem = Problem::accelerated(bodies, pulls, 1.0, &Config::default()).unwrap();
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);

@@ -3,26 +3,23 @@
 use super::*;
 use crate::body::Body;
 use crate::body::combination::Combination;
-use crate::config::Config;
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::Moving;
+use crate::query::Moving;
+use crate::settings::Settings;
 use crate::tests::oracle::{Always, Exhaustive};
 
 /// A ball of radius 1 at `x`, moving along −x by `speed`, and one at the origin at rest.
-fn balls<R>(x: f64, speed: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let ball = Body::ball(1.0).unwrap();
     let start = Pose::at(x * DVec3::X).unwrap();
-    let a = Moving {
-        body: &ball,
-        motion: Motion::new(start, -speed * DVec3::X, DVec3::ZERO).unwrap(),
-    };
-    let b = Moving {
-        body: &ball,
-        motion: Motion::still(Pose::IDENTITY),
-    };
-    then(&Problem::new(a, b, 1.0, config).unwrap())
+    let a = Moving::from((
+        &ball,
+        Motion::new(start, -speed * DVec3::X, DVec3::ZERO).unwrap(),
+    ));
+    let b = Moving::from((&ball, Motion::still(Pose::IDENTITY)));
+    then(&Problem::about(a, b, 1.0, config).unwrap())
 }
 
 /// Advances a new pair, clock by clock, until any other step.
@@ -43,7 +40,7 @@ fn run(problem: &Problem<'_>) -> (f64, Step) {
 
 #[test]
 fn two_balls_meet_when_they_do() {
-    let config = Config::default();
+    let config = Settings::DEFAULT;
     let (s, step) = balls(4.0, 4.0, &config, run);
     assert!(matches!(step, Step::Contact(_)), "two balls meet");
     // The gap of 2 is closed at half the duration; they stop within the tolerance of it.
@@ -52,16 +49,16 @@ fn two_balls_meet_when_they_do() {
 
 #[test]
 fn a_pair_that_recedes_is_done_with() {
-    let (s, step) = balls(4.0, -4.0, &Config::default(), run);
+    let (s, step) = balls(4.0, -4.0, &Settings::DEFAULT, run);
     assert_eq!(s, 0.0);
     assert!(matches!(step, Step::FreeUntil(clock) if clock > 1.0));
 }
 
 #[test]
 fn the_margin_is_kept() {
-    let config = Config {
+    let config = Settings {
         margin: 1.0,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     let (s, step) = balls(4.0, 4.0, &config, run);
     assert!(matches!(step, Step::Contact(_)));
@@ -70,17 +67,17 @@ fn the_margin_is_kept() {
 
 #[test]
 fn overlap_and_touching_are_distinguished() {
-    let (s, step) = balls(1.9, 0.0, &Config::default(), run);
+    let (s, step) = balls(1.9, 0.0, &Settings::DEFAULT, run);
     assert!(s == 0.0 && matches!(step, Step::Overlap(_)));
-    let (s, step) = balls(2.0, 0.0, &Config::default(), run);
+    let (s, step) = balls(2.0, 0.0, &Settings::DEFAULT, run);
     assert!(s == 0.0 && matches!(step, Step::Contact(_)));
 }
 
 #[test]
 fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
-    let config = Config {
+    let config = Settings {
         start: StartPolicy::Leave,
-        ..Config::default()
+        ..Settings::DEFAULT
     };
     // Pairs that begin with a gap are left to the search, which uses half of it.
     let x = 2.0;
@@ -100,26 +97,21 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
 }
 
 /// A bar that turns about z away from the one it touches, and back to it from the other side.
-fn returning<R>(config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+fn returning<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let bar = Body::capsule(0.1, 1.0).unwrap();
     let ball = Body::ball(0.1).unwrap();
     let turn = std::f64::consts::TAU;
-    let a = Moving {
-        body: &bar,
-        // Its other end comes around.
-        motion: Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap(),
-    };
+    // Its other end comes around.
+    let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap();
+    let a = Moving::from((&bar, turns));
     let beside = Pose::at(DVec3::new(-0.2, 0.0, 0.9)).unwrap();
-    let b = Moving {
-        body: &ball,
-        motion: Motion::still(beside),
-    };
-    then(&Problem::new(a, b, 1.0, config).unwrap())
+    let b = Moving::from((&ball, Motion::still(beside)));
+    then(&Problem::about(a, b, 1.0, config).unwrap())
 }
 
 #[test]
 fn an_oracle_that_gives_up_is_counted() {
-    let (step, stats) = balls(4.0, 4.0, &Config::default(), |problem| {
+    let (step, stats) = balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
         let mut oracle = Always(Err(GiveUp::StepCap));
         let mut meter = Meter::new(problem);
         let step = Pair::new(0, 0).advance(problem, &mut oracle, &mut meter, 0.0);
@@ -145,7 +137,7 @@ fn a_dishonest_oracle_cannot_make_a_pair_late() {
             a: Combination::point(7),
             b: Combination::EMPTY,
         };
-        let step = balls(4.0, 4.0, &Config::default(), |problem| {
+        let step = balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
             Pair::new(0, 0).advance(
                 problem,
                 &mut Always(Ok(claim)),

@@ -6,14 +6,15 @@ mod worst;
 use super::*;
 use crate::body::Body;
 use crate::body::polytope::Polytope;
-use crate::config::Config;
 use crate::distance::oracle::PiecePair;
 use crate::distance::separation::support_gap;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Moving, Problem};
+use crate::problem::Problem;
+use crate::query::Moving;
 use crate::schedule::pieces::snapshot::{Plane, Snapshot};
+use crate::settings::Settings;
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng, scene, within};
 
@@ -216,7 +217,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
     let ball = Body::ball(0.1).unwrap();
     let above = Pose::at(DVec3::new(0.0, 3.0, 0.5)).unwrap();
     let spin = Motion::new(Pose::IDENTITY, DVec3::ZERO, DVec3::Y).unwrap();
-    let moving = |body, motion| Moving { body, motion };
+    let moving = |body, motion| Moving::from((body, motion));
     let (plate, ball) = (moving(&plate, spin), moving(&ball, Motion::still(above)));
     for swapped in [false, true] {
         let (a, b) = if swapped {
@@ -224,7 +225,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         } else {
             (plate, ball)
         };
-        let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
+        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
         let plane = Plane { normal, slack: 0.3 };

@@ -1,13 +1,14 @@
 //! Inside and outside of solids, points on the surface, shells within shells.
 
 use super::{Containment, at_start};
+use crate::answer::Overlap;
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::body::{Body, Volume};
-use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::outcome::Overlap;
-use crate::problem::{Moving, Problem};
+use crate::problem::Problem;
+use crate::query::Moving;
+use crate::settings::Settings;
 use crate::tests::meshes::{cube, inside_out, moved};
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{RngExt, magnitude, pieces, rng, rotation, within};
@@ -26,11 +27,8 @@ fn contained(a: &Body, b: &Body) -> Option<Overlap> {
 }
 
 fn touching_at_start(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Containment {
-    let moving = |body| Moving {
-        body,
-        motion: Motion::still(Pose::IDENTITY),
-    };
-    let problem = Problem::new(moving(a), moving(b), 1.0, &Config::default()).unwrap();
+    let moving = |body| Moving::from((body, Motion::still(Pose::IDENTITY)));
+    let problem = Problem::about(moving(a), moving(b), 1.0, &Settings::DEFAULT).unwrap();
     at_start(&problem, touching, &mut Vec::new())
 }
 
@@ -259,11 +257,11 @@ fn points_near_very_long_faces_are_decided() {
 fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Containment {
     let cube = solid(&cube(1.0, n));
     let plate = Body::cuboid([x, 1e-33, z]).unwrap();
-    let problem = Problem::new(
+    let problem = Problem::about(
         (&plate, Motion::still(Pose::at(at).unwrap())),
         (&cube, Motion::STILL),
         1.0,
-        &Config::default(),
+        &Settings::DEFAULT,
     )
     .unwrap();
     let touching: Vec<[u32; 2]> = (0..cube.pieces().len() as u32).map(|k| [0, k]).collect();
@@ -301,7 +299,7 @@ fn only_thin_pieces_are_examined_beside_edges() {
     let examined = |piece: Body| {
         let motion = Motion::still(Pose::at(4.0 * DVec3::X).unwrap());
         let (a, b) = ((&cube, Motion::STILL), (&piece, motion));
-        let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
+        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let mut pieces = Vec::new();
         assert_eq!(
             at_start(&problem, &[[0, 0]], &mut pieces),

@@ -9,9 +9,12 @@ fn few_facets_are_made_for_any_points() {
         let hull = Growing::all(mesh.vertices(), [0, 2, 4, corners + 1]);
         let made = hull.facets.len();
         assert!(made <= 8 * corners as usize, "{made} of {corners}");
-        // No point is left to see them, and removed facets have no points.
+        // At the end no facet has conflict points, nor have removed facets.
         assert!(hull.facets.iter().all(|facet| facet.seen_by.is_empty()));
-        let held: usize = hull.facets.iter().map(|f| f.seen_by.capacity()).sum();
-        assert!(held <= 8 * corners as usize, "{held} of {corners}");
+        let last_tested: usize = hull.facets.iter().map(|f| f.seen_by.capacity()).sum();
+        assert!(
+            last_tested <= 8 * corners as usize,
+            "{last_tested} of {corners}"
+        );
     }
 }

@@ -19,7 +19,7 @@ proptest! {
         let sorted = |triangles: Vec<[u32; 3]>| {
             let mut loops: Vec<Vec<[u64; 3]>> = Vec::new();
             for polygon in polygons(&points, &triangles) {
-                // Either hull may take any of several points at one place.
+                // Each hull may use any of several equal points.
                 let place = |&v: &u32| points[v as usize].to_array().map(|x| (x + 0.0).to_bits());
                 let mut corners: Vec<[u64; 3]> = polygon.corners.iter().map(place).collect();
                 let least = (0..corners.len()).min_by_key(|&k| corners[k]).unwrap();

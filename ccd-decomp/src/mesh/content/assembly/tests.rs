@@ -49,7 +49,8 @@ fn members_are_placed_in_order() {
         of(vec![shifted(2, 1.0), shifted(2, 2.0)]),
         leaf(),
     ];
-    let Ok(assembly) = Assembly::new(objects, vec![part(0), part(2)], Allowance::of(0)) else {
+    let Ok(assembly) = Assembly::new(objects, vec![part(0), part(2)], Allowance::for_file(0))
+    else {
         panic!("there is no circle");
     };
     let all = assembly.expanded(0..2, Conversion::NONE).unwrap();
@@ -61,11 +62,11 @@ fn members_are_placed_in_order() {
 #[test]
 fn circles_are_found() {
     let circle = |objects: Vec<Object>| {
-        let made = Assembly::new(objects, vec![part(0)], Allowance::of(0));
+        let made = Assembly::new(objects, vec![part(0)], Allowance::for_file(0));
         made.err().map(|circle| circle.object)
     };
     assert_eq!(circle(vec![of(vec![shifted(0, 1.0)])]), Some(0));
-    // The object at the start leads to the circle, but is not on it.
+    // The first object leads to the cycle, but is not on it.
     let lead = vec![
         of(vec![shifted(3, 0.0), shifted(1, 0.0)]),
         of(vec![shifted(2, 0.0)]),
@@ -85,7 +86,7 @@ fn parts_without_faces_are_left_out() {
         leaf(),
     ];
     let parts = vec![part(0), part(2), part(1), part(3)];
-    let Ok(assembly) = Assembly::new(objects, parts, Allowance::of(0)) else {
+    let Ok(assembly) = Assembly::new(objects, parts, Allowance::for_file(0)) else {
         panic!("there is no circle");
     };
     let kept: Vec<usize> = assembly
@@ -96,14 +97,15 @@ fn parts_without_faces_are_left_out() {
     assert_eq!(kept, [2, 3]);
 }
 
-/// Each object is twice the one below it: a thousand times would be more than there is memory in the world.
+/// Each object is twice its member: a thousand levels would exceed any memory.
 #[test]
 fn doubling_is_refused_before_it_is_done() {
     for bottom in [leaf(), of(Vec::new())] {
         let mut objects = vec![leaf(), bottom];
         objects
             .extend((1..1000).map(|k| of(vec![shifted(k, 1.0), shifted(k, 2.0), shifted(0, 0.0)])));
-        let Ok(assembly) = Assembly::new(objects, vec![part(1000)], Allowance::of(100_000)) else {
+        let Ok(assembly) = Assembly::new(objects, vec![part(1000)], Allowance::for_file(100_000))
+        else {
             panic!("there is no circle");
         };
         let fault = assembly.expanded(0..1, Conversion::NONE).unwrap_err();

@@ -1,21 +1,21 @@
-//! Accessors: lists of numbers in buffers.
+//! Accessors: typed arrays in buffers.
 
 use super::buffers::Buffers;
+use super::element;
 use super::schema::{self, Root, Sparse};
-use super::{element, name};
 use crate::mesh::content::allowance::{Allowance, cost};
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, element_name};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Reads accessors, as many numbers as the file may ask for.
+/// A reader of accessors, within the file's allowance.
 pub(super) struct Accessors<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,
     allowance: Allowance,
 }
 
-/// The kinds of numbers in a buffer, by their numbers in a glTF.
+/// The component types of glTF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Component {
     I8,
@@ -26,7 +26,7 @@ enum Component {
     F32,
 }
 
-/// Elements at equal distances.
+/// Elements at a constant stride.
 struct Rows<'a> {
     bytes: &'a [u8],
     stride: usize,
@@ -43,84 +43,79 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Returns whether an accessor has bytes of its own.
+    /// Returns whether an accessor has data, not only a compression extension.
     pub(super) fn has_bytes(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);
         about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
     }
 
-    /// Takes the cost of so many corners off what the file may ask for.
+    /// Spends the cost of a number of corners.
     pub(super) fn take_corners(&mut self, count: usize) -> Result<(), MeshFault> {
         self.allowance.take(cost(0, count as u64))
     }
 
-    /// Reads the points of an accessor of vectors of three numbers.
+    /// Reads the points of a `VEC3` accessor.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
-        let root = self.root;
-        let about = element(&root.accessors, "accessor", accessor)?;
-        self.points_of(about)
-            .map_err(|fault| fault.at(name("accessor", accessor, None)))
-    }
-
-    fn points_of(&mut self, about: &schema::Accessor) -> Result<Vec<DVec3>, MeshFault> {
-        check_kind(about, "VEC3")?;
-        let component = Component::of(about.component_type)?;
-        let size = 3 * component.size();
-        let point = |row: &[u8]| {
-            let mut numbers = row.chunks_exact(component.size());
-            let mut next = || {
-                numbers
-                    .next()
-                    .map_or(f64::NAN, |bytes| component.number(bytes, about.normalized))
+        self.at(accessor, |accessors, about| {
+            check_kind(about, "VEC3")?;
+            let component = Component::from_code(about.component_type)?;
+            let size = component.size();
+            let point = |row: &[u8]| {
+                let number = |k: usize| component.number(&row[k * size..], about.normalized);
+                DVec3::new(number(0), number(1), number(2))
             };
-            DVec3::new(next(), next(), next())
-        };
-        let rows = self.rows(about, size)?;
-        self.allowance.take(cost(about.count, 0))?;
-        let mut points: Vec<DVec3> = match rows {
-            Some(rows) => rows.iter().map(point).collect(),
-            // The allowance bounds the number.
-            None => vec![DVec3::ZERO; about.count as usize],
-        };
-        if let Some(sparse) = &about.sparse {
-            let numbers = self.sparse_indices(sparse, points.len())?;
-            let values = self.sparse_values(sparse, size)?;
-            for (number, row) in numbers.into_iter().zip(values.iter()) {
-                points[number] = point(row);
-            }
-        }
-        Ok(points)
+            let price = cost(about.count, 0);
+            accessors.elements(about, 3 * size, price, DVec3::ZERO, point)
+        })
     }
 
-    /// Reads the numbers of an accessor of whole numbers.
+    /// Reads the indices of a `SCALAR` accessor.
     pub(super) fn numbers(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
-        let root = self.root;
-        let about = element(&root.accessors, "accessor", accessor)?;
-        self.numbers_of(about)
-            .map_err(|fault| fault.at(name("accessor", accessor, None)))
+        self.at(accessor, |accessors, about| {
+            check_kind(about, "SCALAR")?;
+            let component = Component::index_from_code(about.component_type)?;
+            let whole = |row: &[u8]| component.whole(row);
+            accessors.elements(about, component.size(), cost(0, about.count), 0, whole)
+        })
     }
 
-    fn numbers_of(&mut self, about: &schema::Accessor) -> Result<Vec<u32>, MeshFault> {
-        check_kind(about, "SCALAR")?;
-        let component = Component::of_index(about.component_type)?;
-        let size = component.size();
+    /// Reads an accessor, and names it in faults.
+    fn at<T>(
+        &mut self,
+        accessor: usize,
+        read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
+    ) -> Result<T, MeshFault> {
+        let about = element(&self.root.accessors, "accessor", accessor)?;
+        read(self, about).map_err(|fault| fault.at(element_name("accessor", accessor, None)))
+    }
+
+    /// Reads all elements of an accessor, sparse ones included.
+    fn elements<T: Clone>(
+        &mut self,
+        about: &schema::Accessor,
+        size: usize,
+        price: u64,
+        zero: T,
+        read: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<T>, MeshFault> {
         let rows = self.rows(about, size)?;
-        self.allowance.take(cost(0, about.count))?;
-        let mut numbers: Vec<u32> = match rows {
-            Some(rows) => rows.iter().map(|row| component.whole(row)).collect(),
-            None => vec![0; about.count as usize],
+        self.allowance.take(price)?;
+        let mut elements: Vec<T> = match rows {
+            Some(rows) => rows.iter().map(&read).collect(),
+            // The allowance bounds the number.
+            None => vec![zero; about.count as usize],
         };
         if let Some(sparse) = &about.sparse {
-            let places = self.sparse_indices(sparse, numbers.len())?;
+            let places = self.sparse_indices(sparse, elements.len())?;
             let values = self.sparse_values(sparse, size)?;
             for (place, row) in places.into_iter().zip(values.iter()) {
-                numbers[place] = component.whole(row);
+                elements[place] = read(row);
             }
         }
-        Ok(numbers)
+        Ok(elements)
     }
 
-    /// The elements of an accessor; none for one that is zero but for its sparse elements.
+    /// Returns the elements of an accessor; `None` if all except the sparse ones are zero.
     fn rows(&self, about: &schema::Accessor, size: usize) -> Result<Option<Rows<'a>>, MeshFault> {
         match (about.buffer_view, &about.sparse) {
             (Some(view), _) => {
@@ -152,7 +147,7 @@ impl<'a> Accessors<'a> {
             let missing = format!("all {count} elements of {size} bytes in buffer view {view}");
             return Err(MeshFault::Truncated { missing });
         }
-        // All are within the bytes, if there are any.
+        // All elements are within the bytes.
         Ok(Rows {
             bytes,
             stride: stride as usize,
@@ -161,10 +156,10 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// Reads which elements of a list of some length a sparse accessor replaces.
+    /// Reads the indices that a sparse accessor replaces in a list of a given length.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
-        let component = Component::of_index(about.component_type)?;
+        let component = Component::index_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
         let rows = self.rows_at(about.buffer_view, about.byte_offset, layout, None)?;
         self.allowance.take(cost(0, sparse.count))?;
@@ -207,7 +202,7 @@ impl<'a> Rows<'a> {
 }
 
 impl Component {
-    fn of(number: u32) -> Result<Self, MeshFault> {
+    fn from_code(number: u32) -> Result<Self, MeshFault> {
         Ok(match number {
             5120 => Component::I8,
             5121 => Component::U8,
@@ -222,9 +217,9 @@ impl Component {
         })
     }
 
-    /// The kind of a number of an element.
-    fn of_index(number: u32) -> Result<Self, MeshFault> {
-        match Component::of(number)? {
+    /// Returns the component type of an index.
+    fn index_from_code(number: u32) -> Result<Self, MeshFault> {
+        match Component::from_code(number)? {
             unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
             _ => {
                 let problem = format!("has components of type {number} instead of whole numbers");
@@ -241,7 +236,7 @@ impl Component {
         }
     }
 
-    /// A coordinate. A normalized integer stands for a fraction of its largest value.
+    /// Reads a coordinate. A normalized integer is a fraction of the largest value of its type.
     fn number(self, bytes: &[u8], normalized: bool) -> f64 {
         let number = self.exact(bytes);
         let largest: f64 = match self {
@@ -274,7 +269,7 @@ impl Component {
     }
 }
 
-/// The first bytes; those that are not there are zero.
+/// Returns the first bytes, or zeros if there are too few.
 fn array<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.first_chunk().copied().unwrap_or([0; N])
 }

@@ -1,15 +1,15 @@
-//! The bytes that a glTF's accessors are read from.
+//! Buffers of a glTF.
 
 use super::schema::{Buffer, Root};
-use super::{element, extensions, name};
-use crate::mesh::error::{MeshFault, Quote};
-use crate::mesh::format::{Beside, Reference};
+use super::{element, extensions};
+use crate::mesh::error::{MeshFault, Quote, element_name};
+use crate::mesh::format::{LinkedFiles, Reference};
 use base64::Engine;
 use base64::engine::general_purpose::GeneralPurpose;
 use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
 use std::borrow::Cow;
 
-/// The buffers of a file; none for one that has no bytes, as those that only a compression fills.
+/// The buffers of a file; `None` for a buffer without data, which only a compression extension fills.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
     bytes: Vec<Option<Cow<'a, [u8]>>>,
@@ -19,11 +19,12 @@ impl<'a> Buffers<'a> {
     pub(super) fn new(
         root: &'a Root,
         binary: Option<&'a [u8]>,
-        beside: &'a Beside,
+        linked: &'a LinkedFiles,
     ) -> Result<Self, MeshFault> {
         let found = |(k, buffer)| {
             let binary = binary.filter(|_| k == 0);
-            content(buffer, binary, beside).map_err(|fault| fault.at(name("buffer", k, None)))
+            content(buffer, binary, linked)
+                .map_err(|fault| fault.at(element_name("buffer", k, None)))
         };
         let bytes: Result<_, _> = root.buffers.iter().enumerate().map(found).collect();
         Ok(Buffers {
@@ -32,7 +33,7 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// The bytes of a view of a buffer, from an offset on.
+    /// Returns the bytes of a buffer view, from an offset on.
     pub(super) fn view(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
         if about.extensions.meshopt.is_some() && self.is_empty(about.buffer) {
@@ -49,7 +50,7 @@ impl<'a> Buffers<'a> {
             let range = start
                 .zip(end)
                 .filter(|&(_, end)| end <= buffer.len() as u64);
-            // Both ends are within the buffer.
+            // The conversions are exact: both ends are within the buffer.
             let within = range.and_then(|(start, end)| buffer.get(start as usize..end as usize));
             within.ok_or_else(|| {
                 let (bytes, buffer) = (buffer.len(), about.buffer);
@@ -57,10 +58,10 @@ impl<'a> Buffers<'a> {
                 MeshFault::syntax(None, problem)
             })
         };
-        found().map_err(|fault: MeshFault| fault.at(name("buffer view", view, None)))
+        found().map_err(|fault: MeshFault| fault.at(element_name("buffer view", view, None)))
     }
 
-    /// The distance from one element of a view to the next, if it says so.
+    /// Returns the stride of a buffer view, if it states one.
     pub(super) fn stride(&self, view: usize) -> Option<u64> {
         self.root.buffer_views.get(view)?.byte_stride
     }
@@ -73,7 +74,7 @@ impl<'a> Buffers<'a> {
 fn content<'a>(
     buffer: &'a Buffer,
     binary: Option<&'a [u8]>,
-    beside: &'a Beside,
+    linked: &'a LinkedFiles,
 ) -> Result<Option<Cow<'a, [u8]>>, MeshFault> {
     let bytes: Cow<'_, [u8]> = match &buffer.uri {
         None => match binary {
@@ -84,8 +85,8 @@ fn content<'a>(
             Some(data) => decode(data?)?.into(),
             None => {
                 let name = decoded(uri)?;
-                let beside = beside.get(&name).map(Vec::as_slice);
-                beside.ok_or_else(|| alone(name))?.into()
+                let bytes = linked.get(&name).map(Vec::as_slice);
+                bytes.ok_or_else(|| alone(name))?.into()
             }
         },
     };
@@ -99,14 +100,14 @@ fn content<'a>(
 }
 
 fn alone(name: String) -> MeshFault {
-    MeshFault::Beside {
+    MeshFault::LinkedFile {
         name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
             .into(),
     }
 }
 
-/// The file that a buffer is in, if it is in one of its own.
+/// Returns the file of a buffer, if it is a separate one.
 pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault> {
     let outside = buffer.uri.as_ref().filter(|uri| data(uri).is_none());
     let reference = outside.map(|uri| {
@@ -118,7 +119,7 @@ pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault>
     reference.transpose()
 }
 
-/// The text of a URI that holds the data itself; none for any other URI.
+/// Returns the data of a data URI; `None` for any other URI.
 fn data(uri: &str) -> Option<Result<&str, MeshFault>> {
     let rest = match uri.split_at_checked(5) {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("data:") => rest,
@@ -131,7 +132,7 @@ fn data(uri: &str) -> Option<Result<&str, MeshFault>> {
 }
 
 fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
-    // Some programs leave out the padding at the end.
+    // Some programs omit the padding.
     const LENIENT: GeneralPurposeConfig = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
         .with_decode_allow_trailing_bits(true);
@@ -140,7 +141,7 @@ fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
     decoded.map_err(|error| MeshFault::syntax(None, format!("its base64 is not valid: {error}")))
 }
 
-/// The path of a file as a URI names it: with `%20` for a blank, and so on.
+/// Decodes a URI to a path: `%20` is a space, and so on.
 fn decoded(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
         Err(MeshFault::syntax(
@@ -148,7 +149,7 @@ fn decoded(uri: &str) -> Result<String, MeshFault> {
             format!("its URI {:?} {what}", Quote(uri)),
         ))
     };
-    // The path of a drive is none of a glTF either.
+    // This also refuses drive letters.
     if uri.contains(':') {
         return problem("is no path in the folder of the mesh");
     }
@@ -175,7 +176,7 @@ fn decoded(uri: &str) -> Result<String, MeshFault> {
     }
 }
 
-/// A path without the steps that lead nowhere, so that a file has one name. It stays absolute, or upward, if it is.
+/// Removes empty and `.` components of a path, so that a file has one name. Absolute paths and `..` are kept.
 fn without_dots(path: &str) -> String {
     let root = if path.starts_with('/') { "/" } else { "" };
     let steps = path.split('/').filter(|step| !matches!(*step, "" | "."));

@@ -10,7 +10,7 @@
 
 use crate::mesh::error::MeshFault;
 
-/// The JSON, and the bytes of the first buffer, if they are there.
+/// The JSON, and the binary chunk, if there is one.
 #[derive(Debug)]
 pub(super) struct Container<'a> {
     pub(super) json: &'a [u8],
@@ -20,7 +20,7 @@ pub(super) struct Container<'a> {
 const VERSION: u32 = 2;
 
 impl<'a> Container<'a> {
-    pub(super) fn of(bytes: &'a [u8]) -> Result<Self, MeshFault> {
+    pub(super) fn read(bytes: &'a [u8]) -> Result<Self, MeshFault> {
         let Some(mut rest) = bytes.strip_prefix(b"glTF") else {
             return Ok(Container {
                 json: bytes,

@@ -1,9 +1,9 @@
-//! Extensions that a file requires: those that leave shapes as they are, and those that cannot be read.
+//! Required extensions: those that do not change shapes, and those that cannot be read.
 
 use super::schema::Root;
 use crate::mesh::error::{MeshFault, Quote};
 
-/// The beginnings of the names of extensions about looks, light, sound and data about data.
+/// Name prefixes of extensions about appearance, lights, audio and metadata.
 const HARMLESS: [&str; 14] = [
     "KHR_materials_",
     "KHR_texture_",
@@ -21,12 +21,12 @@ const HARMLESS: [&str; 14] = [
     "EXT_instance_features",
 ];
 
-/// Positions as integers; these are read.
+/// Integer positions, which are supported.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// Refuses a file that cannot be understood without an extension that is unknown here, as the specification demands.
+/// Refuses a file that requires an unsupported extension, as the specification demands.
 pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
     let known =
         |name: &str| name == QUANTIZATION || HARMLESS.iter().any(|prefix| name.starts_with(prefix));

@@ -1,22 +1,22 @@
-//! The nodes of a scene, and the parts that they are.
+//! The nodes of a scene, as parts.
 
 use super::accessor::Accessors;
 use super::schema::{Node, Root};
-use super::{element, extensions, name, primitive, transform};
+use super::{element, extensions, primitive, transform};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Object, Part, Placed};
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
-/// The meshes that a scene uses, and its nodes that use them.
+/// The meshes of a scene, and the nodes that place them.
 pub(super) struct Scene {
     pub(super) objects: Vec<Object>,
     pub(super) parts: Vec<Part>,
     pub(super) remarks: Remarks,
 }
 
-/// Reads the scene that is to be shown, or else the first one; without scenes, all nodes; without nodes, all meshes.
+/// Reads the default scene, or else the first one; without scenes, all nodes; without nodes, all meshes.
 pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, MeshFault> {
     let mut walk = Walk::new(root, accessors);
     match (root.scene, root.scenes.first()) {
@@ -29,11 +29,11 @@ pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, Mesh
     Ok(walk.scene)
 }
 
-/// A walk down the nodes. It reads each mesh where it is first met.
+/// A traversal of the nodes. Each mesh is read at its first use.
 struct Walk<'a> {
     root: &'a Root,
     accessors: Accessors<'a>,
-    /// The object of each mesh that was met.
+    /// The object of each mesh that was read.
     known: HashMap<usize, usize>,
     visited: Vec<bool>,
     scene: Scene,
@@ -54,14 +54,14 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Visits some nodes, and all below them, each one before those below it.
+    /// Visits nodes and all their descendants, parents first.
     fn below(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
         let top = |&node: &usize| (node, AffineMap::IDENTITY);
         let mut waiting: Vec<(usize, AffineMap)> = tops.iter().rev().map(top).collect();
         while let Some((number, above)) = waiting.pop() {
             let node = element(&self.root.nodes, "node", number)?;
-            let place = || name("node", number, node.name.as_deref());
-            // Nodes form a tree. This also ends at nodes in a circle.
+            let place = || element_name("node", number, node.name.as_deref());
+            // Nodes form a tree. The check also ends at cycles.
             if std::mem::replace(&mut self.visited[number], true) {
                 let problem = "is below itself, or below two others".into();
                 return Err(MeshFault::syntax(None, problem).at(place()));
@@ -77,7 +77,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Visits all nodes, from those that are below none.
+    /// Visits all nodes, starting at the roots.
     fn all(&mut self) -> Result<(), MeshFault> {
         let mut is_below = vec![false; self.root.nodes.len()];
         for &child in self.root.nodes.iter().flat_map(|node| &node.children) {
@@ -89,7 +89,7 @@ impl<'a> Walk<'a> {
             .collect();
         if tops.is_empty() {
             let problem = "is below itself".into();
-            return Err(MeshFault::syntax(None, problem).at(name("node", 0, None)));
+            return Err(MeshFault::syntax(None, problem).at(element_name("node", 0, None)));
         }
         self.below(&tops)
     }
@@ -98,7 +98,7 @@ impl<'a> Walk<'a> {
         (0..self.root.meshes.len()).try_for_each(|mesh| self.place(mesh, None, AffineMap::IDENTITY))
     }
 
-    /// Remarks upon all that was not read, or not as it is drawn.
+    /// Adds remarks about content that was skipped or is drawn differently.
     fn remark(&mut self) {
         let root = self.root;
         let with_mesh = root
@@ -152,7 +152,7 @@ impl<'a> Walk<'a> {
         let object = match self.known.get(&mesh) {
             Some(&object) => object,
             None => {
-                let place = || name("mesh", mesh, about.name.as_deref());
+                let place = || element_name("mesh", mesh, about.name.as_deref());
                 let shape = primitive::shape(about, &mut self.accessors)
                     .map_err(|fault| fault.at(place()))?;
                 let members = Vec::new();
@@ -163,7 +163,7 @@ impl<'a> Walk<'a> {
                     .or_insert(self.scene.objects.len() - 1)
             }
         };
-        // An empty name is none.
+        // An empty name counts as no name.
         let given = |name: &String| !name.is_empty();
         let name = label.filter(given).or(about.name.clone().filter(given));
         let placed = Placed { object, map };

@@ -1,33 +1,32 @@
-//! Meshes: their primitives as triangles.
+//! The primitives of a mesh, as triangles.
 
 use super::accessor::Accessors;
+use super::extensions;
 use super::schema::{Mesh, Primitive};
-use super::{extensions, name};
-use crate::mesh::error::MeshFault;
+use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::polygons::{Polygons, check_count};
 use ccd_core::glam::DVec3;
 use std::collections::HashMap;
 
-/// Reads the triangles of a mesh, one primitive after the other. Primitives of the same positions share their
-/// vertices.
+/// Reads the triangles of a mesh, one primitive after the other. Primitives with the same positions share vertices.
 pub(super) fn shape(mesh: &Mesh, accessors: &mut Accessors<'_>) -> Result<Polygons, MeshFault> {
     let mut shape = Polygons::default();
     let mut known = HashMap::new();
     for (k, primitive) in mesh.primitives.iter().enumerate() {
         add(primitive, &mut shape, &mut known, accessors)
-            .map_err(|fault| fault.at(name("primitive", k, None)))?;
+            .map_err(|fault| fault.at(element_name("primitive", k, None)))?;
     }
     Ok(shape)
 }
 
-/// The vertices of an accessor in the shape: the first one, and their number.
+/// The range of an accessor's vertices in the shape.
 #[derive(Clone, Copy)]
 struct Vertices {
     first: usize,
     count: usize,
 }
 
-/// The ways in which corners make triangles.
+/// The topology of a primitive of triangles.
 #[derive(Clone, Copy)]
 enum Mode {
     Triangles,
@@ -41,10 +40,10 @@ fn add(
     known: &mut HashMap<usize, Vertices>,
     accessors: &mut Accessors<'_>,
 ) -> Result<(), MeshFault> {
-    let Some(mode) = Mode::of(primitive.mode)? else {
+    let Some(mode) = Mode::from_code(primitive.mode)? else {
         return Ok(());
     };
-    // Without positions there is nothing to be seen, says the specification.
+    // A primitive without positions draws nothing.
     let Some(position) = primitive.attributes.position else {
         return Ok(());
     };
@@ -89,7 +88,7 @@ fn add(
     Ok(())
 }
 
-/// Checks the points of a file before they are moved, where they still have their numbers.
+/// Checks the points before they are transformed, while they have the file's numbers.
 fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
     match points.iter().position(|point| !point.is_finite()) {
         Some(vertex) => Err(MeshFault::NotFinite { vertex, line: None }),
@@ -98,8 +97,8 @@ fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
 }
 
 impl Mode {
-    /// The mode by its number; none for points and lines.
-    fn of(number: Option<u32>) -> Result<Option<Self>, MeshFault> {
+    /// Returns the mode by its number; `None` for points and lines.
+    fn from_code(number: Option<u32>) -> Result<Option<Self>, MeshFault> {
         match number {
             Some(0..=3) => Ok(None),
             None | Some(4) => Ok(Some(Mode::Triangles)),
@@ -122,7 +121,7 @@ impl Mode {
         }
     }
 
-    /// The triangles, all turned alike: every other one of a strip is turned round.
+    /// Returns the triangles in one orientation: every second one of a strip is reversed.
     fn triangles(self, corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
         let count = match self {
             Mode::Triangles => corners.len() / 3,

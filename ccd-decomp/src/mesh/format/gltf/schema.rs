@@ -1,11 +1,11 @@
-//! The parts of a glTF's JSON that tell shapes.
+//! The fields of a glTF's JSON that define shapes.
 
 use super::whole;
 use crate::mesh::error::MeshFault;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-/// The whole of it.
+/// The top-level object.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Root {
@@ -177,7 +177,7 @@ pub(super) struct Buffer {
 }
 
 impl Primitive {
-    /// Returns whether it is of points or lines, by its mode.
+    /// Returns whether the mode is points or lines.
     pub(super) fn is_thin(&self) -> bool {
         matches!(self.mode, Some(0..=3))
     }

@@ -1,5 +1,5 @@
-//! What a glTF may hold, and that it is read as the specification says: `shapes` of meshes, `nodes` that place them.
-//! What it must not hold is in `faults`.
+//! Valid glTF files are read as specified: `shapes` of meshes, and `nodes` that place them. Invalid files are in
+//! `faults`.
 
 mod faults;
 mod nodes;
@@ -20,7 +20,7 @@ fn read(gltf: &Gltf) -> TriangleMesh {
 
 fn error(gltf: &Gltf) -> MeshError {
     let read = TriangleMesh::from_reader(Format::Gltf, &gltf.glb()[..]);
-    // The mesh itself may be too long to be shown.
+    // The mesh may be too long to print.
     match read {
         Ok(_) => panic!("it has no fault"),
         Err(error) => error,
@@ -86,7 +86,7 @@ fn extensions_about_looks_do_not_hinder() {
     assert_eq!(read(&gltf).faces().len(), 1);
 }
 
-/// Draco and meshopt may come with the plain data, for those that cannot read them.
+/// Draco and meshopt files may include uncompressed data.
 #[test]
 fn data_beside_a_compression_is_read() {
     let mut gltf = Gltf::triangle().set(
@@ -99,7 +99,7 @@ fn data_beside_a_compression_is_read() {
     assert_eq!(read(&gltf).faces().len(), 1);
 }
 
-/// The number 1 may be written 1.0 or 1e0, says the specification of JSON, and every count and index with it.
+/// JSON allows 1.0 and 1e0 for 1, also in counts and indices.
 #[test]
 fn whole_numbers_may_have_a_fraction_of_zero() {
     fn with_fractions(value: &mut serde_json::Value) {

@@ -1,4 +1,4 @@
-//! Whole numbers of a glTF's JSON, which may be written with a fraction of zero or an exponent: 1.0 is 1.
+//! Whole numbers in JSON, which may be written with a zero fraction or an exponent: 1.0 is 1.
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 use std::fmt;
@@ -9,7 +9,7 @@ pub(super) fn one<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result
     Whole::deserialize(from).map(|Whole(number)| number)
 }
 
-/// Reads a number that may be left out.
+/// Reads an optional number.
 pub(super) fn maybe<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Option<T>, D::Error> {
@@ -35,7 +35,7 @@ impl<'de, T: TryFrom<u64>> Deserialize<'de> for Whole<T> {
 
 struct Number<T>(PhantomData<T>);
 
-/// The first number that f64 does not tell from its neighbours.
+/// The first whole number above which f64 is inexact.
 const FIRST_INEXACT: f64 = (1_u64 << 53) as f64;
 
 impl<T: TryFrom<u64>> Visitor<'_> for Number<T> {

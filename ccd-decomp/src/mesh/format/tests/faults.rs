@@ -51,10 +51,18 @@ use rstest::rstest;
 #[case::word(
     Format::Obj,
     "v 0 0 0\nv 0 zero 0\nf 1 1 1",
-    "line 2: position parse error"
+    "line 2: \"v 0 zero 0\" does not hold the three coordinates of a vertex"
 )]
-#[case::short_vertex(Format::Obj, "# one\nv 0 0\nf 1 1 1", "line 2: position parse error")]
-#[case::weightless(Format::Obj, "v 0 0 0 0\nf 1 1 1", "line 1: scaling (w) by zero")]
+#[case::short_vertex(
+    Format::Obj,
+    "# one\nv 0 0\nf 1 1 1",
+    "line 2: \"v 0 0\" does not hold the three coordinates of a vertex"
+)]
+#[case::weightless(
+    Format::Obj,
+    "v 0 0 0 0\nf 1 1 1",
+    "line 1: \"v 0 0 0 0\" divides a position by no number"
+)]
 #[case::bad_face(
     Format::Obj,
     "v 0 0 0\nf 1 1 1\nf 1 x 1",
@@ -246,7 +254,7 @@ fn files_are_named() {
     }
 }
 
-/// Nobody exports a part for this project: what people have is named with the way to a mesh.
+/// Errors about common CAD and scene formats say how to convert them to a mesh.
 #[test]
 fn files_of_other_programs_are_told_how_to_convert() {
     for (name, way) in [
@@ -269,7 +277,7 @@ fn files_of_other_programs_are_told_how_to_convert() {
     }
 }
 
-/// A STEP file that was renamed is told as one, whatever it is called.
+/// A renamed STEP file is recognised under every extension.
 #[test]
 fn a_renamed_step_file_is_told_how_to_convert() {
     let step = "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";

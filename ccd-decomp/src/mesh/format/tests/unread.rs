@@ -1,4 +1,4 @@
-//! What is not read: an error where it makes faces, and otherwise a remark.
+//! Unsupported content is an error if it defines faces, otherwise a remark.
 
 use super::{Format, OBJ, OFF, PLY, RICH_OBJ, STL, binary_ply, binary_stl, corners, read};
 use crate::TriangleMesh;
@@ -62,7 +62,7 @@ fn kinds_of_statements_are_counted_to_a_limit() {
         .collect();
     assert_eq!(counts, [1, 1, 1, 1, 1, 1, 1, 1, 992]);
     assert!(remarks(&mesh).ends_with("others passed over: 992 (from line 14 on)"));
-    // All parts of a file have its remarks, and a mesh of two has those of both.
+    // All parts of a file have its remarks; a merged mesh has those of both.
     let both = TriangleMesh::merge([&mesh, &mesh]).unwrap();
     assert_eq!(
         both.repairs()
@@ -106,7 +106,7 @@ fn strips_are_triangles_turned_alike() {
             "5 0 1 2 3 4\n",
             &[[0, 1, 2], [2, 1, 3], [2, 3, 4]][..],
         ),
-        // −1 begins another strip, whose first triangle is not turned round.
+        // −1 begins another strip, whose first triangle is not reversed.
         (
             STRIPS.to_owned(),
             "8 0 1 2 3 -1 2 3 4\n",
@@ -171,7 +171,7 @@ fn what_follows_the_end_is_an_error() {
     assert!(message.contains(expected), "{message}");
 }
 
-/// Texts come with marks, in UTF-16, and with the line ends of any system.
+/// Texts with byte order marks, in UTF-16, and with any line ends are read.
 #[test]
 fn texts_are_read_however_they_are_written() {
     let rich = String::from_utf8_lossy(RICH_OBJ).into_owned();
@@ -214,7 +214,7 @@ fn texts_are_read_however_they_are_written() {
         message.contains("line 8: face 3 names vertex 9"),
         "{message}"
     );
-    // Numbers in binary may look like anything.
+    // Binary numbers may contain any byte.
     for endian in ["little", "big"] {
         let bytes = binary_ply(endian);
         let end = bytes

@@ -1,9 +1,9 @@
-//! A model of a package: its objects, and the items of its build.
+//! A model of a package: objects and build items.
 
 use super::transform;
 use super::xml::{Element, Origin, Step, Xml};
 use crate::mesh::affine::AffineMap;
-use crate::mesh::error::{MeshFault, Quote};
+use crate::mesh::error::{MeshFault, Quote, element_name};
 use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufRead;
 use std::str::FromStr;
 
-/// What a model part of the package holds.
+/// The content of a model file.
 #[derive(Debug, Default)]
 pub(super) struct Model {
     pub(super) unit: Option<Unit>,
@@ -24,7 +24,7 @@ pub(super) struct Model {
 #[derive(Debug)]
 pub(super) struct ModelObject {
     pub(super) id: u32,
-    /// Its name or, without one, its part number.
+    /// The name or, without one, the part number.
     pub(super) name: Option<String>,
     pub(super) shape: Shape,
 }
@@ -34,21 +34,21 @@ pub(super) struct ModelObject {
 pub(super) enum Shape {
     Mesh(Polygons),
     Components(Vec<Use>),
-    /// What an extension says, by the name of its element.
+    /// A shape of an extension, by its element name.
     Foreign(String),
 }
 
-/// The use of an object by a component or an item.
+/// A reference to an object by a component or an item.
 #[derive(Debug)]
 pub(super) struct Use {
     pub(super) object: u32,
     pub(super) map: AffineMap,
-    /// The model that the object is in; none for the same one.
+    /// The path of the object's model; `None` for the same model.
     pub(super) path: Option<String>,
     pub(super) part_number: Option<String>,
 }
 
-/// The ends of the names of extensions that leave shapes as they are.
+/// Suffixes of the namespaces of extensions that do not change shapes.
 const HARMLESS: [&str; 4] = [
     "/production/2015/06",
     "/material/2015/02",
@@ -56,7 +56,7 @@ const HARMLESS: [&str; 4] = [
     "/trianglesets/2021/07",
 ];
 
-/// The elements that matter; all others are passed over with what they hold.
+/// The relevant elements; all others are skipped with their content.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Tag {
     Model,
@@ -94,17 +94,14 @@ pub(super) fn read<R: BufRead>(xml: &mut Xml<R>) -> Result<Model, MeshFault> {
     }
 }
 
-/// The name of an object in messages.
+/// Returns the name of an object for messages.
 pub(super) fn place(path: Option<&str>, id: u32, name: Option<&str>) -> String {
     let path = path.map_or_else(String::new, |path| format!("{:?}: ", Quote(path)));
-    match name {
-        Some(name) => format!("{path}object {id} {:?}", Quote(name)),
-        None => format!("{path}object {id}"),
-    }
+    path + &element_name("object", id, name)
 }
 
 impl Model {
-    /// The models that this one refers to, each once.
+    /// Returns the paths of the models that this one refers to.
     pub(super) fn paths(&self) -> BTreeSet<String> {
         let components = self
             .objects
@@ -117,7 +114,7 @@ impl Model {
         uses.filter_map(|used| used.path.clone()).collect()
     }
 
-    /// Names the object that a fault is in.
+    /// Adds the current object to a fault.
     fn at(&self, open: &[Tag], fault: MeshFault) -> MeshFault {
         match self.objects.last() {
             Some(object) if open.get(2) == Some(&Tag::Object) => {
@@ -127,7 +124,7 @@ impl Model {
         }
     }
 
-    /// Takes up the start of an element within another one.
+    /// Processes the start of an element within another one.
     fn start(&mut self, within: Option<Tag>, element: &Element<'_>) -> Result<Tag, MeshFault> {
         if element.origin() == Origin::Extension {
             return Ok(self.extension(within, element.name()));
@@ -148,7 +145,7 @@ impl Model {
             (Some(Tag::Vertices), "vertex") => self.add_vertex(element),
             (Some(Tag::Triangles), "triangle") => self.add_triangle(element),
             (Some(Tag::Components), "component") => self.add_component(element),
-            // Some files leave the namespaces of extensions out.
+            // Some files omit the namespaces of extensions.
             (within, name) => Ok(self.extension(within, name)),
         }
     }
@@ -187,7 +184,7 @@ impl Model {
         Ok(Tag::Object)
     }
 
-    /// Takes up the element that says which shape an object has.
+    /// Processes the element that defines an object's shape.
     fn shape_of(&mut self, name: &str) -> Result<Tag, MeshFault> {
         let Some(object) = self.objects.last_mut() else {
             return Ok(Tag::Other);
@@ -208,8 +205,8 @@ impl Model {
         Ok(tag)
     }
 
-    /// Takes up an element of an extension: it may be the shape of an object, or make a mesh more than its triangles.
-    /// What else extensions say is passed over, with a remark where it is in a mesh.
+    /// Processes an element of an extension: it may be an object's shape, or add a beam lattice to a mesh. Others are
+    /// skipped, with a remark within a mesh.
     fn extension(&mut self, within: Option<Tag>, name: &str) -> Tag {
         let of_shape = matches!(within, Some(Tag::Mesh | Tag::Vertices | Tag::Triangles));
         if of_shape && name != "trianglesets" {
@@ -265,13 +262,13 @@ impl Model {
         Ok(Tag::Other)
     }
 
-    /// Checks the corners of a mesh that is complete: a file may name vertices before they come.
+    /// Checks the corners of a complete mesh: triangles may precede vertices.
     fn check_mesh(&mut self) -> Result<(), MeshFault> {
         self.mesh().map_or(Ok(()), |mesh| mesh.check_corners())
     }
 
     fn add_component(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        let used = Use::of(element, "a component")?;
+        let used = Use::read(element, "a component")?;
         if let Some(ModelObject {
             shape: Shape::Components(components),
             ..
@@ -283,13 +280,13 @@ impl Model {
     }
 
     fn add_item(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        self.items.push(Use::of(element, "an item")?);
+        self.items.push(Use::read(element, "an item")?);
         Ok(Tag::Other)
     }
 }
 
 impl Use {
-    fn of(element: &Element<'_>, what: &str) -> Result<Self, MeshFault> {
+    fn read(element: &Element<'_>, what: &str) -> Result<Self, MeshFault> {
         let names = ["objectid", "transform", ":path", "partnumber"];
         let [object, transform, path, part_number] = element.values(names)?;
         let map = transform.map(|transform| transform::parse(&transform));

@@ -1,4 +1,4 @@
-//! The zip of a 3MF, and the relationships of its parts.
+//! The zip archive of a 3MF, and its relationships.
 
 use super::model::{self, Model};
 use super::xml::{Step, Xml};
@@ -9,7 +9,7 @@ use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceAr
 use std::collections::BTreeMap;
 use std::io::{self, BufReader, Read};
 
-/// An open package. It unpacks no more bytes than a file of its size may have.
+/// An open package with a limit on unpacked bytes.
 pub(super) struct Package<'a> {
     archive: ZipSliceArchive<&'a [u8]>,
     entries: BTreeMap<String, Entry>,
@@ -19,19 +19,19 @@ pub(super) struct Package<'a> {
 
 #[derive(Clone, Copy)]
 struct Entry {
-    way: ZipArchiveEntryWayfinder,
+    wayfinder: ZipArchiveEntryWayfinder,
     method: CompressionMethod,
     encrypted: bool,
 }
 
-/// Where the first model is named, and where it usually is.
+/// The file that names the root model, and the usual path of the model.
 const RELATIONSHIPS: &str = "_rels/.rels";
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
-/// The end of the type of the relationship to it.
+/// The suffix of the relationship type of the root model.
 const MODEL_TYPE: &str = "/3dmodel";
 
-/// The unpacked bytes that are held at a time.
+/// The buffer size for unpacking, in bytes.
 const BUFFER: usize = 1 << 16;
 
 impl<'a> Package<'a> {
@@ -42,7 +42,7 @@ impl<'a> Package<'a> {
         while let Some(record) = records.next_entry().map_err(|error| unzip(&error))? {
             let path = String::from_utf8_lossy(record.file_path().as_ref()).into_owned();
             entries.entry(normalized(&path)).or_insert(Entry {
-                way: record.wayfinder(),
+                wayfinder: record.wayfinder(),
                 method: record.compression_method(),
                 encrypted: record.flags().is_encrypted(),
             });
@@ -56,12 +56,12 @@ impl<'a> Package<'a> {
         })
     }
 
-    /// The number of bytes that were unpacked so far.
+    /// Returns the number of bytes unpacked so far.
     pub(super) fn unpacked(&self) -> u64 {
         self.limit - self.left
     }
 
-    /// The path of the first model.
+    /// Returns the path of the root model.
     pub(super) fn first_model(&mut self) -> Result<String, MeshFault> {
         if !self.entries.contains_key(RELATIONSHIPS) {
             return if self.entries.contains_key(&normalized(USUAL_MODEL)) {
@@ -127,7 +127,7 @@ impl<'a> Package<'a> {
     }
 }
 
-/// The content of an entry, unpacked as it is read, and checked at its end.
+/// The content of an entry: unpacked on reading, with its checksum verified at the end.
 struct Unpacking<'a> {
     content: Box<dyn Read + 'a>,
     left: &'a mut u64,
@@ -147,7 +147,7 @@ impl<'a> Unpacking<'a> {
             });
         }
         let found = archive
-            .get_entry(entry.way)
+            .get_entry(entry.wayfinder)
             .map_err(|error| unzip(&error))?;
         let content: Box<dyn Read + 'a> = match entry.method {
             CompressionMethod::STORE => Box::new(found.verifying_reader(found.data())),
@@ -185,7 +185,7 @@ impl Read for Unpacking<'_> {
     }
 }
 
-/// A path as it is compared: names of parts are equal in capitals and not.
+/// Normalizes a path for comparison: part names are case-insensitive.
 pub(super) fn normalized(path: &str) -> String {
     path.trim_start_matches('/').to_lowercase()
 }

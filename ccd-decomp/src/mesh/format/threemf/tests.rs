@@ -1,4 +1,4 @@
-//! What a 3MF may hold, and that it is read as the specification says. What it must not hold is in `faults`.
+//! Valid 3MF files are read as specified. Invalid files are in `faults`.
 
 mod faults;
 
@@ -29,7 +29,7 @@ fn read(bytes: &[u8]) -> TriangleMesh {
 
 fn error(bytes: &[u8]) -> MeshError {
     let read = TriangleMesh::from_reader(Format::ThreeMf, bytes);
-    // The mesh itself may be too long to be shown.
+    // The mesh may be too long to print.
     match read {
         Ok(_) => panic!("it has no fault"),
         Err(error) => error,
@@ -69,7 +69,7 @@ fn the_unit_is_stated(#[case] attribute: &str, #[case] unit: Unit, #[case] milli
     assert_eq!(mesh.vertices()[1], dvec3(millimetres, 0.0, 0.0));
 }
 
-/// The unit applies after the transforms, whose translations are in it too.
+/// The unit also applies to the translations of transforms.
 #[test]
 fn translations_are_in_the_unit() {
     let item = r#"<item objectid="1" transform="1 0 0 0 1 0 0 0 1 3 0 0"/>"#;
@@ -131,7 +131,7 @@ fn parts_have_the_names_of_objects_or_their_part_numbers() {
     assert_eq!(names, [Some("a < b"), Some("8"), Some("Z"), None]);
 }
 
-/// Objects that no item uses are not made.
+/// Unused objects are skipped.
 #[test]
 fn only_the_build_is_read() {
     let beams = r#"<object id="3"><mesh><vertices/><triangles/><b:beamlattice/></mesh></object>"#;
@@ -140,7 +140,7 @@ fn only_the_build_is_read() {
     assert_eq!(mesh.faces().len(), 4);
 }
 
-/// The production extension: objects in models of their own, here with other capitals and a path from the root.
+/// The production extension: objects in separate models, here with other capitals and an absolute path.
 #[test]
 fn models_of_the_package_are_read() {
     let parts = model(
@@ -167,7 +167,7 @@ fn models_of_the_package_are_read() {
     assert_eq!(file.part("deep").unwrap().vertices(), points());
 }
 
-/// Vertices after the triangles, blanks, comments, and what other namespaces add.
+/// Vertices after triangles, whitespace, comments, and elements of other namespaces.
 #[test]
 fn the_order_and_other_elements_do_not_matter() {
     let model = model(
@@ -188,7 +188,7 @@ fn the_order_and_other_elements_do_not_matter() {
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
 }
 
-/// Elements of extensions that a reader need not know, under the names of the core's.
+/// Elements of optional extensions with the names of core elements.
 #[test]
 fn elements_of_other_namespaces_are_passed_over() {
     let model = model(
@@ -214,7 +214,7 @@ fn a_package_without_relationships_has_the_usual_model() {
         };
         assert_eq!(read(&zip(&[entry])).faces().len(), 4);
     }
-    // Another place needs to be named.
+    // A model at another path must be named.
     let bytes = package(&[("elsewhere.model", &model)]);
     assert_eq!(read(&bytes).faces().len(), 4);
 }

@@ -1,4 +1,4 @@
-//! XML, element by element.
+//! A reader of XML elements.
 
 use crate::mesh::error::{MeshFault, Quote};
 use quick_xml::XmlVersion;
@@ -8,7 +8,7 @@ use quick_xml::reader::NsReader;
 use std::borrow::Cow;
 use std::io::BufRead;
 
-/// A text that is read one element after the other. What is between them is passed over.
+/// A reader of XML elements. Text between them is skipped.
 pub(super) struct Xml<R> {
     reader: NsReader<R>,
     buffer: Vec<u8>,
@@ -17,10 +17,10 @@ pub(super) struct Xml<R> {
     own: Option<Namespace>,
 }
 
-/// A namespace; none is that of names without any.
+/// A namespace; `None` for names without one.
 type Namespace = Option<String>;
 
-/// The next thing of a text.
+/// The next event of the reader.
 pub(super) enum Step<'a> {
     /// An element begins.
     Start(Element<'a>),
@@ -38,12 +38,12 @@ pub(super) struct Element<'a> {
     origin: Origin,
 }
 
-/// Where the name of an element comes from.
+/// The origin of an element's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// The namespace of the outermost element.
     Own,
-    /// Another one: an extension.
+    /// Another namespace: an extension.
     Extension,
 }
 
@@ -52,7 +52,7 @@ impl<R: BufRead> Xml<R> {
         let mut reader = NsReader::from_reader(reader);
         let config = reader.config_mut();
         config.expand_empty_elements = true;
-        // Texts are passed over, and so is what is wrong with them.
+        // Texts are skipped, with their faults.
         config.allow_dangling_amp = true;
         Xml {
             reader,
@@ -101,17 +101,17 @@ impl<R: BufRead> Xml<R> {
 }
 
 impl<'a> Element<'a> {
-    /// The name without prefix.
+    /// Returns the name without prefix.
     pub(super) fn name(&self) -> &str {
         self.start.local_name().into_inner()
     }
 
-    /// Where the name comes from.
+    /// Returns the origin of the name.
     pub(super) fn origin(&self) -> Origin {
         self.origin
     }
 
-    /// The values of some attributes: of those without prefix or, for a name that begins with a colon, with any.
+    /// Returns the values of some attributes: without a prefix or, if the name begins with a colon, with any prefix.
     pub(super) fn values<const N: usize>(
         &self,
         names: [&str; N],

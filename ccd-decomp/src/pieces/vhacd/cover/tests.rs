@@ -1,8 +1,7 @@
 use super::*;
 use ccd_core::glam::dvec3;
 
-/// Points on the edges of triangles near and far, at random, and one amid each: of each edge two are left, and
-/// a removed point is between them.
+/// Random points on the edges of triangles: two of each edge are kept, and a removed point is between them.
 #[test]
 fn only_the_ends_of_edges_are_kept() {
     let mut seed = 1_u32;

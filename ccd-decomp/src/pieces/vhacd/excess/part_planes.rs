@@ -1,13 +1,10 @@
-//! The planes of a part, which bound it in the search.
+//! The facet planes of a part.
 
 use super::super::part::Part;
 use super::super::target::Target;
 use crate::bounds::Bounds;
 use crate::tolerance::WELL_SHAPED;
-use crate::work::Work;
-use ccd_core::SupportTree;
 use ccd_core::glam::DVec3;
-use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
 /// A part and the planes of its facets.
@@ -28,30 +25,29 @@ pub(super) struct Plane {
     pub(super) height: f64,
 }
 
-/// The position of a box that may meet a part, relative to the part's planes.
+/// The position of a box relative to a part's planes.
 pub(super) struct Meeting {
-    /// True if the centre is in the part.
+    /// Whether the centre is in the part.
     pub(super) has_centre: bool,
-    /// The planes that the box is not all behind, by number.
+    /// The numbers of the planes that the box is not entirely behind.
     pub(super) planes: Vec<u32>,
 }
 
 impl<'a> PartPlanes<'a> {
-    pub(super) fn of(part: &'a Part, target: &Target<'_>) -> Self {
+    pub(super) fn new(part: &'a Part, target: &Target<'_>) -> Self {
         PartPlanes {
             part,
             planes: part
                 .facets
                 .iter()
-                .filter_map(|facet| Plane::of(part, facet))
+                .filter_map(|facet| Plane::of_facet(part, facet))
                 .collect(),
-            bounds: Bounds::of(part.corners.iter().copied()),
+            bounds: Bounds::enclosing(part.corners.iter().copied()),
             slack: target.slack(),
         }
     }
 
-    /// Tests a box with some planes: those that a larger box is not all behind. None if the box does not meet the
-    /// part.
+    /// Tests a box against the planes `among`. Returns `None` if the box does not meet the part.
     pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
         let mut meeting = Meeting {
             has_centre: !self.planes.is_empty(),
@@ -74,58 +70,13 @@ impl<'a> PartPlanes<'a> {
         }
         Some(meeting)
     }
-
-    /// Bounds the excess of a part that hardly any of the surface reaches into; none if the bound would exceed
-    /// `most`.
-    ///
-    /// Shrink the part towards a point of the solid until each triangle of the surface is in front of one of its
-    /// planes. The shrunk part contains no surface, so that all of it is in the solid. The part may stick out by
-    /// the amount of the shrinking.
-    ///
-    /// # Complexity
-    /// O(log f) for each triangle near the part, of f facets.
-    pub(super) fn excess_by_shrinking(&self, target: &Target<'_>, most: f64) -> Option<f64> {
-        let count = self.part.corners.len() as f64;
-        let centre = self.part.corners.iter().sum::<DVec3>() / count;
-        let depths = self.planes.iter().map(|plane| plane.above(centre));
-        let depths: Vec<f64> = depths.map(|above| self.slack - above).collect();
-        let is_inside = depths.iter().all(|&depth| depth > 2.0 * self.slack);
-        if depths.is_empty() || !is_inside || !target.winds_about(centre, &Work::unbounded()) {
-            return None;
-        }
-        let far = self.part.corners.iter().map(|p| p.distance(centre));
-        let reach = far.fold(0.0, greater) + self.slack;
-        // In units of the centre's depth, a point is farthest out of the plane whose dual is extremal towards it.
-        let duals = self.planes.iter().zip(&depths);
-        let duals: Vec<DVec3> = duals.map(|(plane, depth)| plane.normal / *depth).collect();
-        let farthest = SupportTree::new(&duals);
-        let share_before = |triangle: [DVec3; 3], towards: DVec3| {
-            let k = farthest.extremal(towards - centre) as usize;
-            let out = triangle.map(|p| self.planes[k].normal.dot(p - centre) - self.slack);
-            out.into_iter().fold(f64::INFINITY, lesser) / depths[k]
-        };
-        let enough = 1.0 - most / reach;
-        let mut share = 1.0_f64;
-        let near = target
-            .triangles()
-            .filter(|&t| Bounds::of(t).meets(&self.bounds));
-        for triangle in near {
-            let [p, q, r] = triangle;
-            let towards = [(p + q + r) / 3.0, p, q, r].into_iter();
-            let of_this = towards
-                .map(|towards| share_before(triangle, towards))
-                .find(|&share| share >= enough)?;
-            share = lesser(share, of_this);
-        }
-        Some((1.0 - share) * reach)
-    }
 }
 
 impl Plane {
-    /// Computes the plane of a facet; none if the facet is not well shaped.
-    fn of(part: &Part, facet: &[u32]) -> Option<Self> {
+    /// Computes the plane of a facet; `None` if the facet is not well shaped.
+    fn of_facet(part: &Part, facet: &[u32]) -> Option<Self> {
         let at = |k: usize| part.corners[facet[k] as usize];
-        // The corner triangle of the largest area.
+        // The triangle of the fan with the largest area.
         let last = facet.len() - 1;
         let sides = (1..last).map(|k| (at(k) - at(0), at(k + 1) - at(0)));
         let area = |(u, v): &(DVec3, DVec3)| u.cross(*v).length_squared();
@@ -139,7 +90,7 @@ impl Plane {
         })
     }
 
-    /// The signed distance of a point in front of the plane.
+    /// Returns the signed distance of a point from the plane, positive in front.
     pub(super) fn above(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.height
     }

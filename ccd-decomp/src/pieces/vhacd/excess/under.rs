@@ -1,4 +1,4 @@
-//! A bound for parts above a nearly flat piece of the surface.
+//! A bound for parts above a nearly flat surface.
 
 use super::super::target::Target;
 use super::super::voxels::cut_to_box;
@@ -9,13 +9,11 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
-/// Bounds the distance to the solid of a part's points in a box, by the surface about the box; none where this
-/// proves nothing.
+/// Bounds the distance from the solid to a part within a box, by the surface near the box; `None` if that fails.
 ///
-/// Grow the box to three times its size, and measure heights along the mean normal of the surface in it. The
-/// points of the large box below all of that surface form a convex set without any surface, which is in the solid
-/// if one of its points is. A point of the small box gets there by sinking to that height, if it stays in the
-/// large box.
+/// Heights are measured along the mean normal of the surface in a box three times as large. The points of the large box
+/// below that surface are a convex set without surface, which is in the solid if one point is. The bound is how far a
+/// point of the small box sinks to get there, if it stays in the large box.
 pub(super) fn excess(
     target: &Target<'_>,
     planes: impl Iterator<Item = Plane>,
@@ -46,8 +44,8 @@ pub(super) fn excess(
     stays.then_some(sinks + target.slack())
 }
 
-/// Bounds the height of a part's points in a box, by each of some planes that the part is behind: the upward
-/// direction is a multiple of the plane's normal, and a rest.
+/// Returns an upper bound of the height of a part within a box, by planes that the part is behind: the upward direction
+/// is split into a multiple of each normal and a rest.
 fn highest(
     planes: impl Iterator<Item = Plane>,
     up: DVec3,

@@ -38,7 +38,7 @@ fn removed_points_are_no_corners() {
         kept[kind as usize] += fewer.len();
         all[kind as usize] += points.len();
     }
-    // Hardly any of a sphere are within; most are of the others.
+    // Hardly any points of a sphere are inner; most of the others are.
     assert!(
         2 * kept[0] < all[0] && 2 * kept[1] < all[1],
         "{kept:?} of {all:?}"

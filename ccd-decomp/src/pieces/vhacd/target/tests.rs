@@ -1,4 +1,4 @@
-//! Distances to a triangle against fractions, in the worst cases that a search finds.
+//! Distances to a triangle against exact fractions, in the worst cases that a search finds.
 
 use super::Target;
 use crate::mesh::TriangleMesh;
@@ -57,16 +57,16 @@ fn worst_distance() {
     let found = Worst::of("NEAREST_SLACK", 6_000).search(|tape| {
         let (corners, point) = setting(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
-        let target = Target::of(&mesh, &Topology::of(&mesh));
+        let target = Target::new(&mesh, &Topology::of(&mesh));
         let (found, reached) = target.nearest(point, &Work::unbounded());
         let scale = exact(2f64.powi(400));
         let truth = (square(corners, point) * &scale).to_f64().value().sqrt() * 2f64.powi(-200);
-        // Inside, the lesser of the two counts as a depth; outside, the second as a distance.
+        // Inside, the lesser of the two is the depth; outside, the second is the distance.
         let error = greater(lesser(found, reached) - truth, truth - reached);
-        // Points that are asked for are in hulls of the mesh's points. A mesh that is one point has no hull.
+        // Query points are in hulls of the mesh's points. A mesh of one point has no hull.
         let near = truth <= 2.0 * target.reach() && target.reach() > 0.0;
         near.then(|| share(error, target.slack()))
     });
-    // The search has to find triangles that are just no needles.
+    // The search must find triangles that are barely not needles.
     found.is_within(1e8);
 }

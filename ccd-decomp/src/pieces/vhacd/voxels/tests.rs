@@ -1,4 +1,4 @@
-//! Cuts of an edge against fractions, in the worst cases that a search finds.
+//! Cuts of an edge against exact fractions, in the worst cases that a search finds.
 
 use super::cut_at;
 use crate::rational::{Exact3, exact};
@@ -15,13 +15,13 @@ fn edge(tape: &mut Tape) -> [DVec3; 2] {
     [(); 2].map(|()| (middle + DVec3::from(tape.vector(-8..=0)) * small) * scale)
 }
 
-/// The distance of a point from the line of an edge. Its square is a fraction; the root of it rounds once.
+/// The distance of a point from the line of an edge. The square is an exact fraction; the root is rounded once.
 fn off_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
     let [x, p, q] = [point, p, q].map(Exact3::of);
     let along = q.minus(&p);
     let across = x.minus(&p).cross(&along);
     let square = across.dot(&across) / along.dot(&along);
-    // Scaled, because squares of small lengths are smaller than any number.
+    // Scaled, because squares of small lengths underflow.
     let scale = exact(2f64.powi(500));
     let root = (square * &scale).to_f64().value().sqrt();
     root * 2f64.powi(-250)
@@ -45,7 +45,7 @@ fn largest(of: [DVec3; 2]) -> f64 {
     greater(of[0].abs().max_element(), of[1].abs().max_element())
 }
 
-/// A third of it is the most by which one cut moves a point.
+/// One cut moves a point by at most a third of it.
 #[test]
 fn worst_cut() {
     let found = Worst::of("on_edge / 3, one cut", 20_000).search(|tape| {

@@ -45,7 +45,7 @@ fn whoever_meets_is_reported() {
         let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
-        let Some(plates) = Plates::of(&manifold) else {
+        let Some(plates) = Plates::find(&manifold) else {
             continue;
         };
         let faces = mesh.faces().len() as u32;
@@ -85,7 +85,7 @@ fn whoever_meets_is_reported() {
 fn a_comb_is_next_to_its_plates() {
     let mesh = comb(&[5.0; 40]);
     let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
-    let plates = Plates::of(&manifold).unwrap();
+    let plates = Plates::find(&manifold).unwrap();
     assert_eq!(plates.plates.len(), 2);
     assert!(plates.plates.iter().all(|plate| plate.faces.len() == 80));
     for face in 0..mesh.faces().len() as u32 {

@@ -22,7 +22,8 @@ fn area(nodes: &[Node]) -> f64 {
         .sum()
 }
 
-/// Checks that every node but the root has one parent, and every box is that of the two below. Returns the pieces.
+/// Checks that every node except the root has one parent, and every box is the union of its children's. Returns the
+/// pieces.
 fn check(nodes: &[Node]) -> Vec<u32> {
     let mut pieces = Vec::new();
     let mut stack = vec![0];

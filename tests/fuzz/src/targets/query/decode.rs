@@ -6,7 +6,7 @@ use crate::case::{Case, Expect, Form, Shape};
 use crate::course::{Course, Goal, RawPose};
 use crate::engine::{Kind, Method};
 use crate::vector::Vector;
-use ccd_core::{Config, StartPolicy};
+use ccd_core::{Settings, StartPolicy};
 
 /// The most iterations of a query, so that thousands of queries are asked in a minute.
 const BUDGET: u64 = 20_000;
@@ -62,7 +62,7 @@ pub(super) fn question(bytes: &[u8]) -> Question {
     }
 }
 
-fn config(source: &mut Source<'_>, flags: u8) -> Config {
+fn config(source: &mut Source<'_>, flags: u8) -> Settings {
     let tolerance = if flags & TOLERANCE > 0 {
         source.number().abs()
     } else {
@@ -74,7 +74,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Config {
     } else {
         BUDGET
     };
-    Config {
+    Settings {
         tolerance,
         margin: margin.abs(),
         budget,
@@ -83,7 +83,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Config {
         } else {
             StartPolicy::Report
         },
-        ..Config::default()
+        ..Settings::DEFAULT
     }
 }
 

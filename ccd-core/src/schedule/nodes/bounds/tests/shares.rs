@@ -2,9 +2,9 @@
 
 use super::{Found, Sample, clocks};
 use crate::body::tree::LANES;
-use crate::config::Instructions;
 use crate::math::order::greater;
 use crate::schedule::nodes::shape::{Children, OtherNode};
+use crate::settings::Instructions;
 use crate::tests::worst::share;
 use crate::tolerance::{ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_BEND_F32};
 

@@ -3,11 +3,11 @@
 use super::setting::{Setting, Shape};
 use super::{Sample, find, widest};
 use crate::body::tree::LANES;
-use crate::config::Instructions;
 use crate::math::order::greater;
 use crate::schedule::nodes::bounds::{Bounds, bound};
 use crate::schedule::nodes::eight_pairs::Larger;
 use crate::schedule::nodes::shape::{Children, OtherNode};
+use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::tolerance::{LOOK_AGAIN, MUCH_LARGER, SWEPT, THICKNESS};
 use crate::vectorize;

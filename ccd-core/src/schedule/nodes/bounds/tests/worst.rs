@@ -7,10 +7,10 @@ use super::setting::{Setting, Shape};
 use super::shares::{Shares, share_of_clock};
 use super::{Found, Sample, clocks};
 use crate::body::tree::LANES;
-use crate::config::Instructions;
 use crate::math::order::greater;
 use crate::schedule::nodes::lanes::Vec3x8;
 use crate::schedule::nodes::shape::{Children, OtherNode};
+use crate::settings::Instructions;
 use crate::tests::scene::{RngExt, direction, magnitude};
 use crate::tests::worst::{Tape, Worst, share};
 use crate::tolerance::{

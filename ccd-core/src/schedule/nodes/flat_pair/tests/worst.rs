@@ -1,10 +1,10 @@
 //! The reach of a flat node against that of all that is between its planes and in its ball.
 
 use super::super::Flat;
-use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
+use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, direction, rotation};
 use crate::tests::worst::{Worst, share};
@@ -19,7 +19,8 @@ fn worst_reach() {
     let flat = body(&[triangle(0), triangle(1)]);
     let found = Worst::of("RATE_F64, the reach of flat nodes", 20_000).search(|tape| {
         let still = Motion::still(Pose::new(DVec3::ZERO, rotation(tape)).ok()?);
-        let problem = Problem::new((&flat, still), (&flat, still), 1.0, &Config::default()).ok()?;
+        let problem =
+            Problem::about((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT).ok()?;
         let node = Flat::new(&problem.a, 0, 0.0)?;
         let n = (node.normal + direction(tape) * tape.size(-30..=4)).normalize();
         let [exact, normal] = [n, node.normal].map(Double3::from);

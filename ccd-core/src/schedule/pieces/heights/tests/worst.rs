@@ -6,13 +6,13 @@
 use super::super::{Heights, Point};
 use crate::body::Body;
 use crate::body::polytope::Polytope;
-use crate::config::Config;
 use crate::math::order::greater;
 use crate::math::vector::{distance, length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
 use crate::motion::track::{Angle, Spinning};
 use crate::problem::Problem;
+use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
@@ -51,7 +51,7 @@ fn share_of_rates(tape: &mut Tape) -> Option<f64> {
     let body = body(&[[(); 3].map(|()| DVec3::from(tape.vector(-20..=4)))]);
     let (motion, ball) = (motion(tape)?, Body::ball(0.1).ok()?);
     let still = Motion::still(Pose::IDENTITY);
-    let problem = Problem::new((&body, motion), (&ball, still), 1.0, &Config::default()).ok()?;
+    let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (side, normal) = (&problem.a, unit(tape.vector(-40..=0).into())?);
     let [clock, tau] = [0; 2].map(|_| tape.fraction());
     let turning = Turning {
@@ -97,7 +97,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.fraction());
     let ball = Body::ball(0.1).ok()?;
     let still = Motion::still(Pose::IDENTITY);
-    let alone = Problem::new((&ball, motion), (&ball, still), 1.0, &Config::default()).ok()?;
+    let alone = Problem::about((&ball, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let path = alone.a.path;
     let clock = tape.fraction();
     let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
@@ -131,7 +131,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
         ..Polytope::default()
     };
     let body = Body::polytope(polytope).ok()?;
-    let problem = Problem::new((&body, motion), (&ball, still), 1.0, &Config::default()).ok()?;
+    let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (piece, side) = (body.piece(0), &problem.a);
     let turning = Turning {
         frame,

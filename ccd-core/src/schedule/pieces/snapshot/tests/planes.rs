@@ -4,10 +4,10 @@ use super::super::*;
 use crate::body::Body;
 #[cfg(feature = "hull-tree")]
 use crate::body::polytope::Polytope;
-use crate::config::Config;
 use crate::distance::oracle::{Claim, Effort, GiveUp};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::settings::Settings;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{
     Kind, Pcg64, RngExt, body, direction, magnitude, rng, rotation, scene, within,
@@ -130,7 +130,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
         let pose = Pose::new(place, rotation(&mut rng)).unwrap();
         let motion = Motion::new(pose, within(&mut rng, 2.0) - place, DVec3::ZERO).unwrap();
         let sides = ((&bar, motion), (&ball, Motion::STILL));
-        let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+        let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let mut meter = Meter::new(&problem);
         let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
@@ -157,7 +157,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         // A follows B, almost as fast.
         let chased = velocity * rng.random_range(1.0..1.1);
         let sides = ((&a, moving(away, chased)), (&b, moving(-away, velocity)));
-        let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+        let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let rate = -away.dot(chased - velocity);
         let slack = 0.1 * rate;
@@ -329,7 +329,7 @@ fn depth_is_measured_between_the_middles_of_many_points() {
         let (a, b) = (cloud(1.0), cloud(0.5));
         let motion = Motion::still(Pose::new(within(&mut rng, 2.5), rotation(&mut rng)).unwrap());
         let sides = ((&a, motion), (&b, Motion::STILL));
-        let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+        let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let pair = &snapshot.pieces;
         let [(from, large), (to, small)] = [pair.a.ball().unwrap(), pair.b.ball().unwrap()];

@@ -2,10 +2,10 @@
 
 use super::super::*;
 use crate::body::{Body, Volume};
-use crate::config::Config;
 use crate::distance::separation::sharp::sharpened;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::settings::Settings;
 use crate::tests::meshes::{cube, moved};
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::Exhaustive;
@@ -82,7 +82,7 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
         (&a.body, Motion::still(pose)),
         (&b.body, Motion::new(tilted, velocity, DVec3::ZERO).unwrap()),
     );
-    let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+    let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
     let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
     let mut meter = Meter::new(&problem);
     let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();

@@ -4,12 +4,12 @@
 //! everything from there on exactly: what rounds before is the rounding of distances, which counts apart.
 
 use super::super::{SweepingPiece, Turned};
-use crate::config::Config;
 use crate::math::vector::unit;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::schedule::pieces::snapshot::Snapshot;
+use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
@@ -94,7 +94,7 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     let bodies = triangles.map(|triangle| body(&[triangle]));
     let motions = [motion(tape)?, motion(tape)?];
     let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
-    let problem = Problem::new(a, b, 1.0, &Config::default()).ok()?;
+    let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).ok()?;
     let snapshot = Snapshot::new(&problem, 0, 0, tape.fraction());
     let [own, other] = snapshot.members();
     let normal = unit(tape.vector(-40..=0).into())?;

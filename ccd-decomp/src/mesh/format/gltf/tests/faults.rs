@@ -6,7 +6,7 @@ use crate::{Format, MeshFault, TriangleMesh};
 use rstest::rstest;
 use serde_json::{Value, json};
 
-/// A triangle with some part of the JSON replaced, by its path.
+/// A triangle with the JSON value at a path replaced.
 fn with(path: &str, value: Value) -> Gltf {
     let mut gltf = Gltf::triangle();
     gltf.json["buffers"] = json!([{"byteLength": 36}]);
@@ -221,7 +221,7 @@ fn nodes_form_a_tree(#[case] nodes: Value) {
     assert!(message.contains("is below"), "{message}");
 }
 
-/// A chain of nodes as long as a file may have is no deep call.
+/// A long chain of nodes does not recurse.
 #[test]
 fn nodes_may_be_deep() {
     let count = 200_000;
@@ -231,7 +231,7 @@ fn nodes_may_be_deep() {
     assert_eq!(read(&gltf).vertices()[0].x, 1.0);
 }
 
-/// What is passed over may be as deep as it likes.
+/// Skipped JSON may be arbitrarily deep.
 #[test]
 fn deep_json_is_no_deep_call() {
     let deep = |count| format!("{}{}", "[".repeat(count), "]".repeat(count));
@@ -263,7 +263,7 @@ fn zeros_are_limited() {
     );
 }
 
-/// Few bytes that name the same mesh many times take little memory, or are refused.
+/// Small files that repeat a mesh many times take little memory, or are refused.
 #[test]
 fn instances_are_limited() {
     const MANY: usize = 10_000;
@@ -277,12 +277,12 @@ fn instances_are_limited() {
         .set("scenes", json!([{"nodes": tops}]));
     let error = error(&gltf);
     assert!(matches!(error.fault, MeshFault::Repeats { .. }), "{error}");
-    // One part of it can be had.
+    // A single part can be read.
     let file = super::file(&gltf);
     assert_eq!(file.part("9999").unwrap().vertices().len(), 9999);
     let parts = file.into_parts().map_err(|error| error.fault);
     assert!(matches!(parts, Err(MeshFault::Repeats { .. })));
-    // So are meshes that read the same bytes again and again.
+    // Meshes that read the same bytes repeatedly are refused, too.
     let mut gltf = Gltf::new();
     gltf.floats(&vec![[1.0; 3]; 9999]);
     let meshes = vec![json!({"primitives": [{"attributes": {"POSITION": 0}}]}); MANY];
@@ -317,7 +317,7 @@ fn a_container_is_whole() {
         changed(0, b'G')
             .contains("its JSON is not that of a glTF: expected value at line 1 column 1")
     );
-    // What is after the announced length is none of the file.
+    // Bytes after the announced length are ignored.
     let longer = [&whole[..], b"anything"].concat();
     assert!(TriangleMesh::from_reader(Format::Gltf, &longer[..]).is_ok());
     assert!(message(b"").contains("has no vertices"));

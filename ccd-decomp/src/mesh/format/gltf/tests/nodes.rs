@@ -72,7 +72,7 @@ fn nodes_are_placed_in_those_above_them() {
     );
 }
 
-/// A node that mirrors turns the triangles round, one that mirrors twice does not.
+/// A mirroring node reverses the triangles; one that mirrors twice does not.
 #[test]
 fn mirrored_nodes_turn_the_faces_round() {
     let mut gltf = Gltf::triangle();
@@ -149,7 +149,7 @@ fn what_is_scaled_to_nothing_is_hidden() {
         json!([{"mesh": 0, "children": [1]}, {"scale": [0, 0, 0], "children": [2]}, {"mesh": 0}]),
     );
     assert_eq!(file(&gltf).part_names().count(), 1);
-    // What is scaled flat is not.
+    // A node scaled to zero along one axis is read.
     gltf.json["nodes"][1]["scale"] = json!([1, 1, 0]);
     assert_eq!(file(&gltf).part_names().count(), 2);
 }

@@ -53,7 +53,7 @@ fn points_and_lines_are_passed_over() {
         "{}",
         error(&gltf)
     );
-    // So is what has no positions at all.
+    // Primitives without positions are skipped, too.
     gltf.primitive(json!({"attributes": {"TEXCOORD_0": 7}}));
     let indices = gltf.indices(&[0, 1, 2]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
@@ -111,7 +111,7 @@ fn vertices_may_be_interleaved_with_other_data() {
     assert_eq!(read(&gltf).vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
 }
 
-/// Integers stand for themselves or, normalized, for fractions of the largest one.
+/// Integers are coordinates or, normalized, fractions of the largest value.
 #[rstest]
 #[case::bytes(5120, false, &[1, 0x80, 0], dvec3(1.0, -128.0, 0.0))]
 #[case::fractions_of_bytes(5120, true, &[127, 0x80, 0x81], dvec3(1.0, -1.0, -1.0))]

@@ -120,7 +120,7 @@ fn bad_input_is_named(#[case] good_part: &str, #[case] bad_part: &str, #[case] e
     assert!(text.contains(good_part));
     let bytes = one(&text.replace(good_part, bad_part));
     match expected {
-        // It makes no difference.
+        // Case does not matter.
         "" => assert!(file(&bytes).into_mesh().is_ok()),
         _ => {
             let message = error(&bytes).to_string();
@@ -187,7 +187,7 @@ fn components_that_multiply_are_refused() {
     assert!(matches!(error.fault, MeshFault::Repeats { .. }), "{error}");
 }
 
-/// A chain of components as long as a file may have is no deep call.
+/// A long chain of components does not recurse.
 #[test]
 fn components_may_be_deep() {
     let mut objects = tetrahedron(r#"id="1""#);
@@ -229,7 +229,7 @@ fn models_of_the_package_must_be_there_and_agree() {
         message.contains("the model \"/3D/b.model\" in another unit than mm"),
         "{message}"
     );
-    // Models that hold each other are no circle as long as their objects are none.
+    // Models may refer to each other if their objects form no cycle.
     let back = model("", far.replace("b.model", "a.model").as_str(), "");
     let bytes = package(&[("3D/a.model", &root), ("3D/b.model", &back)]);
     let message = error(&bytes).to_string();
@@ -288,7 +288,7 @@ fn other_compressions_are_refused() {
     }
 }
 
-/// A hundred million blanks are packed into a hundred thousand bytes.
+/// A hundred million spaces are packed into a hundred thousand bytes.
 #[test]
 fn a_bomb_is_refused() {
     let text = good().replace(

@@ -4,7 +4,7 @@ use crate::worst::{Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// The error of the normal of a facet that is just wide enough, as a share of the error of distances.
+/// The error of the normal of the thinnest accepted facet, as a share of the error of distances.
 #[test]
 fn worst_normal() {
     let found = Worst::of("WELL_SHAPED, a normal", 20_000).search(|tape| {
@@ -15,12 +15,12 @@ fn worst_normal() {
         let [a, b, c] = corners.map(|p| p + far);
         let (u, v) = (b - a, c - a);
         let across = u.cross(v);
-        // As a plane is accepted.
+        // The condition for accepting a plane.
         let good = across.length() > WELL_SHAPED * u.length() * v.length();
         let found = unit(across).filter(|_| good)?;
         let [a, b, c] = [a, b, c].map(Exact3::of);
         let exact = b.minus(&a).cross(&c.minus(&a));
-        // Rounded once: far below what is looked for.
+        // The rounding here is far below the tested error.
         let exact = exact.0.map(|x| x.to_f64().value());
         let exact = unit(DVec3::from_array(exact))?;
         Some(share(exact.distance(found), NEAREST_SLACK))

@@ -1,0 +1,88 @@
+//! Tests `ccd-bench judge` on the kept failures of other methods: their verdicts are as recorded, and the default
+//! answers every one of them right.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Folder, method, tolerance, and the verdict that is recorded in `failures/README.md`.
+const FAILURES: [(&str, &str, &str, &str); 11] = [
+    (
+        "fast-vmarch-published-late",
+        "fast vmarch published",
+        "1e-6",
+        "late",
+    ),
+    (
+        "discrete-stepping-late",
+        "discrete stepping",
+        "1e-2",
+        "late",
+    ),
+    ("parry-f64-late", "parry-f64", "1e-3", "missed"),
+    ("parry-f64-early", "parry-f64", "1e-6", "false"),
+    ("parry-f32-late", "parry-f32", "1e-3", "missed"),
+    ("parry-f32-early", "parry-f32", "1e-6", "early"),
+    ("parry-sweep-f64-early", "parry-sweep-f64", "1e-3", "false"),
+    ("parry-sweep-f32-late", "parry-sweep-f32", "1e-6", "missed"),
+    ("parry-sweep-f32-early", "parry-sweep-f32", "1e-6", "false"),
+    ("rapier-step-f64-late", "rapier-step-f64", "1e-6", "missed"),
+    ("rapier-step-f64-early", "rapier-step-f64", "1e-6", "false"),
+];
+
+/// The failures of methods that run in Python: only the default is asked about them here.
+const OF_PYTHON: [(&str, &str); 5] = [
+    ("coal-steps-late", "1e-2"),
+    ("fcl-ca-late", "1e-3"),
+    ("fcl-ca-early", "1e-6"),
+    ("fcl-naive-late", "1e-3"),
+    ("fcl-naive-early", "1e-6"),
+];
+
+/// Returns the verdict on a method's answer.
+fn verdict(folder: &str, method: &str, tolerance: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("failures")
+        .join(folder);
+    let output = Command::new(crate::PROGRAM)
+        .args(["judge", "--method", method, "--tolerance", tolerance])
+        .args(["--patience", "60"])
+        .arg("--a")
+        .arg(folder.join("a.obj"))
+        .arg("--b")
+        .arg(folder.join("b.obj"))
+        .arg("--motions")
+        .arg(folder.join("motions.csv"))
+        .output()
+        .unwrap();
+    let table = String::from_utf8(output.stdout).unwrap();
+    let mut lines = table.lines();
+    assert_eq!(
+        lines.next(),
+        Some("id,status,lo,hi,verdict,answer,time"),
+        "{folder:?}: {output:?}",
+        output = output.stderr
+    );
+    lines.next().unwrap().split(',').nth(4).unwrap().to_owned()
+}
+
+#[test]
+fn kept_failures_are_still_failures_and_the_default_is_right() {
+    let of_rust = FAILURES.map(|(folder, _, tolerance, _)| (folder, tolerance));
+    for (folder, tolerance) in of_rust.into_iter().chain(OF_PYTHON) {
+        assert_eq!(
+            verdict(folder, "best-first direct", tolerance),
+            "right",
+            "{folder}"
+        );
+    }
+    for (folder, method, tolerance, recorded) in FAILURES {
+        assert_eq!(verdict(folder, method, tolerance), recorded, "{folder}");
+    }
+}
+
+#[test]
+fn every_kept_failure_is_asked() {
+    let kept = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("failures")).unwrap();
+    let folders = kept.filter(|entry| entry.as_ref().unwrap().path().is_dir());
+    assert_eq!(folders.count(), FAILURES.len() + OF_PYTHON.len());
+}

@@ -1,0 +1,376 @@
+//! The answer to a query, whatever it asks.
+
+mod contact;
+mod stats;
+mod unresolved;
+
+use crate::body::excess::Excess;
+use crate::math::order::greater;
+use glam::DVec3;
+
+pub use contact::{Contact, Overlap, Separation};
+pub use stats::Stats;
+pub use unresolved::{Limit, Unresolved};
+
+/// An outcome with its accuracy and its cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// The tolerance of the answer. It is the requested one, unless only a larger one can be
+    /// certified at the coordinates of the scene, or the bodies were [let
+    /// go](crate::StartPolicy::Leave) with a smaller one. For bounds of a distance it is at least their
+    /// width, which includes the [excess](crate::Body::with_excess) of the bodies.
+    pub tolerance: f64,
+    /// The cost.
+    pub stats: Stats,
+}
+
+/// The outcome of a query.
+///
+/// | question | outcomes |
+/// |---|---|
+/// | first contact | free, contact, touching, overlapping, unresolved |
+/// | any contact | free, contact, overlapping, unresolved |
+/// | contact interval | free, interval, unresolved |
+/// | closest approach, distance | measured, overlapping, unresolved; with a required [clearance](crate::Settings::clearance) also free and contact |
+/// | greatest distance | measured, unresolved |
+///
+/// # Guarantee
+/// All times and bounds hold in floating point: nothing touches before a first contact. Contacts and their distances are
+/// those of the bodies, also of bodies that [exceed](crate::Body::with_excess) their shapes: the shapes touch no earlier,
+/// and may be farther apart by the excess of both. Bounds of a distance that is asked for hold for the shapes: the excess
+/// is added to the upper bounds, those of contacts included.
+///
+/// ```
+/// use ccd_core::Outcome;
+/// /// The part of a motion that is safe to make.
+/// fn safe_share(outcome: &Outcome, duration: f64) -> f64 {
+///     match *outcome {
+///         Outcome::Free { .. } => 1.0,
+///         Outcome::Contact { time, .. } => time / duration,
+///         Outcome::Unresolved(known) => known.safe_until / duration,
+///         _ => 0.0,
+///     }
+/// }
+/// assert_eq!(safe_share(&Outcome::Free { proven_gap: 0.1 }, 2.0), 1.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The bodies stay apart over the whole duration.
+    Free {
+        /// A lower bound of the distance at all times: half the tolerance beyond the margin, however far apart the
+        /// bodies are; less, down to 0, where a contact at the start was [let go](crate::StartPolicy::Leave). With a
+        /// required [clearance](crate::Settings::clearance), at least that.
+        proven_gap: f64,
+    },
+    /// The bodies are in contact at `time`: within margin + tolerance, or nearer than a required
+    /// [clearance](crate::Settings::clearance). A first contact has none before it.
+    Contact {
+        /// The time, in the motions' unit.
+        time: f64,
+        /// The separation at that time: `lower` and `upper` bound the distance of the bodies.
+        contact: Contact,
+    },
+    /// The bodies are within margin + tolerance at the start, without overlapping.
+    Touching {
+        /// The separation at the start: `lower` and `upper` bound the distance of the bodies.
+        contact: Contact,
+    },
+    /// The bodies overlap at the start.
+    Overlapping {
+        /// The proof.
+        overlap: Overlap,
+        /// An upper bound of the distance at the start: 0, or the [excess](crate::Body::with_excess) of both bodies if
+        /// the distance was asked for.
+        upper: f64,
+    },
+    /// The bodies are in contact at the first time and at the last. They do not touch before or after, and may part in
+    /// between.
+    Interval {
+        /// The first contact.
+        first: Hit,
+        /// The last contact.
+        last: Hit,
+    },
+    /// The distance that was asked for is between two bounds.
+    Measured {
+        /// A lower bound of the least distance, or of the greatest one.
+        lower: f64,
+        /// An upper bound of the same distance.
+        upper: f64,
+        /// The time at which the bodies were measured to get one of the bounds (the upper bound of the least distance, the
+        /// lower bound of the greatest one), and the nearest pieces at that time. `None` if they overlap whenever
+        /// they are measured.
+        at: Option<(f64, Contact)>,
+    },
+    /// A limit was reached before an answer.
+    Unresolved(Unresolved),
+}
+
+/// A contact at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The time, in the motions' unit. Nothing touches before a first contact, except for contacts at the start that
+    /// [`StartPolicy::Leave`](crate::StartPolicy::Leave) ignores.
+    pub time: f64,
+    /// What touches.
+    pub kind: HitKind,
+}
+
+/// The kind of a contact, with the pieces that show it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HitKind {
+    /// The bodies come within margin + tolerance.
+    Contact(Contact),
+    /// The bodies are within margin + tolerance at the start, without overlapping.
+    Touching(Contact),
+    /// The bodies overlap at the start, or in a last contact at the end. A body inside a convex piece, such as a box,
+    /// counts as [`Overlap::Pieces`].
+    Overlapping(Overlap),
+}
+
+/// The comparison of the least distance of two bodies to a required one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clearance {
+    /// The bodies are certainly never nearer.
+    Kept,
+    /// The bodies are certainly nearer at some time.
+    Violated,
+    /// The bounds of the least distance are too far apart to decide.
+    Unverified,
+}
+
+impl Answer {
+    /// Returns the first contact; `None` if the bodies stay apart.
+    ///
+    /// # Errors
+    /// [`Unresolved`] if a limit was reached first.
+    pub fn hit(&self) -> Result<Option<Hit>, Unresolved> {
+        self.outcome.hit()
+    }
+
+    /// Returns the answer for the shapes, given one for the bodies. Called once for each question about a distance.
+    pub(crate) fn of_shapes(self, excess: Excess) -> Self {
+        let outcome = self.outcome.of_shapes(excess);
+        Answer {
+            outcome,
+            tolerance: greater(self.tolerance, outcome.width()),
+            ..self
+        }
+    }
+}
+
+impl Outcome {
+    /// Returns the first contact; `None` if the bodies stay apart.
+    ///
+    /// # Errors
+    /// [`Unresolved`] if a limit was reached first.
+    pub fn hit(&self) -> Result<Option<Hit>, Unresolved> {
+        let at = |time, kind| Ok(Some(Hit { time, kind }));
+        match *self {
+            Outcome::Free { .. } => Ok(None),
+            Outcome::Contact { time, contact } => at(time, HitKind::Contact(contact)),
+            Outcome::Touching { contact } => at(0.0, HitKind::Touching(contact)),
+            Outcome::Overlapping { overlap, .. } => at(0.0, HitKind::Overlapping(overlap)),
+            Outcome::Interval { first, .. } => Ok(Some(first)),
+            // Bodies that may touch count as in contact.
+            Outcome::Measured {
+                lower, at: nearest, ..
+            } => match nearest {
+                Some((time, contact)) if !(lower > 0.0) => at(time, HitKind::Contact(contact)),
+                _ => Ok(None),
+            },
+            Outcome::Unresolved(known) => Err(known),
+        }
+    }
+
+    /// A lower bound of the distance that was asked for; for questions about contacts, of the distance at all times. 0 if
+    /// no better one is known.
+    pub fn lower(&self) -> f64 {
+        match *self {
+            Outcome::Free { proven_gap } => proven_gap,
+            Outcome::Measured { lower, .. } => lower,
+            Outcome::Unresolved(known) => known.lower,
+            Outcome::Contact { .. }
+            | Outcome::Touching { .. }
+            | Outcome::Overlapping { .. }
+            | Outcome::Interval { .. } => 0.0,
+        }
+    }
+
+    /// An upper bound of the distance that was asked for; for questions about contacts, of the least distance. Infinite if
+    /// none is known.
+    pub fn upper(&self) -> f64 {
+        match *self {
+            Outcome::Free { .. } => f64::INFINITY,
+            Outcome::Contact { contact, .. } | Outcome::Touching { contact } => {
+                contact.separation.upper
+            }
+            Outcome::Overlapping { upper, .. } | Outcome::Measured { upper, .. } => upper,
+            Outcome::Interval { first, .. } => first
+                .contact()
+                .map_or(0.0, |contact| contact.separation.upper),
+            Outcome::Unresolved(known) => known.upper,
+        }
+    }
+
+    /// The time of the contact, or of the distance that was measured, in the motions' unit; `None` if there is neither.
+    pub fn time(&self) -> Option<f64> {
+        match *self {
+            Outcome::Contact { time, .. } => Some(time),
+            Outcome::Touching { .. } | Outcome::Overlapping { .. } => Some(0.0),
+            Outcome::Interval { first, .. } => Some(first.time),
+            Outcome::Free { .. } | Outcome::Measured { .. } | Outcome::Unresolved(_) => {
+                self.nearest().map(|(time, _)| time)
+            }
+        }
+    }
+
+    /// The pieces in contact, or those that were measured, and their time.
+    pub fn nearest(&self) -> Option<(f64, Contact)> {
+        match *self {
+            Outcome::Contact { time, contact } => Some((time, contact)),
+            Outcome::Touching { contact } => Some((0.0, contact)),
+            Outcome::Interval { first, .. } => first.contact().map(|contact| (first.time, contact)),
+            Outcome::Measured { at, .. } => at,
+            Outcome::Unresolved(known) => known.at,
+            Outcome::Free { .. } | Outcome::Overlapping { .. } => None,
+        }
+    }
+
+    /// The limit that ended the query, if one did.
+    pub fn limit(&self) -> Option<Limit> {
+        match self {
+            Outcome::Unresolved(known) => Some(known.limit),
+            _ => None,
+        }
+    }
+
+    /// Compares the least distance to a required one.
+    ///
+    /// Bodies that may touch keep no clearance, not even one of 0.
+    pub fn clearance(&self, required: f64) -> Clearance {
+        let (lower, upper) = (self.lower(), self.upper());
+        if lower >= required && lower > 0.0 {
+            Clearance::Kept
+        } else if upper < required || upper <= 0.0 {
+            Clearance::Violated
+        } else {
+            Clearance::Unverified
+        }
+    }
+
+    /// Returns the outcome for two bodies that overlap at the start.
+    pub(crate) fn overlapping(overlap: Overlap) -> Self {
+        Outcome::Overlapping {
+            overlap,
+            upper: 0.0,
+        }
+    }
+
+    /// Returns the outcome of a question about contacts that a limit ended.
+    pub(crate) fn unresolved(safe_until: f64, limit: Limit) -> Self {
+        Outcome::Unresolved(Unresolved::until(safe_until, limit))
+    }
+
+    /// The width of the bounds that were measured; 0 without any.
+    pub(crate) fn width(&self) -> f64 {
+        match *self {
+            Outcome::Measured { lower, upper, .. } => upper - lower,
+            _ => 0.0,
+        }
+    }
+
+    /// Returns the outcome of a question about the least distance that was measured at a time.
+    pub(crate) fn least(lower: f64, time: f64, contact: Contact) -> Self {
+        Outcome::Measured {
+            lower,
+            upper: contact.separation.upper,
+            at: Some((time, contact)),
+        }
+    }
+
+    /// Returns the outcome with each contact replaced, and the upper bounds of the least distance taken from these;
+    /// `map` takes a contact and its time. It is not for the greatest distance.
+    pub(crate) fn map_contacts(self, mut map: impl FnMut(Contact, f64) -> Contact) -> Self {
+        match self {
+            Outcome::Contact { time, contact } => Outcome::Contact {
+                time,
+                contact: map(contact, time),
+            },
+            Outcome::Touching { contact } => Outcome::Touching {
+                contact: map(contact, 0.0),
+            },
+            Outcome::Overlapping {
+                overlap: Overlap::Pieces(contact),
+                upper,
+            } => Outcome::Overlapping {
+                overlap: Overlap::Pieces(map(contact, 0.0)),
+                upper,
+            },
+            Outcome::Measured {
+                lower,
+                at: Some((time, contact)),
+                ..
+            } => Outcome::least(lower, time, map(contact, time)),
+            Outcome::Unresolved(known) => Outcome::Unresolved(
+                Unresolved {
+                    at: known.at.map(|(time, contact)| (time, map(contact, time))),
+                    ..known
+                }
+                .with_upper_of_contact(),
+            ),
+            // The contacts of an interval are those of two first contacts, which have been mapped.
+            Outcome::Free { .. }
+            | Outcome::Overlapping { .. }
+            | Outcome::Measured { .. }
+            | Outcome::Interval { .. } => self,
+        }
+    }
+
+    /// Returns the outcome for the shapes, given one for the bodies.
+    fn of_shapes(self, excess: Excess) -> Self {
+        match self.map_contacts(|contact, _| excess.of_shapes(contact)) {
+            Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
+                overlap,
+                upper: excess.of_overlap(),
+            },
+            outcome => outcome,
+        }
+    }
+}
+
+impl Hit {
+    /// Returns the pieces in contact, with the normal, the distance and the features; `None` if one body is inside the
+    /// other without two pieces that intersect.
+    pub fn contact(&self) -> Option<Contact> {
+        match self.kind {
+            HitKind::Contact(contact) | HitKind::Touching(contact) => Some(contact),
+            HitKind::Overlapping(overlap) => overlap.contact(),
+        }
+    }
+
+    /// Returns the point of A that is nearest to B, in world coordinates at the time.
+    pub fn witness_a(&self) -> DVec3 {
+        self.witnesses()[0]
+    }
+
+    /// Returns the point of B that is nearest to A, in world coordinates at the time.
+    pub fn witness_b(&self) -> DVec3 {
+        self.witnesses()[1]
+    }
+
+    /// Returns the nearest points of A and B. Both are one point of both bodies if one body is inside the other.
+    fn witnesses(&self) -> [DVec3; 2] {
+        match self.kind {
+            HitKind::Contact(contact)
+            | HitKind::Touching(contact)
+            | HitKind::Overlapping(Overlap::Pieces(contact)) => {
+                let separation = contact.separation;
+                [separation.witness_a, separation.witness_b]
+            }
+            HitKind::Overlapping(Overlap::AInsideB(point) | Overlap::BInsideA(point)) => [point; 2],
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Where two bodies touch: a checked pair of nearest points, or the proof of an overlap.
+
+use crate::body::feature::Feature;
+use crate::math::order::lesser;
+use glam::DVec3;
+
+/// A checked pair of nearest points, with the features that hold them.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, DVec3::X, DVec3::ZERO)?;
+/// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
+/// let answer = BestFirst::default().first_contact(&query, &mut Balls)?;
+/// let Outcome::Contact { contact, .. } = answer.outcome else { panic!("they meet") };
+/// // From A to B, with a point of either ball, which is one piece without vertices.
+/// assert_eq!(contact.separation.normal, DVec3::X);
+/// assert!(contact.separation.witness_b.distance(-0.5 * DVec3::X) < 1e-12);
+/// assert_eq!((contact.piece_a, contact.piece_b), (0, 0));
+/// # Ok::<(), InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The separation in world coordinates at the time reported.
+    pub separation: Separation,
+    /// The feature of body A at its witness point.
+    pub feature_a: Feature,
+    /// The feature of body B at its witness point.
+    pub feature_b: Feature,
+    /// The piece of body A, as an index into [`Body::pieces`](crate::Body::pieces).
+    pub piece_a: u32,
+    /// The piece of body B.
+    pub piece_b: u32,
+}
+
+impl Contact {
+    /// Returns the contact with a lower bound of at most `least`, which bounds a part of the
+    /// bodies.
+    pub(crate) fn no_nearer_than(self, least: f64) -> Self {
+        Contact {
+            separation: Separation {
+                lower: lesser(self.separation.lower, least),
+                ..self.separation
+            },
+            ..self
+        }
+    }
+}
+
+/// A checked claim: two pieces are at least `lower` and at most `upper` apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separation {
+    /// A lower bound of the distance: the support gap along `normal`, minus rounding. Negative if
+    /// no separating axis was found.
+    pub lower: f64,
+    /// An upper bound of the distance: that of the witnesses, plus rounding. In an answer about the
+    /// [least](crate::schedule::DepthFirst::closest_approach) or the
+    /// [greatest](crate::schedule::DepthFirst::greatest_distance)
+    /// distance, plus the excess of both bodies.
+    pub upper: f64,
+    /// Unit vector from A to B along which `lower` was checked.
+    pub normal: DVec3,
+    /// The witness point on A.
+    pub witness_a: DVec3,
+    /// The witness point on B.
+    pub witness_b: DVec3,
+}
+
+/// The proof of an overlap at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Overlap {
+    /// Two pieces intersect, and no axis separates them; the contact's witnesses are in both.
+    Pieces(Contact),
+    /// This point of body A, in world coordinates, is inside the solid body B.
+    AInsideB(DVec3),
+    /// This point of body B, in world coordinates, is inside the solid body A.
+    BInsideA(DVec3),
+}
+
+impl Overlap {
+    /// Returns the pieces that intersect; `None` if one body is inside the other.
+    pub fn contact(&self) -> Option<Contact> {
+        match *self {
+            Overlap::Pieces(contact) => Some(contact),
+            Overlap::AInsideB(_) | Overlap::BInsideA(_) => None,
+        }
+    }
+}

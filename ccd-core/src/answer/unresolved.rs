@@ -1,0 +1,130 @@
+//! What is known when a limit ends a query.
+
+use super::Contact;
+use std::fmt;
+
+/// What is known of a query that a limit ended.
+///
+/// It is also an error, for callers that need an answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unresolved {
+    /// The limit.
+    pub limit: Limit,
+    /// The bodies do not touch before this time, certified; 0 for questions about a distance.
+    pub safe_until: f64,
+    /// The bodies do not touch after this time, certified; infinite unless the last contact was asked for.
+    pub safe_from: f64,
+    /// A lower bound of the distance that was asked for; 0 if none is proven.
+    pub lower: f64,
+    /// An upper bound of the distance that was asked for; infinite if none is known.
+    pub upper: f64,
+    /// The time of the least or greatest distance that was measured, and the nearest pieces at that time. `None` if none
+    /// was measured.
+    pub at: Option<(f64, Contact)>,
+}
+
+impl Unresolved {
+    /// Returns what is known of a question about contacts.
+    pub fn until(safe_until: f64, limit: Limit) -> Self {
+        Unresolved {
+            limit,
+            safe_until,
+            safe_from: f64::INFINITY,
+            lower: 0.0,
+            upper: f64::INFINITY,
+            at: None,
+        }
+    }
+
+    /// Returns what is known of the least distance: a lower bound, and the nearest pieces that were measured.
+    pub(crate) fn least(lower: f64, at: Option<(f64, Contact)>, limit: Limit) -> Self {
+        Unresolved {
+            lower,
+            at,
+            ..Unresolved::until(0.0, limit)
+        }
+        .with_upper_of_contact()
+    }
+
+    /// Returns the same with the upper bound of the least distance that was measured.
+    pub(super) fn with_upper_of_contact(self) -> Self {
+        let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
+        Unresolved {
+            upper: self.at.map_or(f64::INFINITY, upper),
+            ..self
+        }
+    }
+}
+
+impl fmt::Display for Unresolved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Unresolved {
+            limit, safe_until, ..
+        } = self;
+        write!(
+            f,
+            "unresolved ({limit}): no contact before time {safe_until}, not known after; {}",
+            limit.advice()
+        )
+    }
+}
+
+impl std::error::Error for Unresolved {}
+
+/// The limit that ended a query early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// The [budget](crate::Settings::budget) was spent.
+    Budget,
+    /// The [deadline](crate::Settings::deadline) was passed.
+    Deadline,
+    /// The caller [stopped](crate::Settings::stop) the query.
+    Stopped,
+    /// A pair's proof could not be prolonged: the next step is below the time's resolution.
+    Stalled,
+    /// The oracle gave up on a pair, and no other oracle was available.
+    OracleGaveUp,
+    /// Bodies that touch at the start, or one of which may be inside the other, are too near to
+    /// each other to decide whether they overlap.
+    Undecided,
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Limit::Budget => "budget",
+            Limit::Deadline => "deadline",
+            Limit::Stopped => "stopped",
+            Limit::Stalled => "stalled",
+            Limit::OracleGaveUp => "oracle gave up",
+            Limit::Undecided => "undecided",
+        })
+    }
+}
+
+impl Limit {
+    /// Says what ended a query, and what to do about it.
+    ///
+    /// ```
+    /// assert!(ccd_core::Limit::Budget.advice().starts_with("the budget is spent"));
+    /// ```
+    pub fn advice(self) -> &'static str {
+        match self {
+            Limit::Budget => {
+                "the budget is spent: a larger tolerance, or is_free with a margin, often decides at once; a larger \
+                 budget takes longer"
+            }
+            Limit::Deadline => {
+                "the deadline has passed: a larger tolerance, or is_free with a margin, often decides at once; a \
+                 later deadline takes longer"
+            }
+            Limit::Stopped => "the query was stopped",
+            Limit::Stalled => "no further step can be certified: a larger tolerance may help",
+            Limit::OracleGaveUp => "the distance backend gave up: try another one",
+            Limit::Undecided => {
+                "the bodies are too close at the start to decide whether they overlap: move one of them a little"
+            }
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! A query: two moving bodies, a duration, and settings.
+
+use crate::body::Body;
+use crate::body::excess::Excess;
+use crate::contacts::{ContactsError, FeaturePair};
+use crate::error::{InputError, check};
+use crate::limits::MAX_DURATION;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::motion::trajectory::{Stretch, Trajectory};
+use crate::problem::Problem;
+use crate::settings::{Settings, Terms};
+use std::fmt;
+use std::time::Duration;
+
+/// A body and what moves it.
+///
+/// ```
+/// use ccd_core::{Body, Motion, Moving};
+/// let ball = Body::ball(0.5)?;
+/// let resting: Moving = (&ball, Motion::STILL).into();
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'a> {
+    /// The body.
+    pub body: &'a Body,
+    /// What moves it.
+    pub movement: Movement<'a>,
+}
+
+/// What moves a body.
+#[derive(Clone, Copy)]
+pub enum Movement<'a> {
+    /// Constant velocities.
+    Motion(Motion),
+    /// Anything else.
+    Trajectory(&'a dyn Trajectory),
+}
+
+impl<'a> From<(&'a Body, Motion)> for Moving<'a> {
+    fn from((body, motion): (&'a Body, Motion)) -> Self {
+        Moving {
+            body,
+            movement: Movement::Motion(motion),
+        }
+    }
+}
+
+impl<'a> From<(&'a Body, Pose)> for Moving<'a> {
+    fn from((body, pose): (&'a Body, Pose)) -> Self {
+        (body, Motion::still(pose)).into()
+    }
+}
+
+impl<'a, T: Trajectory> From<(&'a Body, &'a T)> for Moving<'a> {
+    fn from((body, trajectory): (&'a Body, &'a T)) -> Self {
+        (body, Movement::from(trajectory)).into()
+    }
+}
+
+impl<'a> From<(&'a Body, &'a dyn Trajectory)> for Moving<'a> {
+    fn from((body, trajectory): (&'a Body, &'a dyn Trajectory)) -> Self {
+        (body, Movement::from(trajectory)).into()
+    }
+}
+
+impl<'a> From<(&'a Body, Movement<'a>)> for Moving<'a> {
+    fn from((body, movement): (&'a Body, Movement<'a>)) -> Self {
+        Moving { body, movement }
+    }
+}
+
+impl From<Motion> for Movement<'_> {
+    fn from(motion: Motion) -> Self {
+        Movement::Motion(motion)
+    }
+}
+
+impl<'a, T: Trajectory> From<&'a T> for Movement<'a> {
+    fn from(trajectory: &'a T) -> Self {
+        (trajectory as &dyn Trajectory).into()
+    }
+}
+
+impl<'a> From<&'a dyn Trajectory> for Movement<'a> {
+    fn from(trajectory: &'a dyn Trajectory) -> Self {
+        match trajectory.as_motion() {
+            Some(motion) => Movement::Motion(motion),
+            None => Movement::Trajectory(trajectory),
+        }
+    }
+}
+
+impl Trajectory for Movement<'_> {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        match self {
+            Movement::Motion(motion) => motion.stretch(from, to),
+            Movement::Trajectory(trajectory) => trajectory.stretch(from, to),
+        }
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        match self {
+            Movement::Motion(motion) => Trajectory::corner(motion, from, to),
+            Movement::Trajectory(trajectory) => trajectory.corner(from, to),
+        }
+    }
+
+    fn as_motion(&self) -> Option<Motion> {
+        match self {
+            Movement::Motion(motion) => Some(*motion),
+            Movement::Trajectory(_) => None,
+        }
+    }
+
+    fn pose(&self, time: f64) -> Result<Pose, InputError> {
+        match self {
+            Movement::Motion(motion) => Ok(motion.pose(time)),
+            Movement::Trajectory(trajectory) => trajectory.pose(time),
+        }
+    }
+}
+
+impl fmt::Debug for Movement<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Movement::Motion(motion) => f.debug_tuple("Motion").field(motion).finish(),
+            Movement::Trajectory(_) => f.debug_tuple("Trajectory").finish_non_exhaustive(),
+        }
+    }
+}
+
+/// A valid query about two moving bodies over `[0, duration]`.
+///
+/// The same query serves every question: [schedules](crate::Schedule) find the first contact,
+/// [`BestFirst`](crate::schedule::BestFirst) and [`DepthFirst`](crate::schedule::DepthFirst) answer the others.
+///
+/// Between two [motions](Motion) it is answered at once. Along other [trajectories](Trajectory) it is answered
+/// stretch by stretch, and bodies in contact at the start are never [let go](crate::StartPolicy::Leave).
+///
+/// ```
+/// use ccd_core::{glam::DVec3, Body, Motion, Pose, Query, Settings};
+/// let cube = Body::cuboid([0.5, 0.5, 0.5])?;
+/// let above = Pose::at(DVec3::new(0.0, 0.0, 1e9))?;
+/// let falling = Motion::new(above, -1e9 * DVec3::Z, DVec3::X)?;
+/// let query = Query::new((&cube, falling), (&cube, Motion::STILL), 1.0, &Settings::DEFAULT)?;
+/// // At such coordinates no finer tolerance than this can be certified.
+/// assert!(query.tolerance() > 1e-6);
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Query<'a> {
+    pub(crate) a: Moving<'a>,
+    pub(crate) b: Moving<'a>,
+    pub(crate) duration: f64,
+    pub(crate) terms: Terms<'a>,
+    /// The problem, if both bodies move at constant velocities.
+    pub(crate) problem: Option<Problem<'a>>,
+}
+
+impl<'a> Query<'a> {
+    /// Poses a query about two bodies, each with its motion, its trajectory, or the pose at which it rests.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for
+    /// - a negative duration, margin or clearance, and a tolerance that is not positive;
+    /// - quantities that exceed [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE) or [`MAX_TURN`](crate::limits::MAX_TURN): tolerance and
+    ///   margin; for motions each body's coordinates of the position at the start and of the centre, its
+    ///   distance from B's position to the centre and on along its travel, and its turn;
+    /// - along trajectories, a duration above [`MAX_DURATION`].
+    pub fn new(
+        a: impl Into<Moving<'a>>,
+        b: impl Into<Moving<'a>>,
+        duration: f64,
+        settings: &'a Settings,
+    ) -> Result<Self, InputError> {
+        let (a, b, terms) = (a.into(), b.into(), settings.terms());
+        let problem = match (a.movement, b.movement) {
+            (Movement::Motion(of_a), Movement::Motion(of_b)) => {
+                let bodies = [(a.body, of_a), (b.body, of_b)];
+                Some(Problem::new(bodies, duration, &terms)?)
+            }
+            _ => {
+                terms.check(duration)?;
+                check(
+                    "duration",
+                    duration,
+                    duration <= MAX_DURATION,
+                    "at most 1e50 along trajectories",
+                )?;
+                None
+            }
+        };
+        Ok(Query {
+            a,
+            b,
+            duration,
+            terms,
+            problem,
+        })
+    }
+
+    /// Returns the query with another deadline, for callers that share the time among many.
+    #[must_use]
+    pub fn with_deadline(mut self, deadline: Option<Duration>) -> Self {
+        self.terms.deadline = deadline;
+        if let Some(problem) = &mut self.problem {
+            problem.deadline = deadline;
+        }
+        self
+    }
+
+    /// The tolerance of the answer: the requested one, or the least that can be certified in f64 at the coordinates of
+    /// the two motions. Along trajectories it may be larger.
+    pub fn tolerance(&self) -> f64 {
+        let problem = self.problem.as_ref();
+        problem.map_or(self.terms.tolerance, Problem::tolerance)
+    }
+
+    /// Returns all features that are in contact at a time, the contact manifold `[FAST06 §5.2]`.
+    ///
+    /// There are two kinds of pairs. Each pair is listed once, nearest first:
+    /// - a vertex and the nearest part of a face: usually the face's inside, at the vertex's foot,
+    ///   otherwise an edge or a vertex of the face. An edge or vertex is left out if a larger part
+    ///   with it on its boundary makes a pair with the same vertex at the same distance;
+    /// - two edges whose nearest points are inside of both. Edges that are parallel up to rounding
+    ///   do not cross: their ends make the pairs.
+    ///
+    /// The edge between two triangles that share its vertices and are in one plane, up to rounding,
+    /// is not part of the shape. It crosses nothing. A point on it belongs to the face of smaller
+    /// number, and is in a pair only if neither triangle comes nearer. A cube that lies flat on a
+    /// slab therefore has four pairs, however the faces are cut into triangles.
+    ///
+    /// Features have the same names as in answers. A feature without a number has the name of its
+    /// face or piece: all features of approximate hulls, and corners where the mesh has no vertex.
+    /// Such a pair of names may be listed more than once, for different places. The same mesh has
+    /// the same names in triangles, patches and hulls. Virtual facets make no pairs on pieces that
+    /// have faces of the mesh. A piece of more than three points without known facets has vertices
+    /// only.
+    ///
+    /// Distances are unsigned: for bodies that overlap at that time, these are the features whose
+    /// boundaries are near each other.
+    ///
+    /// # Guarantee
+    /// No pair within margin + tolerance is missed, and
+    /// [`Separation::lower`](crate::Separation::lower) of every pair is within that. Lower and
+    /// upper bound are those of the two features, rounding included. The same call gives the same
+    /// bits. Along trajectories the bodies are where [`Trajectory::pose`] places them, and what that strays is not included.
+    ///
+    /// # Errors
+    /// [`ContactsError`].
+    ///
+    /// # Complexity
+    /// Near-linear in the pairs of pieces and of faces whose boxes are within margin + tolerance,
+    /// and in all faces of these pieces. A descent over both bodies' trees finds the pieces.
+    /// Another one finds the faces, which are sorted once. The budget limits each of them.
+    ///
+    /// ```
+    /// use ccd_core::{glam::DVec3, Body, Pose, Query, Settings};
+    /// let (cube, slab) = (Body::cuboid(DVec3::splat(0.5))?, Body::cuboid(DVec3::new(2.0, 2.0, 1.0))?);
+    /// let place = Pose::at(DVec3::new(0.3, 0.2, 1.5005))?;
+    /// let query = Query::new((&cube, place), (&slab, Pose::IDENTITY), 1.0, &Settings::DEFAULT)?;
+    /// let contacts = query.contacts_at(0.0)?;
+    /// let names = contacts.iter().map(|pair| format!("{} {}", pair.feature_a, pair.feature_b));
+    /// let mut names: Vec<String> = names.collect();
+    /// names.sort();
+    /// assert_eq!(names, ["v0 f5", "v1 f5", "v2 f5", "v3 f5"]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn contacts_at(&self, time: f64) -> Result<Vec<FeaturePair>, ContactsError> {
+        // Written so that NaN is refused.
+        if !(0.0..=self.duration).contains(&time) {
+            let duration = self.duration;
+            return Err(ContactsError::NotInDuration { time, duration });
+        }
+        if let Some(problem) = &self.problem {
+            return problem.contacts_at(problem.clock(time));
+        }
+        let still = |moving: &Moving<'a>| {
+            let stretch = moving.movement.stretch(time, time)?;
+            Ok::<_, InputError>((moving.body, Motion::still(stretch.motion.start())))
+        };
+        let bodies = [still(&self.a)?, still(&self.b)?];
+        Problem::new(bodies, 0.0, &self.terms)?.contacts_at(0.0)
+    }
+
+    /// How far the bodies may exceed their shapes.
+    pub(crate) fn excess(&self) -> Excess {
+        Excess::of(self.a.body, self.b.body)
+    }
+}

@@ -1,0 +1,195 @@
+//! What is found of the closest approach along trajectories.
+
+use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::query::Query;
+use crate::schedule::along::leg::{Leg, Span};
+use crate::schedule::along::stretches::Stretches;
+use crate::schedule::closest_approach::ladder::{Ladder, Rung};
+use crate::schedule::out_of_reach::least_distance;
+use crate::settings::Terms;
+use crate::tolerance::LEAST_CUT;
+
+impl Query<'_> {
+    /// Returns the query that asks for distances: the margin plays no role.
+    pub(in crate::schedule::along) fn measuring(&self) -> Self {
+        Query {
+            terms: Terms {
+                margin: 0.0,
+                clearance: None,
+                ..self.terms
+            },
+            problem: None,
+            ..*self
+        }
+    }
+
+    /// Returns the query that asks for contacts with a margin and a tolerance, within a budget.
+    pub(super) fn asking(&self, rung: Rung) -> Self {
+        let Rung {
+            margin,
+            tolerance,
+            budget,
+        } = rung;
+        let mut asking = self.measuring();
+        asking.terms = Terms {
+            margin,
+            tolerance,
+            budget,
+            ..asking.terms
+        };
+        asking
+    }
+}
+
+/// What a stretch shows: bounds of the distance of its motions.
+pub(super) struct Seen {
+    pub(super) lower: f64,
+    pub(super) upper: f64,
+    /// By how much strays widen these bounds.
+    pub(super) blur: f64,
+    /// The time in the stretch at which they are nearest.
+    pub(super) time: f64,
+    /// The rate at which they approach then.
+    pub(super) approach: f64,
+}
+
+impl Seen {
+    /// Returns true if f64 does not certify the tolerance for the motions: then cutting does not help.
+    pub(super) fn is_loose(&self, tolerance: f64) -> bool {
+        let width = self.upper - self.lower;
+        width > tolerance && self.blur <= width
+    }
+
+    /// Returns the end of the leg beyond which they get nearer by more than they stray.
+    pub(super) fn falls_beyond(&self, leg: &Leg) -> Option<f64> {
+        let Span { from, to, .. } = leg.span;
+        let (near, falls) = (
+            LEAST_CUT * leg.span.length(),
+            self.approach * leg.span.length(),
+        );
+        let time = leg.time(self.time);
+        if time - from <= near && -falls > leg.stray {
+            Some(from)
+        } else if to - time <= near && falls > leg.stray {
+            Some(to)
+        } else {
+            None
+        }
+    }
+}
+
+/// The least distance found so far.
+pub(super) struct Found {
+    /// A lower bound on all stretches that are done.
+    pub(super) lower: f64,
+    pub(super) best: Option<(f64, Contact)>,
+    /// What is proven of all stretches.
+    pub(super) ladder: Ladder,
+}
+
+impl Found {
+    pub(super) fn upper(&self) -> f64 {
+        let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
+        self.best.map_or(f64::INFINITY, upper)
+    }
+
+    /// Takes what the motions of a leg show.
+    ///
+    /// # Errors
+    /// The limit that was reached.
+    pub(super) fn see(&mut self, leg: &Leg, outcome: &Outcome) -> Result<Seen, Limit> {
+        let mut seen = Seen {
+            lower: 0.0,
+            upper: 0.0,
+            blur: leg.stray,
+            time: 0.0,
+            approach: 0.0,
+        };
+        match *outcome {
+            Outcome::Measured {
+                lower,
+                at: Some((time, contact)),
+                ..
+            } => {
+                self.take(leg.time(time), leg.contact(contact));
+                seen.lower = lower;
+                seen.upper = contact.separation.upper;
+                seen.time = time;
+                seen.approach = leg.approach(time, &contact);
+            }
+            Outcome::Overlapping { overlap, .. } => {
+                if let Overlap::Pieces(contact) = overlap {
+                    self.take(leg.span.from, leg.contact(contact));
+                }
+            }
+            Outcome::Unresolved(known) => {
+                if let Some((time, contact)) = known.at {
+                    self.take(leg.time(time), leg.contact(contact));
+                }
+                return Err(known.limit);
+            }
+            _ => unreachable!("no outcome of a search for the least distance"),
+        }
+        Ok(seen)
+    }
+
+    pub(super) fn take(&mut self, time: f64, contact: Contact) {
+        if contact.separation.upper < self.upper() {
+            self.best = Some((time, contact));
+        }
+    }
+
+    pub(super) fn nearest(&self, query: &Query<'_>, stretches: &Stretches<'_, '_>) -> Answer {
+        let Some((time, contact)) = self.best else {
+            let reason = Limit::OracleGaveUp;
+            return self.answer(query, stretches, self.known(0.0, reason));
+        };
+        let lower = lesser(self.lower, contact.separation.upper);
+        let nearest = Outcome::least(lower, time, contact.no_nearer_than(lower));
+        self.answer(query, stretches, nearest)
+    }
+
+    /// Returns the answer when a limit is reached at a stretch. Those that wait, and this one, are apart as far as
+    /// balls about the bodies show.
+    pub(super) fn unresolved(
+        &self,
+        query: &Query<'_>,
+        stretches: &Stretches<'_, '_>,
+        span: Span,
+        reason: Limit,
+    ) -> Answer {
+        let apart = |&span: &Span| {
+            let leg = Leg::new(query, span)?;
+            let problem = leg.problem(query, &query.terms)?;
+            Ok(leg.at_least(least_distance(&problem)))
+        };
+        let spans = stretches.waiting().iter().chain([&span]);
+        // Written so that NaN is no bound.
+        let known = |apart: Result<f64, InputError>| apart.ok().filter(|&apart| apart > 0.0);
+        let apart = spans.map(|span| known(apart(span)).unwrap_or(0.0));
+        let lower = apart.fold(self.lower, lesser);
+        self.answer(query, stretches, self.known(lower, reason))
+    }
+
+    /// Returns what is known when a limit is reached; `lower` is proven of each stretch.
+    fn known(&self, lower: f64, limit: Limit) -> Outcome {
+        let lower = lesser(greater(self.ladder.lower, lower), self.upper());
+        let seen = |(time, contact): (f64, Contact)| (time, contact.no_nearer_than(lower));
+        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
+    }
+
+    pub(super) fn answer(
+        &self,
+        query: &Query<'_>,
+        stretches: &Stretches<'_, '_>,
+        outcome: Outcome,
+    ) -> Answer {
+        Answer {
+            tolerance: greater(query.terms.tolerance, outcome.width()),
+            outcome,
+            stats: stretches.stats,
+        }
+    }
+}

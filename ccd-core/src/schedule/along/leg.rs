@@ -1,0 +1,210 @@
+//! One stretch of both trajectories, as a problem about motions.
+
+use crate::answer::{Contact, Separation};
+use crate::error::InputError;
+use crate::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
+use crate::motion::trajectory::Stretch;
+use crate::motion::trajectory::Trajectory;
+use crate::problem::Problem;
+use crate::query::{Moving, Query};
+use crate::settings::{StartPolicy, Terms};
+use crate::tolerance::{BLURRED, STRAY_SHARE, STRETCH_F64, WORTH_A_CUT};
+use glam::DVec3;
+
+/// A stretch of time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// The part of the query, between two corners, that it is in.
+    pub(super) part: usize,
+}
+
+impl Span {
+    /// No time, at its beginning.
+    pub(super) fn start(self) -> Self {
+        Span {
+            to: self.from,
+            ..self
+        }
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// The time at which it is cut in halves.
+    pub(super) fn middle(&self) -> f64 {
+        self.from + 0.5 * self.length()
+    }
+}
+
+/// The motions of both bodies in a stretch of time, and how far the bodies stray from them.
+#[derive(Debug)]
+pub(super) struct Leg {
+    pub(super) motions: [Stretch; 2],
+    /// The sum of both strays.
+    pub(super) stray: f64,
+    pub(super) span: Span,
+}
+
+impl Leg {
+    pub(super) fn new(query: &Query<'_>, span: Span) -> Result<Self, InputError> {
+        let bodies = [&query.a, &query.b];
+        let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.to));
+        let motions = [a?, b?];
+        let stray = |k: usize| motions[k].stray.at(reach(bodies[k], &motions[k]));
+        Ok(Leg {
+            stray: sum(stray(0), stray(1)),
+            motions,
+            span,
+        })
+    }
+
+    /// Returns the motions without accelerations: what these add up to counts as a stray.
+    pub(super) fn straight(mut self) -> Self {
+        let time = self.span.length();
+        for stretch in &mut self.motions {
+            let far = 0.5 * (time * (time * length(stretch.acceleration)));
+            self.stray = sum(self.stray, far * (1.0 + STRETCH_F64));
+            stretch.acceleration = DVec3::ZERO;
+        }
+        self
+    }
+
+    /// Returns true if queries take the lengths by which the bodies stray and accelerate.
+    pub(super) fn is_in_range(&self, query: &Query<'_>) -> bool {
+        let time = self.span.length();
+        let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
+        let [a, b] = &self.motions;
+        let most = MAX_COORDINATE - query.terms.margin;
+        // Written so that NaN is too much.
+        self.stray >= 0.0 && self.stray <= most && far(a) <= most && far(b) <= most
+    }
+
+    /// Guesses the length of a stretch in which the bodies stray by that much: strays shrink with a power of it.
+    pub(super) fn length_for(&self, stray: f64) -> f64 {
+        self.span.length() * (stray / self.stray).powf(1.0 / self.order())
+    }
+
+    /// Guesses the length of a stretch in which the bodies stray by a share of what their distance changes by at a
+    /// rate.
+    pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
+        let whole = self.span.length();
+        whole * (STRAY_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
+    }
+
+    /// The power of the time with which strays grow.
+    fn order(&self) -> f64 {
+        let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
+        if self.motions.iter().any(accelerates) {
+            3.0
+        } else {
+            2.0
+        }
+    }
+
+    /// Returns true if a part of that length is much shorter.
+    pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
+        length < WORTH_A_CUT * self.span.length()
+    }
+
+    /// Returns the rate at which the bodies approach each other in a contact of the motions.
+    pub(super) fn approach(&self, time: f64, contact: &Contact) -> f64 {
+        let Separation {
+            witness_a,
+            witness_b,
+            normal,
+            ..
+        } = contact.separation;
+        let [a, b] = &self.motions;
+        normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
+    }
+
+    /// Poses the problem of the motions. Wherever the bodies stray, they keep the gap that a query about one motion
+    /// proves: half the tolerance beyond the margin.
+    pub(super) fn problem<'a>(
+        &self,
+        query: &Query<'a>,
+        terms: &Terms<'a>,
+    ) -> Result<Problem<'a>, InputError> {
+        let tolerance = self.tolerance(terms.tolerance);
+        // Both tolerances have the same middle, the gap that is proven.
+        let beyond = 0.5 * greater(terms.tolerance - tolerance, 0.0);
+        let terms = Terms {
+            margin: terms.margin + beyond + self.stray,
+            tolerance,
+            start: StartPolicy::Report,
+            ..*terms
+        };
+        let [a, b] = &self.motions;
+        Problem::accelerated(
+            [(query.a.body, a.motion), (query.b.body, b.motion)],
+            [a.acceleration, b.acceleration],
+            self.span.length(),
+            &terms,
+        )
+    }
+
+    /// Returns the tolerance for the motions: that for the bodies without the strays, which are lost twice on either
+    /// side of its middle, for the gap that the motions keep and for the contact that they show.
+    fn tolerance(&self, whole: f64) -> f64 {
+        // Written so that without strays it is the whole, to the last bit.
+        let left = whole - 4.0 * self.stray;
+        if self.stray == 0.0 || left >= (1.0 - 4.0 * STRAY_SHARE) * whole {
+            return left;
+        }
+        // Too little is left for a contact. Distances that strays blur need not be known better.
+        let least = greater((1.0 - 4.0 * STRAY_SHARE) * whole, BLURRED * self.stray);
+        greater(least, LEAST_TOLERANCE)
+    }
+
+    /// Returns what a distance of the motions says of the bodies where they stray.
+    pub(super) fn at_least(&self, distance: f64) -> f64 {
+        if self.stray > 0.0 {
+            (distance - self.stray).next_down()
+        } else {
+            distance
+        }
+    }
+
+    /// Returns a time of the query, rounded so that it is never late.
+    pub(super) fn time(&self, time: f64) -> f64 {
+        let Span { from, to, .. } = self.span;
+        if from > 0.0 {
+            lesser(greater(from, (from + time).next_down()), to)
+        } else {
+            time
+        }
+    }
+
+    /// Returns the contact with bounds that hold for the bodies where they stray.
+    pub(super) fn contact(&self, contact: Contact) -> Contact {
+        let Separation { lower, upper, .. } = contact.separation;
+        Contact {
+            separation: Separation {
+                lower: self.at_least(lower),
+                upper: sum(upper, self.stray),
+                ..contact.separation
+            },
+            ..contact
+        }
+    }
+}
+
+/// Bounds the distance of a body's points from the centre of a stretch's motion.
+fn reach(moving: &Moving<'_>, stretch: &Stretch) -> f64 {
+    let (centre, radius) = moving.body.tree().ball();
+    centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius
+}
+
+/// Returns a sum, rounded up; nothing added is exact.
+fn sum(a: f64, b: f64) -> f64 {
+    if b > 0.0 && a != 0.0 {
+        (a + b).next_up()
+    } else {
+        a + b
+    }
+}

@@ -1,0 +1,78 @@
+//! How long a stretch is worth a look: long enough to get somewhere, and so short that the bodies stray by less than
+//! their distance.
+
+use super::leg::Leg;
+use super::stretches::Stretches;
+use crate::answer::Contact;
+use crate::distance::oracle::DistanceOracle;
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::query::Query;
+use crate::schedule::memory::Kept;
+use crate::settings::Terms;
+use crate::tolerance::{COARSE, STRAY_SHARE};
+
+/// Cuts a stretch that looks too long before it is tried: where it meets a proven one, the bodies are measured.
+/// Returns false if it is worth a try.
+pub(super) fn cut_at_once<O: DistanceOracle>(
+    stretches: &mut Stretches<'_, '_>,
+    leg: &Leg,
+    oracle: &mut O,
+    kept: &mut Kept,
+) -> Result<bool, InputError> {
+    let Some(time) = stretches.looks_too_long(leg) else {
+        return Ok(false);
+    };
+    let Some((contact, approach)) = stretches.measure(time, oracle, kept)? else {
+        return Ok(false);
+    };
+    // Backwards in time, rates have the other sign.
+    let approach = if time > leg.span.from {
+        -approach
+    } else {
+        approach
+    };
+    let length = worthwhile(stretches.query(), leg, (contact, approach));
+    Ok(leg.is_worth_a_cut(length) && stretches.cut_about(leg.span, time, 2.0 * length))
+}
+
+/// Returns the length of a stretch worth a look after a contact of the motions at a time of a leg.
+pub(super) fn length<O: DistanceOracle>(
+    stretches: &mut Stretches<'_, '_>,
+    leg: &Leg,
+    (time, seen): (f64, Option<Contact>),
+    oracle: &mut O,
+    kept: &mut Kept,
+) -> Result<f64, InputError> {
+    let query = stretches.query();
+    let seen = match time > 0.0 {
+        true => seen.map(|contact| (contact, leg.approach(time, &contact))),
+        // Halves will do, mostly, and cost less.
+        false if leg.span.length() > COARSE * query.duration => return Ok(f64::INFINITY),
+        // The motions begin beside the bodies: how near these are is not seen.
+        false => stretches.measure(leg.span.from, oracle, kept)?,
+    };
+    Ok(match seen {
+        Some(seen) => worthwhile(query, leg, seen),
+        None => leg.length_for(STRAY_SHARE * query.terms.tolerance),
+    })
+}
+
+/// Returns the length of a stretch worth a look where the bodies are as near as a contact shows, and approach each
+/// other at a rate: they stray by a part of their distance, and get where they meet, or where they are nearest.
+///
+/// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
+/// and pass each other closely, they are nearest after about `2 d/r`.
+fn worthwhile(query: &Query<'_>, leg: &Leg, (contact, approach): (Contact, f64)) -> f64 {
+    let Terms {
+        margin, tolerance, ..
+    } = query.terms;
+    let gap = greater(contact.separation.upper - margin, tolerance);
+    let nearest = 2.0 * gap / approach;
+    // Written so that NaN is no time.
+    if nearest > 0.0 {
+        lesser(leg.length_for(STRAY_SHARE * gap), nearest)
+    } else {
+        leg.length_for((1.0 - STRAY_SHARE) * gap)
+    }
+}

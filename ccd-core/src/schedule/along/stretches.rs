@@ -1,0 +1,339 @@
+//! The stretches of time that are still to be examined, and the work left for them.
+
+use super::leg::{Leg, Span};
+use crate::answer::{Contact, Limit, Outcome, Stats};
+use crate::distance::oracle::DistanceOracle;
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::motion::trajectory::Trajectory;
+use crate::query::{Moving, Query};
+use crate::schedule::answer::metered;
+use crate::schedule::memory::Kept;
+use crate::schedule::start::at_start;
+use crate::settings::Terms;
+use crate::tolerance::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// The stretches that wait, the next one last, and the work so far.
+pub(super) struct Stretches<'j, 'a> {
+    query: &'j Query<'a>,
+    waiting: Vec<Span>,
+    pub(super) stats: Stats,
+    budgets: Budgets,
+    looked_at_start: bool,
+    /// The last stretch that was proven, and its strays.
+    proven: Option<(Span, f64)>,
+    /// None if there is no deadline; then no clock is read.
+    begun: Option<Instant>,
+}
+
+impl<'j, 'a> Stretches<'j, 'a> {
+    /// Starts with the whole duration.
+    pub(super) fn new(query: &'j Query<'a>) -> Self {
+        Stretches {
+            query,
+            waiting: vec![Span {
+                from: 0.0,
+                to: query.duration,
+                part: 0,
+            }],
+            stats: Stats::default(),
+            budgets: Budgets::default(),
+            looked_at_start: false,
+            proven: None,
+            begun: query.terms.deadline.map(|_| Instant::now()),
+        }
+    }
+
+    pub(super) fn query(&self) -> &'j Query<'a> {
+        self.query
+    }
+
+    pub(super) fn next(&mut self) -> Option<Span> {
+        self.waiting.pop()
+    }
+
+    /// Returns the stretches that wait.
+    pub(super) fn waiting(&self) -> &[Span] {
+        &self.waiting
+    }
+
+    /// Returns the first time of all stretches that wait; infinite if none does.
+    pub(super) fn first(&self) -> f64 {
+        let starts = self.waiting.iter().map(|span| span.from);
+        starts.fold(f64::INFINITY, lesser)
+    }
+
+    /// Returns the settings with what is left of budget and deadline.
+    pub(super) fn terms(&self) -> Result<Terms<'a>, Limit> {
+        let terms = &self.query.terms;
+        if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(Limit::Stopped);
+        }
+        let spent = self.budgets.spent(self.stats.work());
+        let budget = terms.budget.checked_sub(spent);
+        let deadline = match (terms.deadline, self.begun) {
+            (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
+                Some(left) => Some(left),
+                None => return Err(Limit::Deadline),
+            },
+            _ => None,
+        };
+        Ok(Terms {
+            budget: budget.filter(|&left| left > 0).ok_or(Limit::Budget)?,
+            deadline,
+            ..*terms
+        })
+    }
+
+    /// Adds the work on a stretch.
+    pub(super) fn add(&mut self, stats: &Stats) {
+        // A stretch is worth a visit, even if it takes none.
+        self.stats.iterations += 1;
+        self.stats.add(stats);
+    }
+
+    /// Adds work on the whole query, which no part has to pay for.
+    pub(super) fn add_for_no_part(&mut self, stats: &Stats) {
+        self.stats.add(stats);
+        self.budgets.begun += stats.work();
+    }
+
+    /// Returns the motions in a stretch, cut until the bodies stray from them by a length that queries
+    /// take, with the settings; or the limit that was reached.
+    pub(super) fn leg(
+        &mut self,
+        mut span: Span,
+        accelerations: bool,
+    ) -> Result<Result<(Leg, Terms<'a>), Limit>, InputError> {
+        loop {
+            self.turn_to(span);
+            let terms = match self.terms() {
+                Ok(terms) => terms,
+                Err(reason) => return Ok(Err(reason)),
+            };
+            let leg = Leg::new(self.query, span)?;
+            let leg = if accelerations { leg } else { leg.straight() };
+            if leg.is_in_range(self.query) || !self.cut(span, 0.5 * span.length()) {
+                return Ok(Ok((leg, terms)));
+            }
+            self.stats.iterations += 1;
+            span = self.waiting.pop().unwrap_or(span);
+        }
+    }
+
+    /// Returns true if a contact of a leg's motions is one of the bodies, as well as can be told: within the
+    /// tolerance, or cutting does not make it any better.
+    pub(super) fn is_fine(&self, leg: &Leg) -> Result<bool, InputError> {
+        Ok(leg.stray <= STRAY_SHARE * self.query.terms.tolerance || self.is_shortest(leg)?)
+    }
+
+    /// Returns true if the bodies stray hardly farther than in a stretch of no length: by rounding.
+    fn is_shortest(&self, leg: &Leg) -> Result<bool, InputError> {
+        let least = Leg::new(self.query, leg.span.start())?;
+        Ok(leg.stray <= 2.0 * least.stray)
+    }
+
+    /// Returns true if the poses at the start of a leg's motions are those of the bodies at the start, up to
+    /// rounding.
+    pub(super) fn begins_at_start(&self, leg: &Leg) -> Result<bool, InputError> {
+        Ok(leg.span.from == 0.0 && (leg.stray == 0.0 || self.is_shortest(leg)?))
+    }
+
+    /// Lets the pose at the start be next, and then the leg again, if the leg's motions begin beside it: where
+    /// they overlap at the start, the bodies need not. Returns false once the start was looked at, and for legs
+    /// that begin later.
+    pub(super) fn look_at_start(&mut self, leg: &Leg) -> Result<bool, InputError> {
+        if leg.span.from > 0.0 || self.looked_at_start || self.begins_at_start(leg)? {
+            return Ok(false);
+        }
+        self.looked_at_start = true;
+        self.waiting.extend([leg.span, leg.span.start()]);
+        Ok(true)
+    }
+
+    /// Records that the bodies are apart in a stretch.
+    pub(super) fn prove(&mut self, leg: &Leg) {
+        self.proven = Some((leg.span, leg.stray));
+    }
+
+    /// Returns the time at which a stretch begins or ends beside the one that was proven last, if its strays are
+    /// much larger: they likely are too large.
+    pub(super) fn looks_too_long(&mut self, leg: &Leg) -> Option<f64> {
+        let (proven, stray) = self.proven.take()?;
+        let Span { from, to, .. } = leg.span;
+        let beside = [(from, proven.to), (to, proven.from)];
+        let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
+        (leg.stray > MUCH_LONGER * stray).then_some(time)
+    }
+
+    /// Lets work from now on count for the part of the query that a stretch is in.
+    pub(super) fn turn_to(&mut self, span: Span) {
+        self.budgets.turn_to(span.part, self.stats.work());
+    }
+
+    /// Returns the pose at a time, with the settings; or the limit that was reached.
+    pub(super) fn pose(&self, time: f64) -> Result<Result<(Leg, Terms<'a>), Limit>, InputError> {
+        let terms = match self.terms() {
+            Ok(terms) => terms,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let span = Span {
+            from: time,
+            to: time,
+            part: self.budgets.part,
+        };
+        Ok(Ok((Leg::new(self.query, span)?, terms)))
+    }
+
+    /// Measures the bodies at a time, up to rounding: returns the contact and the rate at which they approach; none if
+    /// they overlap, or no work is left.
+    pub(super) fn measure<O: DistanceOracle>(
+        &mut self,
+        time: f64,
+        oracle: &mut O,
+        kept: &mut Kept,
+    ) -> Result<Option<(Contact, f64)>, InputError> {
+        let Ok((leg, terms)) = self.pose(time)? else {
+            return Ok(None);
+        };
+        let problem = leg.problem(self.query, &terms)?.measuring();
+        let answer = metered(&problem, oracle, kept, |oracle, meter| {
+            (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
+        });
+        self.stats.add(&answer.stats);
+        Ok(match answer.found {
+            Some(Outcome::Touching { contact }) => Some((contact, leg.approach(0.0, &contact))),
+            _ => None,
+        })
+    }
+
+    /// Takes out the stretch that waits beside a time; none if all there is proven.
+    pub(super) fn take_beside(&mut self, time: f64) -> Option<Span> {
+        let is_beside = |span: &Span| span.from == time || span.to == time;
+        let index = self.waiting.iter().rposition(is_beside)?;
+        Some(self.waiting.remove(index))
+    }
+
+    /// Lets a stretch be next.
+    pub(super) fn push(&mut self, span: Span) {
+        self.waiting.push(span);
+    }
+
+    /// Cuts a stretch in two, at a corner or after about that length, and lets the earlier part be next. Returns
+    /// false if it cannot be cut.
+    pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
+        let Some([early, late]) = self.parts(span, length) else {
+            return false;
+        };
+        self.waiting.extend([late, early]);
+        true
+    }
+
+    /// Cuts a part of about that length, about a time, out of a stretch, and lets it be next; or the part with that
+    /// time, at a corner. Returns false if it cannot be cut.
+    pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
+        let whole = span.length();
+        let Some([early, late]) = self.parts(span, 0.5 * whole) else {
+            return false;
+        };
+        let half = 0.5 * greater(length, LEAST_CUT * whole);
+        let [first, last] = [time - half, time + half];
+        // Written so that NaN is a half of the stretch, and so is a length that is lost to rounding.
+        let is_part = length < 0.5 * whole && first < time && last > time;
+        if !is_part || early.to != span.middle() {
+            if time < late.from {
+                self.waiting.extend([late, early]);
+            } else {
+                self.waiting.extend([early, late]);
+            }
+            return true;
+        }
+        let mut middle = span;
+        // What would be left beside it is hardly longer.
+        if last + half < span.to {
+            self.waiting.push(Span { from: last, ..span });
+            middle.to = last;
+        }
+        if first - half > span.from {
+            self.waiting.push(Span { to: first, ..span });
+            middle.from = first;
+        }
+        self.waiting.push(middle);
+        true
+    }
+
+    pub(super) fn parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
+        let Span { from, to, part } = span;
+        let Query { a, b, .. } = self.query;
+        let corner = |body: &Moving<'_>| {
+            let corner = body.movement.corner(from, to)?;
+            (corner > from && corner < to).then_some(corner)
+        };
+        let whole = span.length();
+        let length = greater(LEAST_CUT * whole, lesser(length, 0.5 * whole));
+        let corner = corner(a).or_else(|| corner(b));
+        let at = corner.unwrap_or(from + length);
+        if !(at > from && at < to) {
+            return None;
+        }
+        let [before, after] = match corner {
+            Some(_) => [(); 2].map(|()| self.budgets.another(part)),
+            None => [part; 2],
+        };
+        Some([
+            Span {
+                to: at,
+                part: before,
+                ..span
+            },
+            Span {
+                from: at,
+                part: after,
+                ..span
+            },
+        ])
+    }
+}
+
+/// The work on each part of a query: a part between two corners has a budget of its own.
+struct Budgets {
+    spent: Vec<u64>,
+    /// The part that is worked on.
+    part: usize,
+    /// The work on all parts when that began.
+    begun: u64,
+}
+
+impl Default for Budgets {
+    fn default() -> Self {
+        Budgets {
+            spent: vec![0],
+            part: 0,
+            begun: 0,
+        }
+    }
+}
+
+impl Budgets {
+    /// Returns the work on the present part; `work` is that on all of them.
+    fn spent(&self, work: u64) -> u64 {
+        self.spent[self.part] + (work - self.begun)
+    }
+
+    /// Lets work from now on count for a part.
+    fn turn_to(&mut self, part: usize, work: u64) {
+        self.spent[self.part] = self.spent(work);
+        (self.part, self.begun) = (part, work);
+    }
+
+    /// Returns a part with a budget of its own, or that of the part that it was cut from, if there are too many.
+    fn another(&mut self, part: usize) -> usize {
+        if self.spent.len() >= MOST_PARTS {
+            return part;
+        }
+        self.spent.push(0);
+        self.spent.len() - 1
+    }
+}

@@ -1,0 +1,217 @@
+//! Answers along trajectories with every budget: each part between two corners has one.
+
+use super::*;
+use crate::answer::Limit;
+use crate::answer::Unresolved;
+use crate::body::Body;
+use crate::error::InputError;
+use crate::motion::trajectory::Trajectory;
+use crate::motion::trajectory::{Stray, Stretch};
+use crate::query::Query;
+use crate::settings::Settings;
+
+#[test]
+fn budgets_end_a_journey_with_a_time_that_is_safe() {
+    let mut rng = rng(6);
+    let mut ended = 0;
+    for number in 0..60 {
+        let mut swings = Swings::draw(&mut rng);
+        let until = match swings.first() {
+            Outcome::Contact { time, .. } => time,
+            Outcome::Free { .. } => 1.0,
+            _ => continue,
+        };
+        for budget in 1..60 {
+            swings.config.budget = budget;
+            match swings.first() {
+                Outcome::Unresolved(Unresolved {
+                    safe_until,
+                    limit: reason,
+                    ..
+                }) => {
+                    assert_eq!(reason, Limit::Budget);
+                    assert!(safe_until <= until, "{number}: {safe_until} of {until}");
+                    ended += 1;
+                }
+                _ => break,
+            }
+        }
+    }
+    assert!(ended > 300, "{ended}");
+}
+
+/// Passes the origin back and forth along x, beside it, with a corner at each turn.
+struct Shuttle {
+    laps: u32,
+    beside: f64,
+}
+
+impl Shuttle {
+    fn at(&self, time: f64) -> DVec3 {
+        let way = time * f64::from(self.laps);
+        let lap = way.floor();
+        let x = if lap % 2.0 == 0.0 {
+            way - lap
+        } else {
+            lap + 1.0 - way
+        };
+        DVec3::new(2.0 * x - 1.0, self.beside, 0.0)
+    }
+}
+
+impl Trajectory for Shuttle {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let [start, end] = [from, to].map(|time| self.at(time));
+        let velocity = if to > from {
+            (end - start) / (to - from)
+        } else {
+            DVec3::ZERO
+        };
+        let shift = if self.corner(from, to).is_some() {
+            2.0
+        } else {
+            1e-14
+        };
+        let motion = Motion::new(crate::Pose::at(start)?, velocity, DVec3::ZERO)?;
+        Ok(Stretch {
+            stray: Stray { shift, turn: 0.0 },
+            ..Stretch::exact(motion)
+        })
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let laps = f64::from(self.laps);
+        let corner = (0.5 * (from + to) * laps).round() / laps;
+        (from < corner && corner < to).then_some(corner)
+    }
+}
+
+#[test]
+fn each_part_between_two_corners_has_a_budget() {
+    let mut rng = rng(9);
+    let soup = soup(&mut rng, Look::Plump, 40, 1.0);
+    let (body, ball) = (body(&soup), Body::ball(0.5).unwrap());
+    let ask = |laps: u32, beside: f64, budget: u64| {
+        let config = Settings {
+            tolerance: 1e-6,
+            budget,
+            ..Settings::DEFAULT
+        };
+        let shuttle = Shuttle { laps, beside };
+        let query = Query::new((&ball, &shuttle), (&body, &Motion::STILL), 1.0, &config);
+        let query = query.unwrap();
+        let first = BestFirst::default().first_contact(&query, &mut Exhaustive);
+        let any = DepthFirst::default().any_contact(&query, &mut Exhaustive);
+        let closest = DepthFirst::default().closest_approach(&query, &mut Exhaustive);
+        let interval = BestFirst::default().contact_interval(&query, &mut Exhaustive);
+        (
+            first.unwrap(),
+            any.unwrap(),
+            closest.unwrap(),
+            interval.unwrap(),
+        )
+    };
+    let free = |beside: f64| matches!(ask(1, beside, u64::MAX).0.outcome, Outcome::Free { .. });
+    // As near as it comes: found by halves.
+    let (mut near, mut far) = (0.0, 9.0);
+    while far - near > 1e-5 {
+        let middle = 0.5 * (near + far);
+        if free(middle) {
+            far = middle;
+        } else {
+            near = middle;
+        }
+    }
+    let (first, any, closest, _) = ask(1, far, u64::MAX);
+    let works = [first.stats.work(), any.stats.work(), closest.stats.work()];
+    let budget = 4 * works.into_iter().max().unwrap();
+    let laps = 64;
+    let (first, any, closest, interval) = ask(laps, far, budget);
+    assert!(first.stats.work() > budget, "{first:?} within {budget}");
+    assert!(matches!(first.outcome, Outcome::Free { .. }), "{first:?}");
+    assert!(matches!(any.outcome, Outcome::Free { .. }), "{any:?}");
+    assert!(
+        matches!(closest.outcome, Outcome::Measured { .. }),
+        "{closest:?}"
+    );
+    assert!(
+        matches!(interval.outcome, Outcome::Free { .. }),
+        "{interval:?}"
+    );
+    // It is a cap all the same.
+    let (first, any, closest, interval) = ask(laps, far, 2);
+    assert!(matches!(
+        first.outcome,
+        Outcome::Unresolved(Unresolved {
+            limit: Limit::Budget,
+            ..
+        })
+    ));
+    assert!(matches!(
+        any.outcome,
+        Outcome::Unresolved(Unresolved {
+            limit: Limit::Budget,
+            ..
+        })
+    ));
+    assert!(matches!(
+        closest.outcome,
+        Outcome::Unresolved(Unresolved {
+            limit: Limit::Budget,
+            ..
+        })
+    ));
+    assert!(matches!(
+        interval.outcome,
+        Outcome::Unresolved(Unresolved {
+            limit: Limit::Budget,
+            ..
+        })
+    ));
+    assert!(first.stats.work() <= 4 * u64::from(laps) * 2, "{first:?}");
+}
+
+/// Strays without bounds, and has a corner near the end of all times, or bounds that are none.
+struct Hostile {
+    stray: Stray,
+    step: f64,
+}
+
+impl Trajectory for Hostile {
+    fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
+        Ok(Stretch {
+            stray: self.stray,
+            ..Stretch::exact(Motion::STILL)
+        })
+    }
+
+    fn corner(&self, _: f64, to: f64) -> Option<f64> {
+        Some(to - self.step)
+    }
+}
+
+#[test]
+fn budgets_end_cuts_where_there_is_no_bound() {
+    let ball = Body::ball(0.5).unwrap();
+    let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
+    let ask = |shift: f64, turn: f64, step: f64| {
+        let hostile = Hostile {
+            stray: Stray { shift, turn },
+            step,
+        };
+        let config = Settings {
+            budget: 1_000,
+            ..Settings::DEFAULT
+        };
+        let query = Query::new((&ball, &hostile), (&ball, &far), 1.0, &config).unwrap();
+        BestFirst::default().first_contact(&query, &mut Exhaustive)
+    };
+    let unresolved = Outcome::unresolved(0.0, Limit::Budget);
+    assert_eq!(ask(f64::INFINITY, 0.0, 1e-9).unwrap().outcome, unresolved);
+    for no_bound in [f64::NAN, -1.0] {
+        assert_eq!(ask(no_bound, 0.0, 2.0).unwrap().outcome, unresolved);
+        assert_eq!(ask(0.0, no_bound, 2.0).unwrap().outcome, unresolved);
+    }
+    let free = ask(0.1, 0.1, 2.0).unwrap().outcome;
+    assert!(matches!(free, Outcome::Free { proven_gap } if proven_gap > 0.0));
+}

@@ -1,0 +1,188 @@
+//! The settings of queries: what counts as a contact, how accurate the answer is, and how much work it may take.
+
+use crate::error::{InputError, check};
+use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE};
+use fearless_simd::Level;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// What counts as a contact, the accuracy of the answer, and the limits of the work on it.
+///
+/// ```
+/// use ccd_core::Settings;
+/// // A contact is where the bodies come within a hundredth, to within a millionth.
+/// let settings = Settings { margin: 0.01, tolerance: 1e-6, ..Settings::DEFAULT };
+/// assert_eq!(Settings::DEFAULT.tolerance, 1e-3);
+/// # assert_eq!(settings.deadline, None);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// A contact is reported at a distance of at most margin + tolerance. In the scene's unit of
+    /// length, at least [`LEAST_TOLERANCE`](limits::LEAST_TOLERANCE).
+    pub tolerance: f64,
+    /// The distance to keep; 0 reports touching. In the scene's unit of length.
+    pub margin: f64,
+    /// A distance that the closest approach is to be compared with: the search ends as soon as it is
+    /// proven to be kept, or seen not to be, by the shapes that the bodies may
+    /// [exceed](crate::Body::with_excess). With none the closest approach is measured. Other
+    /// questions have the margin. In the scene's unit of length.
+    pub clearance: Option<f64>,
+    /// The treatment of a contact at the start.
+    pub start: StartPolicy,
+    /// The most [work](crate::Stats::work) before the query is left unresolved: iterations over
+    /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less,
+    /// and up to about 150 bytes.
+    ///
+    /// Along [trajectories](crate::Trajectory) it is for each part between two
+    /// [corners](crate::Trajectory::corner), such as two poses of a path, and so grows with the path: a
+    /// path of `n` poses takes at most `2 n` budgets, of which those for many poses at once are hardly
+    /// used. The closest approach takes up to half as much again for early bounds. No path takes more than 65,536. The search for the [last
+    /// contact](crate::schedule::BestFirst::contact_interval) has as much again.
+    pub budget: u64,
+    /// The longest time before the query is left unresolved; with none no clock is read.
+    ///
+    /// It is checked every few hundred visits, and therefore exceeded by less than a millisecond if
+    /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached
+    /// depends on the machine: answers that it ends differ from one call to the next.
+    pub deadline: Option<Duration>,
+    /// The vector instructions to compute with. Answers are the same, to the last bit.
+    pub instructions: Instructions,
+    /// A flag by which other threads stop queries: soon after it is set, a query ends as
+    /// [`Limit::Stopped`](crate::Limit::Stopped), with a certified time. It is read as often as the clock is for a
+    /// deadline.
+    ///
+    /// ```
+    /// use ccd_core::Settings;
+    /// use std::sync::{Arc, atomic::AtomicBool};
+    /// let stop = Arc::new(AtomicBool::new(false));
+    /// let settings = Settings { stop: Some(Arc::clone(&stop)), ..Settings::DEFAULT };
+    /// ```
+    pub stop: Option<Arc<AtomicBool>>,
+}
+
+impl Settings {
+    /// The default: tolerance 0.001, no margin, contacts at the start reported, no deadline.
+    pub const DEFAULT: Settings = Settings {
+        tolerance: limits::DEFAULT_TOLERANCE,
+        margin: 0.0,
+        clearance: None,
+        start: StartPolicy::Report,
+        budget: limits::DEFAULT_BUDGET,
+        deadline: None,
+        instructions: Instructions::Best,
+        stop: None,
+    };
+
+    /// Returns the settings as a query keeps them.
+    pub(crate) fn terms(&self) -> Terms<'_> {
+        Terms {
+            tolerance: self.tolerance,
+            margin: self.margin,
+            clearance: self.clearance,
+            start: self.start,
+            budget: self.budget,
+            deadline: self.deadline,
+            level: self.instructions.level(),
+            stop: self.stop.as_deref(),
+        }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings::DEFAULT
+    }
+}
+
+/// The settings as a query keeps them: the flag is borrowed, so that a query counts no references.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Terms<'a> {
+    pub(crate) tolerance: f64,
+    pub(crate) margin: f64,
+    pub(crate) clearance: Option<f64>,
+    pub(crate) start: StartPolicy,
+    pub(crate) budget: u64,
+    pub(crate) deadline: Option<Duration>,
+    pub(crate) level: Level,
+    pub(crate) stop: Option<&'a AtomicBool>,
+}
+
+impl Terms<'_> {
+    /// Refuses a duration, a tolerance, a margin or a clearance that is out of range.
+    pub(crate) fn check(&self, duration: f64) -> Result<(), InputError> {
+        let finite = 0.0..=f64::MAX;
+        check(
+            "duration",
+            duration,
+            finite.contains(&duration),
+            "at least 0 and finite",
+        )?;
+        let tolerance = self.tolerance;
+        let allowed = (LEAST_TOLERANCE..=MAX_COORDINATE).contains(&tolerance);
+        check("tolerance", tolerance, allowed, "from 1e-100 to 1e12")?;
+        let clearance = self.clearance.unwrap_or(0.0);
+        for (what, length) in [("margin", self.margin), ("clearance", clearance)] {
+            let allowed = (0.0..=MAX_COORDINATE).contains(&length);
+            check(what, length, allowed, "at least 0 and at most 1e12")?;
+        }
+        Ok(())
+    }
+}
+
+/// The vector instructions to compute with.
+///
+/// On x86 these are AVX2 or SSE2. Other targets have one set each, NEON for instance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Instructions {
+    /// The best of the machine, found at run time.
+    #[default]
+    Best,
+    /// Those of the target that the program was built for, which every machine of that target has.
+    Baseline,
+}
+
+/// The treatment of a contact at the start.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// // Two balls touch, and fly apart.
+/// let leaving = Motion::new(Pose::at(DVec3::X)?, DVec3::X, DVec3::ZERO)?;
+/// let outcome = |start| -> Result<Outcome, InputError> {
+///     let settings = Settings { start, ..Settings::DEFAULT };
+///     let query = Query::new((&ball, Motion::STILL), (&ball, leaving), 1.0, &settings)?;
+///     Ok(BestFirst::default().first_contact(&query, &mut Balls)?.outcome)
+/// };
+/// assert!(matches!(outcome(StartPolicy::Report)?, Outcome::Touching { .. }));
+/// assert!(matches!(outcome(StartPolicy::Leave)?, Outcome::Free { .. }));
+/// # Ok::<(), InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StartPolicy {
+    /// The answer is [`Touching`](crate::Outcome::Touching).
+    #[default]
+    Report,
+    /// Bodies that are within the tolerance at the start are let go for as long as they do not
+    /// approach. The answer is the time at which they come within half the gap that they began
+    /// with; from then on that is the tolerance.
+    ///
+    /// If that gap is no more than rounding, or the bodies begin inside the margin, pieces that
+    /// rest on each other are let go until they approach. This takes a look at every pair of pieces
+    /// that begins inside the margin: a margin as large as the bodies may cost the whole budget.
+    ///
+    /// Pieces that touch only later are let go as well, as long as the plane in which the bodies
+    /// began to touch is between them and they do not approach it: a body slides on flat ground from
+    /// one triangle onto the next, and onto another flat top of the same height. The plane stays with
+    /// either body. All else that touches later is a contact, and so are two open surfaces that slide
+    /// within the plane: their sides are unknown.
+    Leave,
+}

@@ -1,0 +1,62 @@
+//! Bounds on rounding that proofs rely on: a smaller value breaks a guarantee.
+
+use ccd_core::glam::DVec3;
+use ccd_core::tolerance::U64;
+
+/// The distance from a face within which no other shell may be, for the face's middle to represent its shell; in units
+/// of the mesh's size and of its distance from the origin. Rounding moves the middle off the face by 8 [`U64`] at most,
+/// and the face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
+pub(crate) const FACE_ROUNDING: f64 = 1e-12;
+
+/// Returns a bound on how far clipping a polygon to a voxel moves its points, for coordinates up to `farthest`, in its
+/// unit of length. A grid of 128 layers is halved at most 21 times.
+///
+/// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an edge has a
+/// relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
+/// each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed because they are between two
+/// others on an edge are off by twice [`on_edge`] more for each of three edges: 804u. 1024u are used. Voxels are
+/// widened by this margin, so that neighbours overlap.
+pub(crate) fn clip_rounding(farthest: f64) -> f64 {
+    1024.0 * U64 * farthest
+}
+
+/// Returns the distance from an edge within which a clipped point counts as on it, for coordinates up to `farthest`, in
+/// its unit of length. One cut moves a point by less than a third of it.
+pub(crate) fn on_edge(farthest: f64) -> f64 {
+    64.0 * U64 * farthest
+}
+
+/// Returns a bound on the error of a difference of points along a direction, plus that of the extent of an [oriented
+/// box](crate::search), for coordinates up to `reach`, in its unit of length, for a direction of length about 1.
+///
+/// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a difference
+/// is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as there is one of the
+/// box and one of the shape. The box's half lengths are at most `2√3 m`, and the product of each with the direction is
+/// off by `4u d`: `42u d m`. Their sums round by `12u d m`. That is 70u; 128u are used, plus a term for underflow.
+pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
+    128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
+}
+
+/// Returns a bound on the error of the sum of `terms` products `a · (b × c)` of rounded differences of points. Here
+/// `size` is the sum of `|a| |b| |c|`, and the rounding error of each addition is summed separately; in the unit of the
+/// products.
+///
+/// With `u` half a unit in the last place: of the six products of three coordinates each comes from three differences,
+/// and is rounded twice and added up four times: a relative error of 9u. Their sizes add up to at most
+/// `√3 |a| |b| |c|`: 16u of the size. A compensated sum of `n` terms has a relative error of `u`, and an error of
+/// `2 n² u²` of their sizes. The size has a relative error of `(n + 16) u`. 32u are used, plus a term in `n²`.
+pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
+    (32.0 + 4.0 * terms * (terms * U64)) * U64 * size
+}
+
+/// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. Rounding makes 1e-15 for
+/// well-shaped triangles, and less than a tenth of this for those that are just no [needles](NEEDLE).
+pub(crate) const NEAREST_SLACK: f64 = 1e-9;
+
+/// The height of a triangle relative to its longest side below which it counts as a needle. The library's error grows
+/// with the inverse: it exceeds [`NEAREST_SLACK`] at 1e-6.
+pub(crate) const NEEDLE: f64 = 1e-4;
+
+/// The minimum sine at a corner of a facet whose plane is used. The error of its normal is then at most `4 U64 / 1e-6`,
+/// less than [`NEAREST_SLACK`].
+pub(crate) const WELL_SHAPED: f64 = 1e-6;

@@ -1,0 +1,90 @@
+//! Motions of bodies on a page.
+
+use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::{Motion, Pose};
+use serde::Serialize;
+
+/// The motion of a shown body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum ShownMotion {
+    /// At constant velocities, by the formula of [`Motion`].
+    Steady {
+        /// The centre of rotation, in the body's frame.
+        centre: [f64; 3],
+        /// The centre at the start.
+        from: [f64; 3],
+        /// The velocity of the centre.
+        velocity: [f64; 3],
+        /// The angular velocity.
+        spin: [f64; 3],
+        /// The rotation at the start, by rows.
+        rotation: [f64; 9],
+    },
+    /// From pose to pose, along straight lines, with the keys' rotations.
+    Keys {
+        /// The point that moves along straight lines, in the body's frame.
+        centre: [f64; 3],
+        /// The poses, by increasing times.
+        keys: Vec<Key>,
+    },
+}
+
+/// A pose at a time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Key {
+    time: f64,
+    /// The position of the centre.
+    place: [f64; 3],
+    /// The rotation, by rows.
+    rotation: [f64; 9],
+    /// The rotation vector to the next key, in the world frame, because the poses alone are ambiguous at half a turn.
+    turn: [f64; 3],
+}
+
+impl Key {
+    /// Creates a key from a pose, the position of the centre, and the rotation vector to the next key.
+    pub fn new(time: f64, pose: &Pose, place: DVec3, turn: DVec3) -> Self {
+        Key {
+            time,
+            place: place.to_array(),
+            rotation: rows(pose),
+            turn: turn.to_array(),
+        }
+    }
+}
+
+impl From<&Motion> for ShownMotion {
+    fn from(motion: &Motion) -> Self {
+        let from: DVec3 = motion.start().transform_point(motion.centre());
+        ShownMotion::Steady {
+            centre: motion.centre().to_array(),
+            from: from.to_array(),
+            velocity: motion.velocity().to_array(),
+            spin: motion.spin().to_array(),
+            rotation: rows(&motion.start()),
+        }
+    }
+}
+
+impl ShownMotion {
+    /// Returns whether the body moves.
+    pub(crate) fn moves(&self) -> bool {
+        match self {
+            ShownMotion::Steady { velocity, spin, .. } => velocity
+                .iter()
+                .chain(spin)
+                .any(|component| *component != 0.0),
+            ShownMotion::Keys { keys, .. } => keys
+                .windows(2)
+                .any(|two| two[0].place != two[1].place || two[0].turn != [0.0; 3]),
+        }
+    }
+}
+
+fn rows(pose: &Pose) -> [f64; 9] {
+    // Columns of the transpose.
+    DMat3::from_quat(pose.rotation())
+        .transpose()
+        .to_cols_array()
+}

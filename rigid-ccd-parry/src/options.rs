@@ -1,0 +1,67 @@
+//! What can be asked for beyond parry's arguments.
+
+use crate::limits::DEFAULT_BUDGET;
+use std::time::Duration;
+
+/// What can be asked for beyond parry's arguments.
+///
+/// ```
+/// use rigid_ccd_parry::{Excess, Options};
+/// let options = Options { excess: Excess::Length(1e-3), ..Options::default() };
+/// # assert_eq!(options.tolerance, None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// A contact is reported at the target distance plus at most this, in the scene's unit of length.
+    ///
+    /// None is 1e-6 in single and 1e-9 in double precision, and at most a millionth of the smaller body's radius.
+    pub tolerance: Option<f64>,
+    /// How far polytopes about cylinders and cones may exceed them.
+    pub excess: Excess,
+    /// Whether a mesh is a surface or a solid.
+    pub meshes: Meshes,
+    /// The most work before a cast ends as `OutOfIterations`: [`Settings::budget`](ccd_core::Settings::budget). By default it
+    /// is a quarter of the engine's, about a second.
+    pub budget: u64,
+    /// The longest time before a cast ends as `OutOfIterations`: [`Settings::deadline`](ccd_core::Settings::deadline).
+    pub deadline: Option<Duration>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            tolerance: None,
+            excess: Excess::default(),
+            meshes: Meshes::default(),
+            budget: DEFAULT_BUDGET,
+            deadline: None,
+        }
+    }
+}
+
+/// How far a polytope about a cylinder or a cone may exceed it: contacts are early by at most the time in which the
+/// bodies come nearer by that, and never late.
+///
+/// The polytope touches its shape along the axes, so that a cylinder that stands, or lies along an axis, is exact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Excess {
+    /// A quarter of a thousandth of the radius.
+    #[default]
+    Fine,
+    /// A length.
+    Length(f64),
+    /// Cylinders and cones are refused.
+    Refuse,
+}
+
+/// What the inside of a triangle mesh is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Meshes {
+    /// Empty: only triangles are touched, as in all of parry's queries between two shapes. A room is a mesh around
+    /// its visitors.
+    #[default]
+    Surfaces,
+    /// Filled if the mesh has the flag `ORIENTED`, for which parry's queries of points take it as filled: a body
+    /// inside is in contact. Such a mesh is refused unless it is closed. Meshes in compounds stay surfaces.
+    SolidIfOriented,
+}

@@ -1,0 +1,27 @@
+//! The time that is left to answer what is asked of a scene.
+
+use ccd_core::Settings;
+use std::time::{Duration, Instant};
+
+/// The duration that is asked about, and the deadline for all pairs together.
+#[derive(Clone, Copy)]
+pub(super) struct Clock {
+    pub(super) duration: f64,
+    deadline: Option<(Instant, Duration)>,
+}
+
+impl Clock {
+    /// Starts the time for the answer.
+    pub(super) fn new(duration: f64, settings: &Settings) -> Self {
+        Clock {
+            duration,
+            deadline: settings.deadline.map(|limit| (Instant::now(), limit)),
+        }
+    }
+
+    /// Returns the time that is left; `None` without a deadline.
+    pub(super) fn left(&self) -> Option<Duration> {
+        let (begun, limit) = self.deadline?;
+        Some(limit.saturating_sub(begun.elapsed()))
+    }
+}

@@ -1,0 +1,35 @@
+//! What is left of a trajectory from a time on.
+
+use ccd_core::tolerance::U64;
+use ccd_core::vector::length;
+use ccd_core::{InputError, Movement, Stray, Stretch, Trajectory};
+
+/// A trajectory from a time on, which is its time 0.
+pub(super) struct Rest<'a> {
+    pub(super) of: Movement<'a>,
+    pub(super) from: f64,
+}
+
+impl Trajectory for Rest<'_> {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let [first, last] = [from, to].map(|time| self.from + time);
+        let stretch = self.of.stretch(first, last)?;
+        // Times are rounded, and the body moves by as much as it does in that time.
+        let off = 4.0 * U64 * last;
+        let speed =
+            length(stretch.motion.velocity()) + length(stretch.acceleration) * (last - first);
+        let rounding = Stray {
+            shift: speed * off,
+            turn: length(stretch.motion.spin()) * off,
+        };
+        Ok(Stretch {
+            stray: stretch.stray + rounding,
+            ..stretch
+        })
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let corner = self.of.corner(self.from + from, self.from + to)?;
+        Some(corner - self.from)
+    }
+}

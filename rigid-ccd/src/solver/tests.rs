@@ -1,0 +1,188 @@
+use crate::trajectory::{Ballistic, Pace, Poses, Timed};
+use crate::{Body, Motion, Pose, Settings, Solver};
+use ccd_core::Clearance;
+use ccd_core::Outcome;
+use ccd_core::Unresolved;
+use ccd_core::glam::{DQuat, DVec3};
+
+mod enclosures;
+
+fn ball(radius: f64) -> Body {
+    Body::ball(radius).unwrap()
+}
+
+fn thrown(at: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]) -> Ballistic {
+    let thrown = Motion::new(Pose::at(at).unwrap(), velocity, [0.0; 3]).unwrap();
+    Ballistic::new(thrown, acceleration).unwrap()
+}
+
+/// The motions of a stretch may overlap at the start where the bodies do not.
+#[test]
+fn bodies_beside_each_other_do_not_overlap() {
+    let (ball, slab) = (ball(0.5), Body::cuboid([9.0, 9.0, 1.0]).unwrap());
+    let rises = thrown([0.0, 0.0, 1.5001], [0.0; 3], [0.0, 0.0, 1e-3]);
+    let (a, b) = ((&ball, &rises), (&slab, &Motion::STILL));
+    let closest = Solver::new().closest_approach(a, b, 1.0).unwrap();
+    let Outcome::Measured {
+        lower, at: Some(_), ..
+    } = closest.outcome
+    else {
+        panic!("{closest:?}")
+    };
+    assert!(lower <= 1e-4 && closest.outcome.upper() >= 1e-4);
+    assert_ne!(closest.outcome.clearance(5e-5), Clearance::Violated);
+    let hit = Solver::new().first_contact(a, b, 1.0).unwrap();
+    assert!(matches!(hit.outcome, Outcome::Touching { .. }), "{hit:?}");
+    let deep = thrown([0.0, 0.0, 1.4], [0.0; 3], [0.0, 0.0, 1e-3]);
+    let any = Solver::new().any_contact((&ball, &deep), b, 1.0);
+    let any = any.unwrap().outcome;
+    assert!(matches!(any, Outcome::Overlapping { .. }), "{any:?}");
+}
+
+/// Later stretches are examined first, where one body may be inside the other.
+#[cfg(feature = "meshes")]
+#[test]
+fn a_body_that_begins_inside_is_never_said_to_be_outside() {
+    use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+    let vertices = [
+        [3.0; 3],
+        [3.0, -3.0, -3.0],
+        [-3.0, 3.0, -3.0],
+        [-3.0, -3.0, 3.0],
+    ];
+    let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
+    let mesh = TriangleMesh::new(vertices.map(DVec3::from_array).to_vec(), &faces).unwrap();
+    for radius in [0.0, 0.05] {
+        for detail in [Detail::Triangles, Detail::Auto] {
+            let solid = body_from_mesh(&mesh, detail).unwrap().body;
+            let flies = thrown([0.0; 3], [2.0, 0.6, 0.4], [8.0, -8.0, 0.0]);
+            let (ball, still) = (ball(radius), Motion::STILL);
+            let (a, b) = ((&ball, &flies), (&solid, &still));
+            let any = Solver::new().any_contact(a, b, 1.0).unwrap().outcome;
+            match any {
+                Outcome::Contact { .. } | Outcome::Overlapping { .. } => {}
+                Outcome::Unresolved(Unresolved {
+                    safe_until,
+                    limit: reason,
+                    ..
+                }) => {
+                    assert_eq!((safe_until, reason), (0.0, crate::Limit::Undecided));
+                }
+                _ => panic!("{any:?}"),
+            }
+            let first = Solver::new().first_contact(a, b, 1.0).unwrap();
+            assert_eq!(first.hit().unwrap().unwrap().time, 0.0);
+        }
+    }
+}
+
+/// Both ways of half a turn end alike: that of the path is the one from pose to pose.
+#[test]
+fn half_turns_go_the_way_of_motions() {
+    let turns: [f64; 4] = [
+        0.737_161_821_595_896_7,
+        -0.660_750_235_249_299_2,
+        -0.141_426_926_005_675_97,
+        0.0,
+    ];
+    let end = Pose::new([0.0; 3], DQuat::from_array(turns)).unwrap();
+    let motion = Motion::between(Pose::IDENTITY, end, [0.0; 3], 1.0).unwrap();
+    let path = Poses::new(vec![(0.0, Pose::IDENTITY), (1.0, end)]).unwrap();
+    // A rod along z, whose tip meets a ball on its way.
+    let rod = Body::capsule(0.02, 1.0).unwrap();
+    let meets = motion.pose(0.5).transform_point(DVec3::Z);
+    let stands = Motion::still(Pose::at(meets).unwrap());
+    let ball = ball(0.1);
+    let mut solver = Solver::new();
+    assert!(
+        !solver
+            .is_free((&rod, motion), (&ball, stands), 1.0)
+            .unwrap()
+    );
+    assert!(
+        !solver
+            .is_free((&rod, &path), (&ball, &stands), 1.0)
+            .unwrap()
+    );
+}
+
+#[test]
+fn settings_at_their_limits_are_answered() {
+    let (a, b) = (ball(0.5), ball(0.5));
+    let passes = thrown([-3.0, 1.3, 0.0], [6.0, 0.0, 0.0], [0.0, 1e-3, 0.0]);
+    let least = Settings {
+        tolerance: ccd_core::limits::LEAST_TOLERANCE,
+        ..Settings::DEFAULT
+    };
+    let mut solver = Solver::new().with_settings(least);
+    assert!(
+        solver
+            .is_free((&a, &passes), (&b, &Motion::STILL), 1.0)
+            .unwrap()
+    );
+    let wide = Settings {
+        margin: 1e12,
+        ..Settings::DEFAULT
+    };
+    solver.set_settings(wide);
+    let closest = solver.closest_approach((&a, &passes), (&b, &Motion::STILL), 1.0);
+    let closest = closest.unwrap().outcome;
+    assert!(
+        closest.lower() > 0.29 && closest.upper() - closest.lower() <= 1e-3,
+        "{closest:?}"
+    );
+}
+
+#[test]
+fn a_body_that_has_come_to_rest_is_asked_about_at_once() {
+    let (a, b) = (ball(0.5), ball(0.5));
+    let far = thrown([1e11, 1.3, 0.0], [-1.0, 0.0, 0.0], [0.0; 3]);
+    let stops = Timed::new(far, 0.0..1.0, 1.0, Pace::Even).unwrap();
+    let stands = Motion::still(Pose::at([1e11, 0.0, 0.0]).unwrap());
+    let hit = Solver::new().first_contact((&a, &stops), (&b, &stands), 2.0);
+    assert_eq!(hit.unwrap().hit(), Ok(None));
+    let twice = Timed::new(stops, 1.5..1.5, 1.0, Pace::Even).unwrap();
+    let hit = Solver::new().first_contact((&a, &twice), (&b, &stands), 2.0);
+    assert_eq!(hit.unwrap().hit(), Ok(None));
+}
+
+/// A ball flies at a cylinder and a cone from all sides: they are touched no later than the true shapes are, and
+/// earlier by no more than the excess and the tolerance.
+#[test]
+fn round_bodies_are_touched_when_the_true_shapes_are() {
+    let (radius, half_height, ball_radius) = (1.5, 2.0, 0.25);
+    let ball = ball(ball_radius);
+    let config = Settings {
+        tolerance: 1e-9,
+        ..Settings::DEFAULT
+    };
+    let mut solver = Solver::new().with_settings(config);
+    // The slant of the cone, and the part of it that is across the axis.
+    let slant = f64::hypot(2.0 * half_height, radius);
+    let across = 2.0 * half_height / slant;
+    for k in 0..60 {
+        let (sine, cosine) = (0.1047 * f64::from(k)).sin_cos();
+        let height = 0.1 * f64::from(k % 7);
+        let start = Pose::at([8.0 * cosine, 8.0 * sine, height]).unwrap();
+        let flies = Motion::new(start, [-cosine, -sine, 0.0], [0.0; 3]).unwrap();
+        let of_cone = (ball_radius * slant + radius * (half_height - height)) / (2.0 * half_height);
+        for (body, reach, share) in [
+            (
+                Body::cylinder(radius, half_height),
+                radius + ball_radius,
+                1.0,
+            ),
+            (Body::cone(radius, half_height), of_cone, across),
+        ] {
+            let body = body.unwrap();
+            let hit = solver.first_contact((&ball, flies), (&body, Motion::STILL), 10.0);
+            let time = hit.unwrap().hit().unwrap().expect("it flies at it").time;
+            let early = (8.0 - reach) - time;
+            let most = (radius / 4096.0 + 1e-9) / share;
+            assert!(
+                (-1e-14..=most).contains(&early),
+                "{k}: early by {early:e} of {most:e}"
+            );
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Bodies that exceed their shapes: bounds of distances hold for the shapes.
+
+use super::thrown;
+use crate::{Body, Motion, Pose, Settings, Solver};
+use ccd_core::Clearance;
+use ccd_core::Outcome;
+use ccd_core::glam::DQuat;
+use ccd_core::{Answer, Round};
+
+/// The radius of both cylinders.
+const RADIUS: f64 = 1.0;
+
+/// What one of them may exceed its cylinder by: their polygons have some twenty corners.
+const EXCESS: f64 = 0.01;
+
+/// Two cylinders side by side, each turned about its axis, the first of which moves across the way between them. Their
+/// axes are never nearer than `apart`, and their surfaces than `least`.
+struct Pair {
+    body: Body,
+    /// Where the moving one is at time 0 and 1, and the second one.
+    places: [Pose; 3],
+    least: f64,
+}
+
+impl Pair {
+    /// The pair of a number: the larger it is, the more both are turned.
+    fn new(number: u32) -> Self {
+        let round = Round::cylinder(RADIUS, 2.0).unwrap();
+        let apart = 2.05 + 0.03 * f64::from(number % 9);
+        let turned = |angle: f64, place: [f64; 3]| {
+            let rotation = DQuat::from_rotation_z(angle);
+            Pose::new(place, rotation).unwrap()
+        };
+        let angle = 0.037 * f64::from(number);
+        Pair {
+            body: round.enclosed(EXCESS).unwrap().body().unwrap(),
+            places: [
+                turned(angle, [0.0, -1.0, 0.0]),
+                turned(angle, [0.0, 1.0, 0.0]),
+                turned(1.7 * angle + 0.1, [apart, 0.0, 0.5]),
+            ],
+            least: apart - 2.0 * RADIUS,
+        }
+    }
+
+    /// The distance of the cylinders at the start and at the end.
+    fn greatest(&self) -> f64 {
+        f64::hypot(self.least + 2.0 * RADIUS, 1.0) - 2.0 * RADIUS
+    }
+
+    fn ways(&self) -> [Motion; 2] {
+        let passes = Motion::new(self.places[0], [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
+        [passes, Motion::still(self.places[2])]
+    }
+
+    /// Asks for the least distance: of motions, along a trajectory of the same way, and at rest where it is least.
+    fn closest(&self, solver: &mut Solver) -> [Answer; 3] {
+        let [passes, stands] = self.ways();
+        let (a, b) = (&self.body, &self.body);
+        let rotation = self.places[0].rotation();
+        let start = Pose::new([0.0, -1.0, 0.0], rotation).unwrap();
+        let start = Motion::new(start, [0.0, 1.0, 0.0], [0.0; 3]).unwrap();
+        let speeds_up = crate::trajectory::Ballistic::new(start, [0.0, 2.0, 0.0]).unwrap();
+        let between = Pose::new([0.0; 3], rotation).unwrap();
+        [
+            solver.closest_approach((a, passes), (b, stands), 1.0),
+            solver.closest_approach((a, &speeds_up), (b, &stands), 1.0),
+            solver.distance((a, between), (b, self.places[2])),
+        ]
+        .map(|answer| answer.expect("in range"))
+    }
+}
+
+#[test]
+fn bounds_hold_the_distance_of_cylinders() {
+    let mut solver = Solver::new().with_settings(Settings {
+        tolerance: 1e-6,
+        ..Settings::DEFAULT
+    });
+    let mut false_of_bodies = 0;
+    for number in 0..60 {
+        let pair = Pair::new(number);
+        let excess = 2.0 * pair.body.excess();
+        for answer in pair.closest(&mut solver) {
+            let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
+            assert!(
+                lower <= pair.least + 1e-12 && pair.least <= upper,
+                "{number}: {answer:?}, not {}",
+                pair.least
+            );
+            assert!(upper - lower <= excess + 2e-6 && upper - lower <= answer.tolerance);
+            false_of_bodies += u32::from(upper - excess < pair.least - 1e-5);
+        }
+        let [passes, stands] = pair.ways();
+        let (a, b) = ((&pair.body, passes), (&pair.body, stands));
+        let farthest = solver.greatest_distance(a, b, 1.0).unwrap();
+        let Outcome::Measured { upper, .. } = farthest.outcome else {
+            panic!("{farthest:?}")
+        };
+        let lower = farthest.outcome.lower();
+        assert!(
+            lower <= pair.greatest() + 1e-12 && pair.greatest() <= upper,
+            "{number}: {farthest:?}, not {}",
+            pair.greatest()
+        );
+        assert!(upper - lower <= excess + 2e-6 && upper - lower <= farthest.tolerance);
+        false_of_bodies += u32::from(upper - excess < pair.greatest() - 1e-5);
+    }
+    assert!(false_of_bodies > 100, "{false_of_bodies}");
+}
+
+#[test]
+fn a_clearance_that_cylinders_keep_is_never_violated() {
+    let mut between = 0;
+    for number in 0..60 {
+        let pair = Pair::new(number);
+        // The polygons may be nearer before or after the axes are nearest.
+        let bodies = pair.closest(&mut Solver::new())[0].outcome.lower();
+        let most = pair.least + 2.0 * pair.body.excess();
+        for (required, expected) in [
+            (bodies - 1e-3, Some(Clearance::Kept)),
+            // Kept by the cylinders, but not by the bodies.
+            (0.5 * (bodies + pair.least), None),
+            (pair.least, None),
+            (most + 1e-3, Some(Clearance::Violated)),
+        ] {
+            let mut solver = Solver::new().with_settings(Settings {
+                tolerance: 1e-5,
+                clearance: Some(required),
+                ..Settings::DEFAULT
+            });
+            for answer in pair.closest(&mut solver) {
+                let found = answer.outcome.clearance(required);
+                let is_right = match expected {
+                    Some(expected) => found == expected,
+                    None => found != Clearance::Violated,
+                };
+                assert!(
+                    is_right,
+                    "{number}: {required} of {}: {answer:?}",
+                    pair.least
+                );
+                between += u32::from(found == Clearance::Unverified);
+                let upper = answer.outcome.upper();
+                assert!(upper >= pair.least, "{number}: {answer:?}");
+                // The bounds about a clearance that is not verified are those of the excess.
+                if found == Clearance::Unverified {
+                    let lower = answer.outcome.lower();
+                    assert!(upper - lower <= answer.tolerance && lower <= required);
+                    assert!(lower > 0.0 || required <= 2.0 * pair.body.excess());
+                }
+            }
+        }
+    }
+    assert!(between > 200, "{between}");
+}
+
+/// A clearance less than the excess cannot be violated for certain, but it can be kept.
+#[test]
+fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
+    let pair = Pair::new(0);
+    let beside = Pose::at([2.0 * RADIUS - 1e-3, 0.0, 0.0]).unwrap();
+    for (required, expected) in [
+        (0.0, Clearance::Unverified),
+        (pair.body.excess(), Clearance::Unverified),
+        (2.1 * pair.body.excess(), Clearance::Violated),
+    ] {
+        let mut solver = Solver::new().with_settings(Settings {
+            clearance: Some(required),
+            ..Settings::DEFAULT
+        });
+        let (a, b) = (&pair.body, &pair.body);
+        let still = solver.distance((a, beside), (b, Pose::IDENTITY)).unwrap();
+        let leaves = Motion::new(beside, [1.0, 0.0, 0.0], [0.0; 3]).unwrap();
+        let moving = solver.closest_approach((a, leaves), (b, Motion::STILL), 1.0);
+        let thrown = thrown(
+            [beside.translation().x, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0; 3],
+        );
+        let along = solver.closest_approach((a, &thrown), (b, &Motion::STILL), 1.0);
+        for answer in [still, moving.unwrap(), along.unwrap()] {
+            let Outcome::Overlapping { upper, .. } = answer.outcome else {
+                panic!("{answer:?}")
+            };
+            assert!(upper >= 2.0 * pair.body.excess() && upper == answer.outcome.upper());
+            assert_eq!(answer.outcome.clearance(required), expected, "{required}");
+        }
+    }
+}
+
+/// A ball above a slot, which the one hull about the block fills.
+#[cfg(feature = "meshes")]
+#[test]
+fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
+    use ccd_decomp::{Detail, Format, Model, TriangleMesh, body_from_mesh};
+    let mut block = String::new();
+    let outline = [
+        [-2, -2],
+        [2, -2],
+        [2, 2],
+        [1, 2],
+        [1, 1],
+        [-1, 1],
+        [-1, 2],
+        [-2, 2],
+    ];
+    for y in [-2, 2] {
+        for [x, z] in outline {
+            block += &format!("v {x} {y} {z}\n");
+        }
+    }
+    block += "f 1 2 3 4 5 6 7 8\nf 16 15 14 13 12 11 10 9\n";
+    for k in 1..=8 {
+        let next = k % 8 + 1;
+        block += &format!("f {k} {} {} {next}\n", k + 8, next + 8);
+    }
+    let mesh = TriangleMesh::from_reader(Format::Obj, block.as_bytes()).unwrap();
+    let prepared = body_from_mesh(&mesh, Detail::Vhacd { hulls: 1 }).unwrap();
+    let body = &prepared.body;
+    assert!(body.excess() == prepared.report.sticks_out && body.excess() >= 1.0);
+    let again = Model::of_body(body).unwrap().body().unwrap();
+    assert_eq!(again.excess(), body.excess());
+    let radius = 0.3;
+    let ball = super::ball(radius);
+    let edge = |height: f64| f64::hypot(1.0, height) - radius;
+    // In the slot it is nearest to the floor, above it to the edges.
+    for (height, least) in [(1.5, 0.5 - radius), (2.5, edge(0.5)), (2.35, edge(0.35))] {
+        let start = Pose::at([0.0, -1.0, height]).unwrap();
+        let passes = Motion::new(start, [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
+        for (required, expected) in [
+            (None, Clearance::Unverified),
+            (Some(0.99 * least), Clearance::Unverified),
+            (Some(3.0), Clearance::Violated),
+        ] {
+            let mut solver = Solver::new().with_settings(Settings {
+                clearance: required,
+                ..Settings::DEFAULT
+            });
+            let found = solver.closest_approach((&ball, passes), (body, Motion::STILL), 1.0);
+            let found = found.unwrap().outcome;
+            assert!(
+                found.lower() <= least && least <= found.upper(),
+                "{found:?}, not {least}"
+            );
+            let compared = found.clearance(required.unwrap_or(0.99 * least));
+            assert_eq!(compared, expected, "{required:?}: {found:?}");
+        }
+    }
+}

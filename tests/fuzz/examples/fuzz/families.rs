@@ -1,0 +1,96 @@
+//! Families of queries, one for each kind of difficulty, with parameters over many magnitudes.
+
+mod budget;
+mod far;
+mod flat;
+mod hulls;
+mod leave;
+mod margins;
+mod needles;
+mod scales;
+mod shells;
+mod turns;
+
+use crate::case::{Case, Expect, Shape};
+use crate::course::{Course, RawPose};
+use crate::draw::{Draw, plus, times};
+use ccd_core::Settings;
+use clap::ValueEnum;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Family {
+    /// Needles and slivers, components down to denormal, faces of no area.
+    Needles,
+    /// End poses and centres of rotation far from the origin, and tight tolerances.
+    Far,
+    /// Closed parts side by side and nested, oriented outward or inward.
+    Shells,
+    /// Margins from a thousandth of the bodies to a hundred times their size.
+    Margins,
+    /// Every small budget.
+    Budget,
+    /// Bodies in contact at the start that are released.
+    Leave,
+    /// Turns of up to a thousand radians.
+    Turns,
+    /// Bodies of very different size.
+    Scales,
+    /// Faces that fall flat on each other.
+    Flat,
+    /// Convex pieces of 4 to 2,000 points.
+    Hulls,
+}
+
+impl Family {
+    pub fn draw(self, draw: &mut Draw) -> Case {
+        match self {
+            Family::Needles => needles::draw(draw),
+            Family::Far => far::draw(draw),
+            Family::Shells => shells::draw(draw),
+            Family::Margins => margins::draw(draw),
+            Family::Budget => budget::draw(draw),
+            Family::Leave => leave::draw(draw),
+            Family::Turns => turns::draw(draw),
+            Family::Scales => scales::draw(draw),
+            Family::Flat => flat::draw(draw),
+            Family::Hulls => hulls::draw(draw),
+        }
+    }
+}
+
+/// Returns a case of two shapes that pass each other half-way, or meet: their centres come within
+/// about the sum of their radii. Both move, and turn by up to `turn` over a duration of 1.
+fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
+    let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
+    let (way, aside) = (draw.direction(), draw.point());
+    let travel = reach * draw.within(1.0..4.0);
+    let miss = times(aside, reach * draw.within(0.0..0.9));
+    let common = times(draw.point(), reach);
+    let spin = |draw: &mut Draw| times(draw.direction(), turn * draw.within(0.2..1.0));
+    let half = times(way, 0.5 * travel);
+    let course = |draw: &mut Draw, side: f64, at: [f64; 3]| {
+        let start = draw.pose(plus(times(half, -side), at));
+        let moved = plus(times(half, 2.0 * side), common);
+        Course::velocities(start, moved, spin(draw))
+    };
+    let courses = [course(draw, 1.0, miss), course(draw, -1.0, [0.0; 3])];
+    Case {
+        shapes,
+        courses,
+        duration: 1.0,
+        config,
+        expect: Expect::Nothing,
+    }
+}
+
+/// Returns a body at rest at the origin.
+fn still() -> Course {
+    Course::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
+}
+
+fn tolerance(draw: &mut Draw) -> Settings {
+    Settings {
+        tolerance: draw.log(1e-9..1e-2),
+        ..Settings::DEFAULT
+    }
+}

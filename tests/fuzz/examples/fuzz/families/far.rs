@@ -1,0 +1,81 @@
+//! End poses and centres of rotation far from the origin, and tight tolerances.
+
+use super::pass;
+use crate::case::Case;
+use crate::course::{Course, Goal, RawPose};
+use crate::draw::{Draw, plus, times};
+use crate::shapes;
+use ccd_core::Settings;
+
+pub(super) fn draw(draw: &mut Draw) -> Case {
+    let config = Settings {
+        tolerance: draw.log(1e-12..1e-2),
+        ..Settings::DEFAULT
+    };
+    let bodies = [shapes::any(draw), shapes::any(draw)];
+    let mut case = pass(draw, bodies, 0.0, config);
+    let far = if draw.chance(0.7) {
+        times(draw.direction(), draw.log(1.0..1e12))
+    } else {
+        [0.0; 3]
+    };
+    let whole = draw.chance(0.5);
+    case.duration = if draw.chance(0.5) {
+        1.0
+    } else {
+        draw.log(1e-6..1e6)
+    };
+    for course in &mut case.courses {
+        *course = ended(draw, course, far, case.duration);
+        if whole {
+            course.start.position = course.start.position.map(f64::round);
+        }
+    }
+    case
+}
+
+/// Returns the same motion between end poses, about any centre, far from the origin.
+fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Course {
+    let Goal::Velocities { linear, .. } = course.goal else {
+        return *course;
+    };
+    let start = RawPose {
+        position: plus(course.start.position, far),
+        ..course.start
+    };
+    let centre = match draw.count(0..3) {
+        0 => [0.0; 3],
+        1 => draw.point(),
+        _ => times(draw.direction(), draw.log(1.0..1e9)),
+    };
+    if draw.chance(0.15) {
+        let slow = |v: [f64; 3]| times(v, 1.0 / duration);
+        let goal = Goal::Velocities {
+            linear: slow(linear),
+            spin: slow(draw.point()),
+        };
+        return Course {
+            start,
+            goal,
+            centre,
+        };
+    }
+    let quaternion = match draw.count(0..3) {
+        0 => start.quaternion,
+        1 => draw.quaternion(),
+        // The turn is small.
+        _ => {
+            let (by, turn) = (draw.quaternion(), draw.log(1e-9..1.0));
+            [0, 1, 2, 3].map(|k| start.quaternion[k] + turn * by[k])
+        }
+    };
+    let end = RawPose {
+        position: plus(start.position, linear),
+        quaternion,
+    };
+    Course {
+        start,
+        goal: Goal::End(end),
+        centre,
+    }
+}

@@ -1,0 +1,98 @@
+//! Needles and slivers, components down to denormal, faces of no area.
+
+use super::{pass, still, tolerance};
+use crate::case::{Case, Shape};
+use crate::course::Goal;
+use crate::draw::{Draw, plus, times};
+use crate::shapes;
+
+pub(super) fn draw(draw: &mut Draw) -> Case {
+    let thin = thin(draw);
+    let other = if draw.chance(0.5) {
+        self::thin(draw)
+    } else {
+        shapes::any(draw)
+    };
+    let mut config = tolerance(draw);
+    if draw.chance(0.4) {
+        config.margin = draw.log(1e-2..2.0);
+    }
+    let turn = if draw.chance(0.4) {
+        0.0
+    } else {
+        draw.log(1e-3..6.0)
+    };
+    let shapes = if draw.chance(0.5) {
+        [thin, other]
+    } else {
+        [other, thin]
+    };
+    let mut case = pass(draw, shapes, turn, config.clone());
+    if draw.chance(0.3) {
+        for course in &mut case.courses {
+            course.start.quaternion = [1.0, 0.0, 0.0, 0.0];
+        }
+    }
+    if draw.chance(0.3) {
+        // The body moves straight at the other one, across a plane that holds needles.
+        let reach = case.shapes[0].radius() + case.shapes[1].radius() + config.margin;
+        let way = lattice(draw);
+        case.courses = [still(), still()];
+        case.courses[0].start.position = times(way, -1.5 * reach);
+        let linear = times(way, reach * draw.within(0.5..2.0));
+        case.courses[0].goal = Goal::Velocities {
+            linear,
+            spin: [0.0; 3],
+        };
+    }
+    case
+}
+
+/// Returns thin triangles of several kinds, in one plane or about one axis or anywhere.
+fn thin(draw: &mut Draw) -> Shape {
+    let width = match draw.count(0..3) {
+        0 => draw.log(1e-300..1e-140),
+        // The squares are denormal.
+        1 => draw.log(1e-163..1e-160),
+        _ => draw.log(1e-14..1e-1),
+    };
+    let count = draw.log(1.0..9.0) as usize;
+    let common = draw.chance(0.5).then(|| lattice(draw));
+    let about = draw.chance(0.5).then_some([0.0; 3]);
+    let mut shape = Shape::default();
+    for _ in 0..count {
+        let at = about.unwrap_or_else(|| times(draw.point(), 0.5));
+        let along = common.unwrap_or_else(|| lattice(draw));
+        let aside = times(lattice(draw), width);
+        let share = draw.pick(&[0.0, 0.5, 1.0, 0.3, -0.7]);
+        let third = match draw.count(0..5) {
+            // The area is zero.
+            0 => plus(at, times(along, share)),
+            1 => at,
+            2 => plus(at, plus(along, aside)),
+            _ => plus(plus(at, times(along, share)), aside),
+        };
+        let first = if draw.chance(0.3) {
+            plus(at, times(aside, -0.5))
+        } else {
+            at
+        };
+        let base = shape.vertices.len() as u32;
+        shape.vertices.extend([first, plus(at, along), third]);
+        shape.faces.push([base, base + 1, base + 2]);
+    }
+    shape
+}
+
+/// Returns a direction of small whole numbers, or any direction.
+fn lattice(draw: &mut Draw) -> [f64; 3] {
+    if draw.chance(0.3) {
+        return draw.direction();
+    }
+    let whole = [(); 3].map(|()| draw.pick(&[-2.0, -1.0, 0.0, 0.0, 1.0, 1.0, 2.0]));
+    if whole == [0.0; 3] {
+        [1.0, 0.0, 0.0]
+    } else {
+        whole
+    }
+}

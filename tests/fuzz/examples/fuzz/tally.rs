@@ -1,0 +1,130 @@
+//! Counts outcomes.
+
+use crate::judge::Fault;
+use crate::trial::{Failure, Trial};
+use ccd_core::Outcome;
+use ccd_core::Unresolved;
+use std::collections::BTreeMap;
+use std::fmt;
+
+#[derive(Default)]
+pub struct Tally {
+    queries: u64,
+    answers: u64,
+    by_method: BTreeMap<String, u64>,
+    /// The counts of statuses, for the default method.
+    statuses: BTreeMap<String, u64>,
+    /// The counts of reasons, for all methods.
+    unresolved: BTreeMap<String, u64>,
+    /// The first query of every reason.
+    examples: BTreeMap<String, u64>,
+    refused: BTreeMap<String, u64>,
+    faults: BTreeMap<Fault, u64>,
+    /// The number of queries for which the referee's search was not complete.
+    sampled: u64,
+}
+
+impl Tally {
+    /// Counts a trial. Returns its failures that are among the first of their kind.
+    pub fn add<'t>(&mut self, number: u64, trial: &'t Trial, print: usize) -> Vec<&'t Failure> {
+        self.queries += 1;
+        self.answers += trial.outcomes.len() as u64;
+        self.sampled += u64::from(!trial.proven);
+        for (kind, method) in &trial.asked {
+            *self
+                .by_method
+                .entry(format!("{kind} {method}"))
+                .or_default() += 1;
+        }
+        if let Some(outcome) = trial.outcomes.first() {
+            *self.statuses.entry(status(outcome).to_owned()).or_default() += 1;
+        }
+        for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.asked) {
+            if let Outcome::Unresolved(Unresolved { limit: reason, .. }) = outcome {
+                self.examples.entry(format!("{reason:?}")).or_insert(number);
+                let entry = format!("{reason:?} {kind} {method}");
+                *self.unresolved.entry(entry).or_default() += 1;
+            }
+        }
+        if let Some(why) = &trial.refused {
+            let words: Vec<&str> = why
+                .split(' ')
+                .filter(|w| !w.contains(|c: char| c.is_numeric()))
+                .collect();
+            *self.refused.entry(words.join(" ")).or_default() += 1;
+        }
+        let mut first = Vec::new();
+        for failure in &trial.failures {
+            let count = self.faults.entry(failure.fault).or_default();
+            *count += 1;
+            if *count <= print as u64 {
+                first.push(failure);
+            }
+        }
+        first
+    }
+
+    pub fn failed(&self) -> bool {
+        !self.faults.is_empty()
+    }
+
+    fn share(&self, statuses: &[&str]) -> f64 {
+        let count = statuses
+            .iter()
+            .filter_map(|&s| self.statuses.get(s))
+            .sum::<u64>();
+        count as f64 / self.queries as f64
+    }
+
+    /// # Panics
+    /// If almost no query has a contact, or almost all have one: then little is tested.
+    pub fn assert_representative(&self) {
+        let (hits, misses) = (self.share(&["contact"]), self.share(&["free"]));
+        assert!(
+            hits >= 0.05 && misses >= 0.05,
+            "hits {hits}, misses {misses}"
+        );
+    }
+}
+
+fn status(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Contact { .. } => "contact",
+        Outcome::Free { .. } => "free",
+        Outcome::Touching { .. } => "touching",
+        Outcome::Overlapping { .. } => "overlapping",
+        Outcome::Unresolved(_) => "unresolved",
+        Outcome::Interval { .. } | Outcome::Measured { .. } => "not of a first contact",
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Tally {
+            queries,
+            answers,
+            sampled,
+            ..
+        } = self;
+        writeln!(
+            f,
+            "{queries} queries, {answers} answers, {sampled} searched by samples"
+        )?;
+        let maps = [
+            ("by the default", &self.statuses),
+            ("asked", &self.by_method),
+            ("unresolved", &self.unresolved),
+            ("first query, for --only", &self.examples),
+            ("refused", &self.refused),
+        ];
+        for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {
+            let all: Vec<String> = map.iter().map(|(k, n)| format!("{k}: {n}")).collect();
+            writeln!(f, "  {name}: {}", all.join("; "))?;
+        }
+        if self.failed() {
+            write!(f, "  FAULTS: {:?}", self.faults)
+        } else {
+            write!(f, "  no fault")
+        }
+    }
+}
