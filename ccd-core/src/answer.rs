@@ -331,7 +331,7 @@ impl Outcome {
 
     /// Returns the outcome for the shapes, given one for the bodies.
     fn of_shapes(self, excess: Excess) -> Self {
-        match self.map_contacts(|contact, _| excess.of_shapes(contact)) {
+        match self.map_contacts(|contact, _| contact.of_shapes(excess)) {
             Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
                 overlap,
                 upper: excess.of_overlap(),

@@ -91,7 +91,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Like [`Problem::new`] for bodies whose centres accelerate, for schedules that take
-    /// [accelerations](crate::schedule::contract::Solve::takes_accelerations).
+    /// [accelerations](crate::schedule::solve::Solve::takes_accelerations).
     pub(crate) fn accelerated(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],

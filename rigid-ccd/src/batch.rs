@@ -18,7 +18,8 @@ pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 pub(crate) use timed::{Timed, Timing, time};
 
 use crate::ParallelSolver;
-use ccd_core::Body;
+use crate::table::courses::Course;
+use ccd_core::{Body, InputError, Query, Settings};
 use std::num::NonZeroUsize;
 
 /// The two bodies of a query; both may be the same.
@@ -28,6 +29,29 @@ pub struct Bodies<'a> {
     pub a: &'a Body,
     /// Body B.
     pub b: &'a Body,
+}
+
+impl<'q> Bodies<'q> {
+    /// Poses a question about the bodies on the courses of a row. The distance is asked for at the start.
+    ///
+    /// # Errors
+    /// Those of [`Query::new`].
+    pub fn query(
+        self,
+        question: Question,
+        course: &'q Course,
+        settings: &'q Settings,
+    ) -> Result<Query<'q>, InputError> {
+        let Bodies { a, b } = self;
+        if question == Question::Distance {
+            let [pose_a, pose_b] = course.poses(0.0)?;
+            return Query::new((a, pose_a), (b, pose_b), 0.0, settings);
+        }
+        match course {
+            Course::Motions(row) => Query::new((a, row.a), (b, row.b), row.duration, settings),
+            Course::Path(path) => Query::new((a, &path.a), (b, &path.b), path.duration, settings),
+        }
+    }
 }
 
 /// Creates a solver for each thread that is asked for, by default one for each core.

@@ -5,6 +5,7 @@
 
 mod backends_agree;
 mod bad_inputs;
+mod circles;
 mod contact_normals;
 mod contacts;
 mod decomposition;

@@ -1,5 +1,6 @@
 //! Where two bodies touch: a checked pair of nearest points, or the proof of an overlap.
 
+use crate::body::excess::Excess;
 use crate::body::feature::Feature;
 use crate::math::order::lesser;
 use glam::DVec3;
@@ -42,6 +43,17 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// Returns a contact of the bodies with an upper bound for their shapes.
+    pub(crate) fn of_shapes(self, excess: Excess) -> Self {
+        Contact {
+            separation: Separation {
+                upper: excess.above(self.separation.upper),
+                ..self.separation
+            },
+            ..self
+        }
+    }
+
     /// Returns the contact with a lower bound of at most `least`, which bounds a part of the
     /// bodies.
     pub(crate) fn no_nearer_than(self, least: f64) -> Self {

@@ -1,7 +1,6 @@
 //! How far a body may exceed the shape that is meant.
 
 use super::Body;
-use crate::answer::{Contact, Separation};
 use crate::error::{InputError, check_length};
 
 impl Body {
@@ -69,17 +68,6 @@ impl Excess {
             (distance - self.0).next_down()
         } else {
             distance
-        }
-    }
-
-    /// Returns a contact of the bodies with an upper bound for their shapes.
-    pub(crate) fn of_shapes(self, contact: Contact) -> Contact {
-        Contact {
-            separation: Separation {
-                upper: self.above(contact.separation.upper),
-                ..contact.separation
-            },
-            ..contact
         }
     }
 }

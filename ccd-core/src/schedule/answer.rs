@@ -2,8 +2,8 @@
 
 mod given;
 
-use super::memory::Kept;
 use super::meter::Meter;
+use super::scratch::Scratch;
 use super::start::at_start;
 use crate::answer::{Answer, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
@@ -23,11 +23,11 @@ pub(super) use given::{contact_of_given, of_given};
 pub(crate) fn answer<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
-    kept: &mut Kept,
+    scratch: &mut Scratch,
     search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     let as_found = |_: &Problem<'_>, _: &mut O, _: &mut Meter| None;
-    answer_after(problem, oracle, kept, as_found, search)
+    answer_after(problem, oracle, scratch, as_found, search)
 }
 
 /// Like [`answer`] for a search in any order: it may pass over a contact at the start, for which bodies
@@ -35,14 +35,14 @@ pub(crate) fn answer<O: DistanceOracle>(
 pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
-    kept: &mut Kept,
+    scratch: &mut Scratch,
     search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     let at_start = |problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter| {
         let beyond = problem.contact_distance().next_up();
         at_start(problem, beyond, oracle, meter)
     };
-    answer_after(problem, oracle, kept, at_start, search)
+    answer_after(problem, oracle, scratch, at_start, search)
 }
 
 /// Searches as the policy demands; bodies that are to be let go have a `look` taken at them first, which may
@@ -50,11 +50,11 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
 fn answer_after<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
-    kept: &mut Kept,
+    scratch: &mut Scratch,
     look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter) -> Option<Outcome>,
     mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
-    metered(problem, oracle, kept, |oracle, meter| {
+    metered(problem, oracle, scratch, |oracle, meter| {
         let outcome = match problem.start {
             StartPolicy::Report => search(problem, oracle, meter),
             StartPolicy::Leave => {
@@ -118,14 +118,14 @@ impl Searched<Outcome> {
 pub(super) fn metered<O: DistanceOracle, T>(
     problem: &Problem<'_>,
     oracle: &mut O,
-    kept: &mut Kept,
+    scratch: &mut Scratch,
     solve: impl FnOnce(&mut O, &mut Meter) -> (T, f64),
 ) -> Searched<T> {
     let before = oracle.effort();
     let mut meter = Meter::new(problem);
-    meter.kept = kept.take();
+    meter.scratch = scratch.take();
     let (found, tolerance) = solve(oracle, &mut meter);
-    *kept = meter.kept.take();
+    *scratch = meter.scratch.take();
     Searched {
         found,
         tolerance,

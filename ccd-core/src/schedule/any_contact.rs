@@ -38,18 +38,19 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
     /// Answers the same about two motions.
     pub(super) fn any_contact_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let mut kept = self.kept.take();
-        let answer = answer_in_any_order(problem, oracle, &mut kept, |problem, oracle, meter| {
-            in_rounds(problem, meter, |problem, meter| {
-                self.stack.clear();
-                let outcome = self.contact(problem, oracle, meter);
-                let stats = &mut meter.stats;
-                stats.peak_front = stats.peak_front.max(self.stack.peak());
-                outcome
-            })
-        });
+        let mut scratch = self.scratch.take();
+        let answer =
+            answer_in_any_order(problem, oracle, &mut scratch, |problem, oracle, meter| {
+                in_rounds(problem, meter, |problem, meter| {
+                    self.stack.clear();
+                    let outcome = self.contact(problem, oracle, meter);
+                    let stats = &mut meter.stats;
+                    stats.peak_front = stats.peak_front.max(self.stack.peak());
+                    outcome
+                })
+            });
         self.stack.clear();
-        self.kept = kept;
+        self.scratch = scratch;
         any(answer)
     }
 

@@ -1,13 +1,13 @@
 //! Every pair has its own clock; the pair whose proof expires first is examined next.
 
 use super::answer::answer;
-use super::contract::Solve;
-use super::memory::Kept;
 use super::meter::Meter;
 use super::proven::{Proven, free_at_once};
 use super::queue::Queue;
 use super::rounds::in_rounds;
+use super::scratch::Scratch;
 use super::search::{Advance, Item, Question, Search};
+use super::solve::Solve;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -46,14 +46,14 @@ use std::ops::ControlFlow;
 #[derive(Debug)]
 pub struct BestFirst<O: DistanceOracle> {
     pub(super) queue: Queue<Item<O::Cache>>,
-    pub(super) kept: Kept,
+    pub(super) scratch: Scratch,
 }
 
 impl<O: DistanceOracle> Default for BestFirst<O> {
     fn default() -> Self {
         BestFirst {
             queue: Queue::default(),
-            kept: None,
+            scratch: None,
         }
     }
 }
@@ -63,13 +63,13 @@ impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
         true
     }
 
-    fn kept(&mut self) -> &mut Kept {
-        &mut self.kept
+    fn scratch(&mut self) -> &mut Scratch {
+        &mut self.scratch
     }
 
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let mut kept = self.kept.take();
-        let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
+        let mut scratch = self.scratch.take();
+        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
             in_rounds(problem, meter, |problem, meter| {
                 self.queue.clear();
                 let outcome = self.search(problem, oracle, meter);
@@ -79,7 +79,7 @@ impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
             })
         });
         self.queue.clear();
-        self.kept = kept;
+        self.scratch = scratch;
         answer
     }
 }

@@ -112,8 +112,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
         last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, Outcome) -> Outcome,
     ) -> Searched<Result<Outcome, Beyond>> {
-        let mut kept = self.kept.take();
-        let answer = metered(problem, oracle, &mut kept, |oracle, meter| {
+        let mut scratch = self.scratch.take();
+        let answer = metered(problem, oracle, &mut scratch, |oracle, meter| {
             let problem = problem.measuring();
             let found = match Sample::of(&problem) {
                 Some(sample) => {
@@ -130,7 +130,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             // Distances may not be known to the tolerance that is requested.
             (told, greater(problem.tolerance, width))
         });
-        self.kept = kept;
+        self.scratch = scratch;
         answer
     }
 

@@ -1,11 +1,10 @@
 //! The contract of schedules.
 
 use super::along::first;
-use super::memory::Kept;
+use super::solve::Solve;
 use crate::answer::Answer;
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
-use crate::problem::Problem;
 use crate::query::Query;
 
 /// An order in which to advance the pairs of two bodies until the first contact is certain.
@@ -42,18 +41,6 @@ pub trait Schedule<O: DistanceOracle> {
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range. There is none for two motions.
     fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError>;
-}
-
-/// A schedule as the engine calls it.
-pub(crate) trait Solve<O: DistanceOracle> {
-    /// Whether the search takes accelerations of the bodies' centres into account. Otherwise they count as strays.
-    fn takes_accelerations(&self) -> bool;
-
-    /// Answers a query about motions.
-    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer;
-
-    /// The memory kept between queries.
-    fn kept(&mut self) -> &mut Kept;
 }
 
 impl<O: DistanceOracle, S: Solve<O>> Schedule<O> for S {

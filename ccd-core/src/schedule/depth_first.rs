@@ -1,7 +1,7 @@
 //! The newest pair is examined next, whatever its clock: for questions that do not ask for the first
 //! contact.
 
-use super::memory::Kept;
+use super::scratch::Scratch;
 use super::search::Item;
 use super::stack::Stack;
 use crate::distance::oracle::DistanceOracle;
@@ -16,14 +16,14 @@ use crate::distance::oracle::DistanceOracle;
 #[derive(Debug)]
 pub struct DepthFirst<O: DistanceOracle> {
     pub(super) stack: Stack<Item<O::Cache>>,
-    pub(super) kept: Kept,
+    pub(super) scratch: Scratch,
 }
 
 impl<O: DistanceOracle> Default for DepthFirst<O> {
     fn default() -> Self {
         DepthFirst {
             stack: Stack::default(),
-            kept: None,
+            scratch: None,
         }
     }
 }

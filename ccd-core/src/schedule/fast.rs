@@ -7,11 +7,11 @@ mod reach;
 
 use super::answer::answer;
 use super::best_first::BestFirst;
-use super::contract::Solve;
-use super::memory::Kept;
 use super::meter::Meter;
 use super::proven::Proven;
 use super::rounds::in_rounds;
+use super::scratch::Scratch;
+use super::solve::Solve;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::bound::Bound;
@@ -55,7 +55,7 @@ pub struct Fast<O: DistanceOracle> {
     front: Front<O::Cache>,
     reaches: Reaches,
     without_trees: BestFirst<O>,
-    kept: Kept,
+    scratch: Scratch,
 }
 
 impl<O: DistanceOracle> Fast<O> {
@@ -66,7 +66,7 @@ impl<O: DistanceOracle> Fast<O> {
             front: Front::default(),
             reaches: Reaches::default(),
             without_trees: BestFirst::default(),
-            kept: None,
+            scratch: None,
         }
     }
 }
@@ -82,8 +82,8 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
         false
     }
 
-    fn kept(&mut self) -> &mut Kept {
-        &mut self.kept
+    fn scratch(&mut self) -> &mut Scratch {
+        &mut self.scratch
     }
 
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
@@ -91,13 +91,13 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
             return self.without_trees.solve(problem, oracle);
         };
         self.reaches.forget();
-        let mut kept = self.kept.take();
-        let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
+        let mut scratch = self.scratch.take();
+        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
             in_rounds(problem, meter, |problem, meter| {
                 self.advance(problem, hulls, oracle, meter)
             })
         });
-        self.kept = kept;
+        self.scratch = scratch;
         answer
     }
 }

@@ -138,7 +138,7 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
 impl<'a, O: DistanceOracle> Steps<'a, O> {
     fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
         let mut meter = Meter::new(&problem);
-        meter.kept = memory.kept.take();
+        meter.scratch = memory.scratch.take();
         memory.queue.clear();
         let current = problem.reporting();
         Steps {
@@ -155,7 +155,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
 
     fn into_memory(mut self) -> BestFirst<O> {
         self.memory.queue.clear();
-        self.memory.kept = self.meter.kept;
+        self.memory.scratch = self.meter.scratch;
         self.memory
     }
 

@@ -1,6 +1,6 @@
 //! The limits of a query's work, the work done, and the memory for it.
 
-use super::memory::{Kept, Memory};
+use super::scratch::{Memory, Scratch};
 use crate::answer::{Limit, Stats};
 use crate::problem::Problem;
 use crate::tolerance::WORK_BETWEEN_LOOKS;
@@ -11,7 +11,7 @@ use std::time::Instant;
 #[derive(Debug)]
 pub(crate) struct Meter {
     pub(crate) stats: Stats,
-    pub(crate) kept: Kept,
+    pub(crate) scratch: Scratch,
     /// None if there is no deadline; then no clock is read.
     end: Option<Instant>,
     /// The work at which clock and flag are read next; never if there are none.
@@ -26,7 +26,7 @@ impl Meter {
         let end = problem.deadline.and_then(end);
         Meter {
             stats: Stats::default(),
-            kept: None,
+            scratch: None,
             next_look: if end.is_some() || problem.stop.is_some() {
                 0
             } else {
@@ -38,7 +38,7 @@ impl Meter {
 
     /// Returns the memory for searches that need lists.
     pub(crate) fn memory(&mut self) -> &mut Memory {
-        self.kept.get_or_insert_default()
+        self.scratch.get_or_insert_default()
     }
 
     /// Counts a pair that is about to be visited.

@@ -1,12 +1,13 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, a slow and obvious reference.
 
 use super::answer::answer;
-use super::contract::Solve;
-use super::memory::{Kept, empty};
+use super::capacity::empty;
 use super::meter::Meter;
 use super::pieces::pair::Pair;
 use super::pieces::snapshot::Snapshot;
 use super::proven::Proven;
+use super::scratch::Scratch;
+use super::solve::Solve;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
@@ -27,7 +28,7 @@ use std::ops::ControlFlow;
 pub struct Naive<O: DistanceOracle> {
     bound: Bound,
     pairs: Vec<Pair<O::Cache>>,
-    kept: Kept,
+    scratch: Scratch,
 }
 
 impl<O: DistanceOracle> Naive<O> {
@@ -36,7 +37,7 @@ impl<O: DistanceOracle> Naive<O> {
         Naive {
             bound,
             pairs: Vec::new(),
-            kept: None,
+            scratch: None,
         }
     }
 }
@@ -52,18 +53,18 @@ impl<O: DistanceOracle> Solve<O> for Naive<O> {
         false
     }
 
-    fn kept(&mut self) -> &mut Kept {
-        &mut self.kept
+    fn scratch(&mut self) -> &mut Scratch {
+        &mut self.scratch
     }
 
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let mut kept = self.kept.take();
-        let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
+        let mut scratch = self.scratch.take();
+        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
             let outcome = self.search(problem, oracle, meter);
             meter.stats.peak_front = self.pairs.len() as u64;
             outcome
         });
-        self.kept = kept;
+        self.scratch = scratch;
         answer
     }
 }

@@ -1,13 +1,13 @@
 //! The distance of two bodies at one clock: nearest pairs first.
 
-use super::memory::empty;
+pub(super) mod lists;
+
 use super::meter::Meter;
 use super::nodes::common::Common;
 use super::nodes::expand::measure;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
-use super::queue::Queue;
 use super::waiting::{Full, Rank, Waiting};
 use crate::answer::{Contact, Limit};
 use crate::distance::oracle::DistanceOracle;
@@ -15,6 +15,7 @@ use crate::distance::overlap::{self, Intersection};
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::tolerance::NEAREST_SHARE;
+use lists::Lists;
 use std::ops::ControlFlow;
 
 /// Splits the pair of nodes that may contain the nearest pieces, until no waiting pair can contain
@@ -44,30 +45,6 @@ pub(super) enum Stop {
     Overlap([u32; 2], Contact),
     /// A limit was reached.
     Limit(Limit),
-}
-
-/// The lists of a search, which keep their memory.
-#[derive(Debug, Default)]
-pub(crate) struct Lists {
-    /// Pairs of nodes, ordered by lower bounds of their distances.
-    waiting: Queue<Siblings>,
-    /// All pairs of pieces without a separating axis; none of them has a distance.
-    touching: Vec<[u32; 2]>,
-    /// For the search for one body inside the other.
-    pieces: Vec<u32>,
-}
-
-impl Lists {
-    pub(super) fn clear(&mut self) {
-        self.waiting.clear();
-        empty(&mut self.touching);
-        empty(&mut self.pieces);
-    }
-
-    /// Returns all pairs of pieces that no axis separates, and a list of pieces for use elsewhere.
-    pub(super) fn touching(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
-        (&self.touching, &mut self.pieces)
-    }
 }
 
 impl<'p> Nearest<'p> {

@@ -1,6 +1,6 @@
 //! Pairs that wait for their clocks, the newest first.
 
-use super::memory::empty;
+use super::capacity::empty;
 use super::waiting::{Full, Rank, Waiting};
 use crate::math::order::lesser;
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::schedule::BestFirst;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};
 use crate::{Motion, Outcome, Pose};

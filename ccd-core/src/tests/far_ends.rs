@@ -10,7 +10,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::Moving;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::schedule::{BestFirst, Naive};
 use crate::settings::Settings;
 use glam::DVec3;

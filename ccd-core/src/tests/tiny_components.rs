@@ -13,7 +13,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::Moving;
 use crate::schedule::BestFirst;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::settings::Settings;
 use glam::DVec3;
 

@@ -173,7 +173,7 @@ fn tell<'r>(asked: Asked<'_>, row: &'r CourseRow, solver: &mut Solver) -> Option
         Err(error) => return Some(Err(error)),
     };
     let start = Instant::now();
-    let query = course.query(asked.question, asked.bodies, asked.settings);
+    let query = asked.bodies.query(asked.question, course, asked.settings);
     let answer = query.and_then(|query| solver.answer(asked.question, &query));
     let micros = start.elapsed().as_secs_f64() * 1e6;
     match &answer {

@@ -56,7 +56,7 @@ pub(crate) fn time(
     let mut micros = Vec::with_capacity(timing.repeat.get());
     loop {
         let start = Instant::now();
-        let query = course.query(timing.question, bodies, &timing.settings)?;
+        let query = bodies.query(timing.question, course, &timing.settings)?;
         let answer = solver.answer(timing.question, &query);
         let answer = answer.ok_or(RowProblem::NeedsBestFirst)??;
         micros.push(start.elapsed().as_secs_f64() * 1e6);

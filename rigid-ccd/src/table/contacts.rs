@@ -75,7 +75,7 @@ pub(crate) fn rows(
     let Some(time) = time_of_contact(question, &answer.outcome) else {
         return Ok(Vec::new());
     };
-    let query = course.query(question, bodies, settings)?;
+    let query = bodies.query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
     let row = |pair: &FeaturePair| ContactRow::new(course.id(), course.earliest(time), pair);
     Ok(pairs.iter().map(row).collect())

@@ -8,8 +8,7 @@ use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
-use crate::batch::{Bodies, Question};
-use ccd_core::{InputError, Pose, Settings};
+use ccd_core::{InputError, Pose};
 use std::io;
 
 /// How both bodies of a query move.
@@ -34,31 +33,6 @@ impl Course {
         match *self {
             Course::Motions(Query { duration, .. }) | Course::Path(Path { duration, .. }) => {
                 duration
-            }
-        }
-    }
-
-    /// Poses a question about two bodies that move so. The distance is asked for at the start.
-    ///
-    /// # Errors
-    /// Those of [`ccd_core::Query::new`].
-    pub fn query<'q>(
-        &'q self,
-        question: Question,
-        bodies: Bodies<'q>,
-        settings: &'q Settings,
-    ) -> Result<ccd_core::Query<'q>, InputError> {
-        let Bodies { a, b } = bodies;
-        if question == Question::Distance {
-            let [pose_a, pose_b] = self.poses(0.0)?;
-            return ccd_core::Query::new((a, pose_a), (b, pose_b), 0.0, settings);
-        }
-        match self {
-            Course::Motions(row) => {
-                ccd_core::Query::new((a, row.a), (b, row.b), row.duration, settings)
-            }
-            Course::Path(path) => {
-                ccd_core::Query::new((a, &path.a), (b, &path.b), path.duration, settings)
             }
         }
     }

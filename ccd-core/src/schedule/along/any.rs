@@ -31,7 +31,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 Ok(leg) => leg,
                 Err(reason) => return Ok(unresolved(&kept, &stretches, span.from, reason)),
             };
-            if cut_at_once(&mut stretches, &leg, oracle, &mut self.kept)? {
+            if cut_at_once(&mut stretches, &leg, oracle, &mut self.scratch)? {
                 continue;
             }
             let answer = self.any_contact_of(&leg.problem(query, &terms)?, oracle);
@@ -67,7 +67,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 return Ok(any(found));
             }
             let seen = (s, contact);
-            let length = 2.0 * length(&mut stretches, &leg, seen, oracle, &mut self.kept)?;
+            let length = 2.0 * length(&mut stretches, &leg, seen, oracle, &mut self.scratch)?;
             if !stretches.cut_about(leg.span, leg.time(s), length) {
                 return Ok(unresolved(&kept, &stretches, leg.span.from, Limit::Stalled));
             }

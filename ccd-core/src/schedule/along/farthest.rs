@@ -55,7 +55,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         };
         let excess = query.excess();
         let upper = excess.above(upper);
-        let seen = |(time, contact)| (time, excess.of_shapes(contact));
+        let seen = |(time, contact): (f64, Contact)| (time, contact.of_shapes(excess));
         let at = search.best.map(seen);
         let lower = at.map_or(0.0, |(_, contact)| greater(0.0, contact.separation.lower));
         let outcome = match reason {
@@ -214,7 +214,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         };
         let query = self.stretches.query();
         let problem = pose.problem(query, &terms)?.measuring();
-        let kept = &mut self.schedule.kept;
+        let kept = &mut self.schedule.scratch;
         let answer = metered(&problem, self.oracle, kept, |oracle, meter| {
             (measured(&problem, oracle, meter), 0.0)
         });

@@ -8,7 +8,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 
 /// Answers when the bodies first touch along their trajectories.
 pub(in crate::schedule) fn first_contact<O: DistanceOracle, S: Solve<O>>(
@@ -23,7 +23,7 @@ pub(in crate::schedule) fn first_contact<O: DistanceOracle, S: Solve<O>>(
             Ok(leg) => leg,
             Err(reason) => return Ok(kept.unresolved(&stretches, span.from, reason)),
         };
-        if cut_at_once(&mut stretches, &leg, oracle, schedule.kept())? {
+        if cut_at_once(&mut stretches, &leg, oracle, schedule.scratch())? {
             continue;
         }
         let problem = leg.problem(query, &terms)?;
@@ -61,7 +61,7 @@ pub(in crate::schedule) fn first_contact<O: DistanceOracle, S: Solve<O>>(
             ..leg.span
         };
         let seen = (s, contact);
-        let length = length(&mut stretches, &leg, seen, oracle, schedule.kept())?;
+        let length = length(&mut stretches, &leg, seen, oracle, schedule.scratch())?;
         // Much shorter than before, its strays are as well.
         let is_short = rest.length() <= lesser(length, 0.5 * leg.span.length());
         if !is_short && stretches.cut(rest, length) {

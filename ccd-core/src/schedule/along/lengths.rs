@@ -8,7 +8,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
-use crate::schedule::memory::Kept;
+use crate::schedule::scratch::Scratch;
 use crate::settings::Terms;
 use crate::tolerance::{COARSE, STRAY_SHARE};
 
@@ -18,12 +18,12 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
     leg: &Leg,
     oracle: &mut O,
-    kept: &mut Kept,
+    scratch: &mut Scratch,
 ) -> Result<bool, InputError> {
     let Some(time) = stretches.looks_too_long(leg) else {
         return Ok(false);
     };
-    let Some((contact, approach)) = stretches.measure(time, oracle, kept)? else {
+    let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
         return Ok(false);
     };
     // Backwards in time, rates have the other sign.
@@ -42,7 +42,7 @@ pub(super) fn length<O: DistanceOracle>(
     leg: &Leg,
     (time, seen): (f64, Option<Contact>),
     oracle: &mut O,
-    kept: &mut Kept,
+    scratch: &mut Scratch,
 ) -> Result<f64, InputError> {
     let query = stretches.query();
     let seen = match time > 0.0 {
@@ -50,7 +50,7 @@ pub(super) fn length<O: DistanceOracle>(
         // Halves will do, mostly, and cost less.
         false if leg.span.length() > COARSE * query.duration => return Ok(f64::INFINITY),
         // The motions begin beside the bodies: how near these are is not seen.
-        false => stretches.measure(leg.span.from, oracle, kept)?,
+        false => stretches.measure(leg.span.from, oracle, scratch)?,
     };
     Ok(match seen {
         Some(seen) => worthwhile(query, leg, seen),

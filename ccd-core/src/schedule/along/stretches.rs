@@ -8,7 +8,7 @@ use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
 use crate::query::{Moving, Query};
 use crate::schedule::answer::metered;
-use crate::schedule::memory::Kept;
+use crate::schedule::scratch::Scratch;
 use crate::schedule::start::at_start;
 use crate::settings::Terms;
 use crate::tolerance::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
@@ -193,13 +193,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
         &mut self,
         time: f64,
         oracle: &mut O,
-        kept: &mut Kept,
+        scratch: &mut Scratch,
     ) -> Result<Option<(Contact, f64)>, InputError> {
         let Ok((leg, terms)) = self.pose(time)? else {
             return Ok(None);
         };
         let problem = leg.problem(self.query, &terms)?.measuring();
-        let answer = metered(&problem, oracle, kept, |oracle, meter| {
+        let answer = metered(&problem, oracle, scratch, |oracle, meter| {
             (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
         });
         self.stats.add(&answer.stats);

@@ -12,7 +12,7 @@ use crate::motion::Motion;
 use crate::motion::trajectory::{Accelerations, Smooth};
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::query::Query;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::schedule::{BestFirst, DepthFirst, Schedule};
 use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest};

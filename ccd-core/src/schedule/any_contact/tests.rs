@@ -6,7 +6,7 @@ use crate::answer::Unresolved;
 use crate::body::combination::Combination;
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::schedule::BestFirst;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::settings::StartPolicy;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, RngExt, direction, distance, rng, scene};

@@ -11,7 +11,7 @@ use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::schedule::BestFirst;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, RngExt, direction, distance, magnitude, rng, scene};
 

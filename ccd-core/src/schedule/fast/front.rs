@@ -2,7 +2,7 @@
 
 use super::hull_pair::{Below, HullPair, Near};
 use crate::math::order::lesser;
-use crate::schedule::memory::empty;
+use crate::schedule::capacity::empty;
 use crate::schedule::pieces::pair::Pair;
 
 /// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent

@@ -14,7 +14,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::Moving;
 use crate::schedule::Naive;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};

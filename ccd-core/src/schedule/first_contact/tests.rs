@@ -5,7 +5,7 @@ use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::settings::Settings;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, distance, rng, scene};

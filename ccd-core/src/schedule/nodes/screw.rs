@@ -15,7 +15,7 @@ use crate::body::tree::{Below, Members, Named, NodeId};
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{Problem, Side, Which};
-use crate::schedule::memory::empty;
+use crate::schedule::capacity::empty;
 use crate::tolerance::{ADVANCE_F64, CLOSED_GAP, LEAST_ADVANCE, RATE_F64, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::Range;

@@ -7,7 +7,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::query::Query;
 use crate::schedule::Schedule;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::schedule::{BestFirst, DepthFirst, FirstContact, Naive, Progress};
 use crate::settings::Settings;
 use crate::tests::oracle::Exhaustive;

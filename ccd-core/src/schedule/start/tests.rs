@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::query::Moving;
 #[cfg(feature = "hull-tree")]
 use crate::schedule::Fast;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::schedule::{BestFirst, Naive};
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::torus;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::motion::pose::Pose;
-use crate::schedule::contract::Solve;
+use crate::schedule::solve::Solve;
 use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::body;

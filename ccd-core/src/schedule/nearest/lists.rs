@@ -1,0 +1,29 @@
+//! The lists of the search for the nearest pieces.
+
+use crate::schedule::capacity::empty;
+use crate::schedule::nodes::siblings::Siblings;
+use crate::schedule::queue::Queue;
+
+/// The lists of a search, which keep their memory.
+#[derive(Debug, Default)]
+pub(crate) struct Lists {
+    /// Pairs of nodes, ordered by lower bounds of their distances.
+    pub(super) waiting: Queue<Siblings>,
+    /// All pairs of pieces without a separating axis; none of them has a distance.
+    pub(super) touching: Vec<[u32; 2]>,
+    /// For the search for one body inside the other.
+    pub(super) pieces: Vec<u32>,
+}
+
+impl Lists {
+    pub(in crate::schedule) fn clear(&mut self) {
+        self.waiting.clear();
+        empty(&mut self.touching);
+        empty(&mut self.pieces);
+    }
+
+    /// Returns all pairs of pieces that no axis separates, and a list of pieces for use elsewhere.
+    pub(in crate::schedule) fn touching(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
+        (&self.touching, &mut self.pieces)
+    }
+}

@@ -1,0 +1,209 @@
+//! Files of a crate import each other in one direction: there is no circle of imports.
+//!
+//! A file may use its own ancestors. All other imports count, also those inside of macros. Tests do not count.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use syn::visit::{self, Visit};
+
+/// The path of a module within its crate; the root is empty.
+type Module = Vec<String>;
+
+/// The imports of each module of a crate.
+type Imports = BTreeMap<Module, BTreeSet<Module>>;
+
+const CRATES: [&str; 11] = [
+    "ccd-core",
+    "ccd-distance-gjk",
+    "ccd-distance-vmarch",
+    "ccd-decomp",
+    "ccd-file",
+    "ccd-view",
+    "ccd-web",
+    "ccd-bench",
+    "rigid-ccd",
+    "rigid-ccd-parry",
+    "python",
+];
+
+#[test]
+fn no_files_import_each_other_in_a_circle() {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = 0;
+    for name in CRATES {
+        let root = workspace.join(name).join("src/lib.rs");
+        let texts = texts(&root);
+        files += texts.len();
+        let circles = circles(&imports(&texts));
+        assert!(circles.is_empty(), "{name}: {circles:#?}");
+    }
+    assert!(files > 500, "{files}");
+}
+
+/// The check sees imports by `use`, by a path in an expression and in a macro, and across folders.
+#[test]
+fn a_circle_is_found() {
+    let found = |end: &str, below: &str| {
+        let root = "mod a; mod b; const NOTE: &str = \"mod c;\n//\";";
+        let a = "mod c; use c::f;";
+        let texts = [("", root), ("a", a), ("b", end), ("a/c", below)].map(|(module, text)| {
+            let names = module.split('/').filter(|name| !name.is_empty());
+            let file = syn::parse_file(text).expect("valid Rust");
+            (names.map(str::to_owned).collect(), file)
+        });
+        circles(&imports(&BTreeMap::from(texts))).len()
+    };
+    for end in [
+        "use crate::a::{self, Thing};",
+        "fn f() { crate::a::f() }",
+        "fn f() { println!(\"{}\", super::a::f()) }",
+    ] {
+        assert_eq!(found(end, "use super::super::b;"), 3, "{end}");
+        let in_tests = "#[cfg(test)] mod tests { use crate::b; }";
+        assert_eq!(found(end, in_tests), 0, "{end}");
+        assert_eq!(found(end, "use crate::a::Thing; // crate::b"), 0, "{end}");
+    }
+}
+
+/// Reads the file of a crate's root and those of all its modules, except tests.
+fn texts(root: &Path) -> BTreeMap<Module, syn::File> {
+    let mut texts = BTreeMap::new();
+    let mut waiting = vec![(Module::new(), root.to_owned(), root.with_file_name(""))];
+    while let Some((module, path, folder)) = waiting.pop() {
+        let text = fs::read_to_string(&path).expect("a source file");
+        let file = syn::parse_file(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        for item in &file.items {
+            if let syn::Item::Mod(child) = item
+                && child.content.is_none()
+                && !is_test(&child.attrs)
+            {
+                let name = child.ident.to_string();
+                let below = folder.join(&name);
+                let path: PathBuf = below.with_extension("rs");
+                waiting.push(([&module[..], &[name]].concat(), path, below));
+            }
+        }
+        texts.insert(module, file);
+    }
+    texts
+}
+
+fn is_test(attributes: &[syn::Attribute]) -> bool {
+    let is_test = |attribute: &syn::Attribute| match &attribute.meta {
+        syn::Meta::List(list) => list.path.is_ident("cfg") && list.tokens.to_string() == "test",
+        _ => false,
+    };
+    attributes.iter().any(is_test)
+}
+
+fn imports(texts: &BTreeMap<Module, syn::File>) -> Imports {
+    let imports = texts.iter().map(|(module, file)| {
+        let mut paths = Paths::default();
+        paths.visit_file(file);
+        let used = paths
+            .0
+            .iter()
+            .filter_map(|path| resolved(texts, module, path));
+        // A module is at home in those that it is a part of.
+        let used = used.filter(|used| !module.starts_with(used));
+        (module.clone(), used.collect())
+    });
+    imports.collect()
+}
+
+/// Returns the module that a path leads into; `None` if it leads out of the crate.
+fn resolved(
+    texts: &BTreeMap<Module, syn::File>,
+    module: &[String],
+    path: &[String],
+) -> Option<Module> {
+    let (mut at, mut rest) = (module.to_vec(), path);
+    match path.first()?.as_str() {
+        "crate" => (at, rest) = (Module::new(), &path[1..]),
+        "self" => rest = &path[1..],
+        "super" => {}
+        first if !texts.contains_key(&[module, &[first.to_owned()]].concat()) => return None,
+        _ => {}
+    }
+    for segment in rest {
+        let below = [&at[..], std::slice::from_ref(segment)].concat();
+        match segment.as_str() {
+            "super" => drop(at.pop()),
+            _ if texts.contains_key(&below) => at = below,
+            _ => break,
+        }
+    }
+    Some(at)
+}
+
+/// All paths of a file that may lead to another one.
+#[derive(Default)]
+struct Paths(Vec<Module>);
+
+impl Paths {
+    fn of_tree(&mut self, tree: &syn::UseTree, above: &[String]) {
+        let below = |ident: &syn::Ident| [above, &[ident.to_string()]].concat();
+        match tree {
+            syn::UseTree::Path(path) => self.of_tree(&path.tree, &below(&path.ident)),
+            syn::UseTree::Name(name) => self.0.push(below(&name.ident)),
+            syn::UseTree::Rename(name) => self.0.push(below(&name.ident)),
+            syn::UseTree::Glob(_) => self.0.push(above.to_vec()),
+            syn::UseTree::Group(group) => {
+                for tree in &group.items {
+                    self.of_tree(tree, above);
+                }
+            }
+        }
+    }
+}
+
+impl<'f> Visit<'f> for Paths {
+    fn visit_item_mod(&mut self, module: &'f syn::ItemMod) {
+        if !is_test(&module.attrs) {
+            visit::visit_item_mod(self, module);
+        }
+    }
+
+    fn visit_item_use(&mut self, item: &'f syn::ItemUse) {
+        self.of_tree(&item.tree, &[]);
+    }
+
+    fn visit_path(&mut self, path: &'f syn::Path) {
+        let segments = path.segments.iter();
+        let segments: Module = segments.map(|segment| segment.ident.to_string()).collect();
+        if ["crate", "self", "super"].contains(&segments[0].as_str()) && segments.len() > 1 {
+            self.0.push(segments);
+        }
+        visit::visit_path(self, path);
+    }
+
+    /// What a macro takes is no syntax tree: its paths are found as text.
+    fn visit_macro(&mut self, called: &'f syn::Macro) {
+        let text = called.tokens.to_string().replace(' ', "");
+        let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+        for path in text.split(|c| !is_part(c)) {
+            let segments: Module = path.split("::").map(str::to_owned).collect();
+            if ["crate", "self", "super"].contains(&segments[0].as_str()) && segments.len() > 1 {
+                self.0.push(segments);
+            }
+        }
+    }
+}
+
+/// Returns the modules that are left once those that use no other one are taken out, again and again: circles, and
+/// what uses them.
+fn circles(imports: &Imports) -> Imports {
+    let mut left = imports.clone();
+    loop {
+        let before = left.len();
+        let names: BTreeSet<Module> = left.keys().cloned().collect();
+        for used in left.values_mut() {
+            used.retain(|module| names.contains(module));
+        }
+        left.retain(|_, used| !used.is_empty());
+        if left.len() == before {
+            return left;
+        }
+    }
+}
