@@ -23,7 +23,7 @@ pub(crate) mod tree;
 
 use crate::error::InputError;
 use crate::math::order::greater;
-use crate::tolerance::BOX_SHARE;
+use crate::tuning::BOX_SHARE;
 use combination::Combination;
 use feature::Feature;
 use feature_lookup::{face_under, prepare};

@@ -104,13 +104,14 @@ mod motion;
 
 mod problem;
 mod query;
+pub mod rounding;
 pub mod schedule;
 mod settings;
 mod swept_box;
 #[cfg(test)]
 mod tests;
-pub mod tolerance;
 mod touching_plane;
+pub mod tuning;
 
 pub use answer::{
     Answer, Clearance, Contact, Hit, HitKind, Limit, Outcome, Overlap, Separation, Stats,

@@ -105,7 +105,7 @@ impl Motion {
     ///
     /// Velocities are derived from the poses and rounded. A query over at most `duration` allows
     /// for that: its certificate holds for the motion between the poses as given
-    /// ([`tolerance::distance_rounding`](crate::tolerance::distance_rounding)).
+    /// ([`rounding::distance_rounding`](crate::rounding::distance_rounding)).
     ///
     /// At half a turn both directions are shortest. The motion turns counterclockwise about the
     /// vector part of `end · start⁻¹`, computed from the quaternions as given: the negative of

@@ -9,8 +9,8 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
+use crate::rounding::{self, NODE_GAP};
 use crate::settings::{StartPolicy, Terms};
-use crate::tolerance::{self, NODE_GAP};
 use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
 use glam::DVec3;
@@ -39,7 +39,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) deadline: Option<Duration>,
     /// Set by another thread that wants no answer any more.
     pub(crate) stop: Option<&'a AtomicBool>,
-    /// Bounds the rounding of any distance computed in f64: [`tolerance::distance_rounding`].
+    /// Bounds the rounding of any distance computed in f64: [`rounding::distance_rounding`].
     pub(crate) rounding: f64,
     /// The vector instructions to use.
     pub(crate) level: Level,
@@ -118,7 +118,7 @@ impl<'a> Problem<'a> {
         for side in [&a, &b] {
             side.check()?;
         }
-        let rounding = tolerance::distance_rounding(
+        let rounding = rounding::distance_rounding(
             [a.span(), b.span()],
             [a.path.rate, b.path.rate],
             distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
@@ -132,7 +132,7 @@ impl<'a> Problem<'a> {
             begin: 0.0,
             duration,
             origin,
-            tolerance: greater(terms.tolerance, tolerance::least_tolerance(rounding)),
+            tolerance: greater(terms.tolerance, rounding::least_tolerance(rounding)),
             margin: terms.margin,
             clearance: terms.clearance,
             start: terms.start,
@@ -216,7 +216,7 @@ impl<'a> Problem<'a> {
     /// part or slide keep more than half of it. Only if there is no gap worth the name, pairs of
     /// pieces are let go, and all that touch in the plane of the contact.
     pub(crate) fn leaving(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
-        let least = tolerance::least_tolerance(self.rounding);
+        let least = rounding::least_tolerance(self.rounding);
         let (tolerance, start) = if 0.5 * gap > least {
             (0.5 * gap, StartPolicy::Report)
         } else {
@@ -254,10 +254,10 @@ impl<'a> Problem<'a> {
     /// Returns the problem with another margin, and a tolerance that can be certified there.
     pub(crate) fn keeping(&self, margin: f64, tolerance: f64) -> Self {
         // Distances may be off by more where they are measured beyond a margin.
-        let rounding = self.rounding + tolerance::margin_rounding(margin);
+        let rounding = self.rounding + rounding::margin_rounding(margin);
         Problem {
             margin,
-            tolerance: greater(tolerance, tolerance::least_tolerance(rounding)),
+            tolerance: greater(tolerance, rounding::least_tolerance(rounding)),
             rounding,
             ..self.clone()
         }
@@ -265,22 +265,22 @@ impl<'a> Problem<'a> {
 
     /// Returns the problem in a part of the time, from one clock to a later one, with the margin raised by a distance
     /// and another tolerance. Places are off by more than in the whole, see
-    /// [`place_rounding`](tolerance::place_rounding).
+    /// [`place_rounding`](rounding::place_rounding).
     pub(crate) fn part(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
         let of = |side: &Side<'a>| Side {
             path: side.path.part(clocks),
             ..*side
         };
         let [from, to] = clocks;
-        let rounding = self.rounding + tolerance::margin_rounding(raised);
+        let rounding = self.rounding + rounding::margin_rounding(raised);
         Problem {
             a: of(&self.a),
             b: of(&self.b),
             begin: self.time(from),
             // Rounded down, so that no time is late.
-            duration: self.duration * (to - from) * (1.0 - tolerance::RATE_F64),
+            duration: self.duration * (to - from) * (1.0 - rounding::RATE_F64),
             margin: (self.margin + raised).next_up(),
-            tolerance: greater(tolerance, tolerance::least_tolerance(rounding)),
+            tolerance: greater(tolerance, rounding::least_tolerance(rounding)),
             rounding,
             ..self.clone()
         }

@@ -9,8 +9,8 @@ use crate::motion::path::Path;
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::problem::{Side, check_coordinates};
 use crate::query::{Movement, Moving};
+use crate::rounding::{STRETCH_F64, least_tolerance, share_of_rounding};
 use crate::settings::{Settings, Terms};
-use crate::tolerance::{STRETCH_F64, least_tolerance, share_of_rounding};
 use glam::DVec3;
 
 /// A box along the world's axes that a moving body does not leave, grown by half the distance of a contact.

@@ -52,4 +52,4 @@ pub(crate) const INSIDE_ROUNDS: u32 = 2;
 
 /// The maximum number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal`] is used,
 /// which need not scan all.
-pub(crate) const SCANNED_POINTS: usize = ccd_core::tolerance::CLIMBED_POINTS;
+pub(crate) const SCANNED_POINTS: usize = ccd_core::tuning::CLIMBED_POINTS;

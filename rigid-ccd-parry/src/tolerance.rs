@@ -2,7 +2,7 @@
 //!
 //! `u` is half a unit in the last place of 1.
 
-use ccd_core::tolerance::U64;
+use ccd_core::rounding::U64;
 
 /// The default distance at which single precision is in contact, in the scene's unit of length.
 ///

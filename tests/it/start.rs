@@ -1,8 +1,8 @@
 //! A contact at the start is reported, or released for as long as it does not close.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::rounding::RESTING;
 use ccd_core::schedule::{BestFirst, Schedule};
-use ccd_core::tolerance::RESTING;
 use ccd_core::{
     Body, Claim, DistanceOracle, GiveUp, Motion, Outcome, PiecePair, Pieces, Pose, Settings,
     StartPolicy, Volume,

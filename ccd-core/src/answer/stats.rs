@@ -1,7 +1,7 @@
 //! What an answer cost.
 
 use crate::distance::oracle::Effort;
-use crate::tolerance::LOOKS_PER_VISIT;
+use crate::tuning::LOOKS_PER_VISIT;
 
 /// The cost of an answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! A point of a piece, as a combination of the piece's points.
 
-use crate::tolerance::WEIGHTS;
+use crate::rounding::WEIGHTS;
 use glam::DVec3;
 
 /// A convex combination of up to four points of a piece.

@@ -3,7 +3,8 @@
 use super::tree::ray::crossings;
 use super::{Body, Volume};
 use crate::math::order::greater;
-use crate::tolerance::{BELOW_SURFACE, U64};
+use crate::rounding::U64;
+use crate::tuning::BELOW_SURFACE;
 use glam::DVec3;
 
 /// The side of a flat piece on which the solid is, which the body's faces bound.

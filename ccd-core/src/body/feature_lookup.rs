@@ -6,7 +6,7 @@ use super::piece::Piece;
 use super::polytope::Origin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};
-use crate::tolerance::{CLIMBED_POINTS, ON_FACET};
+use crate::tuning::{CLIMBED_POINTS, ON_FACET};
 use glam::DVec3;
 
 /// The feature at a point of a polytope, by the polytope's corners and the mesh's faces.

@@ -6,7 +6,8 @@ use super::side_table::SideTable;
 use super::support::Support;
 use crate::math::order::greater;
 use crate::math::vector::distance;
-use crate::tolerance::{CLIMBED_POINTS, RATE_F64};
+use crate::rounding::RATE_F64;
+use crate::tuning::CLIMBED_POINTS;
 use glam::DVec3;
 use std::any::Any;
 

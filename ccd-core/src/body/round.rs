@@ -6,7 +6,7 @@ use super::{Body, Volume};
 use crate::error::InputError;
 use crate::limits::{EXCESS_SHARE, MAX_COORDINATE, MOST_CORNERS};
 use crate::math::order::{greater, lesser};
-use crate::tolerance::{ABOUT, LEAST_F64};
+use crate::rounding::{ABOUT, LEAST_F64};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 

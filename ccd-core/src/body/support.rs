@@ -11,7 +11,7 @@ pub use table::SupportTable;
 pub use tree::SupportTree;
 
 use super::facets::Facets;
-use crate::tolerance::CLIMBED_POINTS;
+use crate::tuning::CLIMBED_POINTS;
 use glam::DVec3;
 
 /// Finds extremal corners of one piece. Few corners are all scanned, eight at once. For many
@@ -57,7 +57,7 @@ impl Support {
     ///
     /// # Guarantee
     /// No point of the piece is farther by more than the rounding of two heights, each of which is
-    /// [`HEIGHT_F64`](crate::tolerance::HEIGHT_F64) of the direction's 1-norm and the largest
+    /// [`HEIGHT_F64`](crate::rounding::HEIGHT_F64) of the direction's 1-norm and the largest
     /// coordinate. A direction that is not finite gives some point.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {

@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{self, normal, unit};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::tolerance::is_blurred;
+use crate::rounding::is_blurred;
 use glam::DVec3;
 
 /// A spot of A and one of B.

@@ -7,7 +7,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, normal};
 use crate::motion::pose::Frame;
 use crate::problem::{Problem, Side};
-use crate::tolerance::BOX_F64;
+use crate::rounding::BOX_F64;
 use glam::DVec3;
 
 /// Returns all pairs of faces, of A and of B, that may be nearer than `reach`; none when that

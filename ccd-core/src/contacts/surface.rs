@@ -4,7 +4,7 @@ use super::boxes::FaceTree;
 use super::closest::on_triangle;
 use super::skin::Skin;
 use crate::distance::common_normals::CommonNormals;
-use crate::tolerance::{AROUND, LEVEL};
+use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
 /// The unpacked part of a body's surface, ready for points on it.

@@ -1,7 +1,7 @@
 //! The directions along which two surfaces are apart at two of their points: the common normals of both.
 
 use crate::math::vector::{across, length, unit};
-use crate::tolerance::LEAST_SHARE;
+use crate::rounding::LEAST_SHARE;
 use glam::DVec3;
 
 /// The common normals of surfaces A and B at a point of each: the unit vectors `n` from A to B in the normal cone of A,

@@ -6,7 +6,7 @@ use super::separation::Checked;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::across;
 use crate::math::vector::unit_or_any;
-use crate::tolerance::MAX_CORNERS;
+use crate::tuning::MAX_CORNERS;
 use glam::DVec3;
 
 /// The decision whether two pieces intersect by more than rounding.

@@ -1,7 +1,7 @@
 //! A tree of points, to find those in front of planes.
 
 use super::order::greater;
-use crate::tolerance::height_rounding;
+use crate::rounding::height_rounding;
 use glam::DVec3;
 use std::ops::Range;
 

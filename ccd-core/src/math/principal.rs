@@ -1,6 +1,7 @@
 //! The directions of the largest and smallest spread of points.
 
-use crate::tolerance::{LEAST_TURN, SQUARES};
+use crate::rounding::SQUARES;
+use crate::tuning::LEAST_TURN;
 use glam::{DMat3, DVec3};
 
 /// Returns the eigenvectors of the weighted points' covariance, by Jacobi rotations.

@@ -5,7 +5,7 @@
 //! vector, and a height along it is no distance. Every proof along an axis takes the axis from
 //! here.
 
-use crate::tolerance::{SCALE, SQUARES};
+use crate::rounding::{SCALE, SQUARES};
 use glam::DVec3;
 
 /// Returns the unit vector along `v`; none for zero, and for a NaN or infinite component.

@@ -1,6 +1,7 @@
 //! Computes the time for which a gap stays open.
 
-use crate::tolerance::{RATE_F64, WORTHWHILE};
+use crate::rounding::RATE_F64;
+use crate::tuning::WORTHWHILE;
 
 /// A gap that closes by at most `rate τ + bend τ²/2` within `τ`. Where bodies accelerate away from each other
 /// the bend is negative.

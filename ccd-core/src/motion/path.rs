@@ -76,7 +76,7 @@ impl Path {
     }
 
     /// Returns the path from one `s` to a later one, with times from 0 to 1 again. Places are off by
-    /// [`place_rounding`](crate::tolerance::place_rounding) at most.
+    /// [`place_rounding`](crate::rounding::place_rounding) at most.
     pub(crate) fn part(&self, [from, to]: [f64; 2]) -> Self {
         let time = to - from;
         let (sin, cos) = sin_cos(self.rate * from);

@@ -13,7 +13,7 @@
 
 use super::path::Path;
 use crate::math::vector::length;
-use crate::tolerance::{RATE_F64, TURNS_F64};
+use crate::rounding::{RATE_F64, TURNS_F64};
 use std::f64::consts::TAU;
 
 /// A time after which distances are the same again, or nearly.
@@ -22,7 +22,7 @@ pub(crate) struct Period {
     /// In units of the paths' time.
     pub(crate) length: f64,
     /// Bounds how much any distance differs after a period; after `k` periods it is `k` times that. Rounding of the
-    /// rates comes on top, see [`place_rounding`](crate::tolerance::place_rounding).
+    /// rates comes on top, see [`place_rounding`](crate::rounding::place_rounding).
     pub(crate) change: f64,
 }
 

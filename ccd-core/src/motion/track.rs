@@ -2,7 +2,7 @@
 
 use crate::math::order::lesser;
 use crate::math::vector::length;
-use crate::tolerance::RATE_F64;
+use crate::rounding::RATE_F64;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 

@@ -5,7 +5,7 @@ use super::pose::Pose;
 use crate::error::InputError;
 use crate::math::order::greater;
 use crate::math::vector::length;
-use crate::tolerance::STRETCH_F64;
+use crate::rounding::STRETCH_F64;
 use glam::DVec3;
 
 /// A motion of any kind: between any two times it is near a [`Motion`], by a bound that it knows.

@@ -33,7 +33,7 @@ const COSINE: [f64; 7] = [
 /// Computes sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
 ///
 /// # Guarantee
-/// Each is off by at most 2u, as [`distance_rounding`](crate::tolerance::distance_rounding) counts.
+/// Each is off by at most 2u, as [`distance_rounding`](crate::rounding::distance_rounding) counts.
 #[inline(always)]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     // Angles are not negative: cutting off is rounding down, and takes no call of a library.

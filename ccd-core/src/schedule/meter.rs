@@ -3,7 +3,7 @@
 use super::scratch::{Memory, Scratch};
 use crate::answer::{Limit, Stats};
 use crate::problem::Problem;
-use crate::tolerance::WORK_BETWEEN_LOOKS;
+use crate::tuning::WORK_BETWEEN_LOOKS;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 

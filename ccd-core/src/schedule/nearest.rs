@@ -14,7 +14,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::math::order::lesser;
 use crate::problem::Problem;
-use crate::tolerance::NEAREST_SHARE;
+use crate::rounding::NEAREST_SHARE;
 use lists::Lists;
 use std::ops::ControlFlow;
 

@@ -4,7 +4,7 @@
 
 use crate::math::vector::length;
 use crate::problem::{Problem, Side};
-use crate::tolerance::RATE_F64;
+use crate::rounding::RATE_F64;
 use glam::DVec3;
 
 /// Returns whether the bodies stay farther apart than a contact is, by more than rounding, because

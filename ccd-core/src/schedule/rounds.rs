@@ -13,10 +13,9 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::period::{Period, Reaching};
 use crate::problem::{Problem, Side};
+use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
 use crate::settings::StartPolicy;
-use crate::tolerance::{
-    LEAST_GAIN, REPEATED, SCREW_DRIFT, TURNS_F64, least_tolerance, place_rounding,
-};
+use crate::tuning::{LEAST_GAIN, REPEATED, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 

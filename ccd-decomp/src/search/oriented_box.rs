@@ -4,7 +4,7 @@ use super::element::Element;
 use crate::tolerance::box_rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::tolerance::U64;
+use ccd_core::rounding::U64;
 use ccd_core::vector::unit;
 
 /// An oriented box: centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers

@@ -4,7 +4,7 @@ use super::oriented_box::{Extent, OrientedBox};
 use super::region::{Hull, Shape};
 use crate::exact::predicates::{Projection, side, turn_along};
 use ccd_core::glam::DVec3;
-use ccd_core::tolerance::height_rounding;
+use ccd_core::rounding::height_rounding;
 use ccd_core::vector::unit;
 use std::cmp::Ordering;
 

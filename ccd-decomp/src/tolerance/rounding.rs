@@ -1,7 +1,7 @@
 //! Bounds on rounding that proofs rely on: a smaller value breaks a guarantee.
 
 use ccd_core::glam::DVec3;
-use ccd_core::tolerance::U64;
+use ccd_core::rounding::U64;
 
 /// The distance from a face within which no other shell may be, for the face's middle to represent its shell; in units
 /// of the mesh's size and of its distance from the origin. Rounding moves the middle off the face by 8 [`U64`] at most,

@@ -1,6 +1,6 @@
 //! What is left of a trajectory from a time on.
 
-use ccd_core::tolerance::U64;
+use ccd_core::rounding::U64;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Movement, Stray, Stretch, Trajectory};
 

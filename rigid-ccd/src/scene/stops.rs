@@ -9,8 +9,8 @@ use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use ccd_core::order::{greater, lesser};
+use ccd_core::rounding::STRETCH_F64;
 use ccd_core::schedule::{BestFirst, Schedule};
-use ccd_core::tolerance::STRETCH_F64;
 use ccd_core::vector::length;
 use ccd_core::{
     Answer, Body, InputError, Motion, Movement, Query, Settings, StartPolicy, Trajectory,

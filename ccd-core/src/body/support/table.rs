@@ -4,7 +4,8 @@ use super::directions::{self, DIRECTIONS};
 use super::tree::ball_about;
 use crate::body::facets::Facets;
 use crate::math::order::greater;
-use crate::tolerance::{HEIGHT_F64, PLATEAU_POINTS};
+use crate::rounding::HEIGHT_F64;
+use crate::tuning::PLATEAU_POINTS;
 use glam::DVec3;
 
 /// The corners of a convex polytope, the edges between them, and the corners that are farthest

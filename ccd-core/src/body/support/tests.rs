@@ -8,8 +8,8 @@ use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::math::order::greater;
+use crate::rounding::HEIGHT_F64;
 use crate::tests::scene::{RngExt, direction, magnitude, rng};
-use crate::tolerance::HEIGHT_F64;
 
 fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
     let facet = |corners| Facet {

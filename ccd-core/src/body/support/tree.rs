@@ -4,7 +4,7 @@
 use crate::math::order::{greater, lesser};
 use crate::math::principal::principal_axes;
 use crate::math::vector::distance;
-use crate::tolerance::{DISC_F32, DISC_TILT_F32, FRAME_F64};
+use crate::rounding::{DISC_F32, DISC_TILT_F32, FRAME_F64};
 use glam::{DMat3, DVec3, Vec3};
 
 /// The number of points in a block, and of children in a group.

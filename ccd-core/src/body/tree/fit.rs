@@ -7,7 +7,7 @@ use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
-use crate::tolerance::{FRAME_F64, U64};
+use crate::rounding::{FRAME_F64, U64};
 use glam::{DMat3, DVec3, Vec3};
 pub(crate) use sample::Sample;
 

@@ -3,7 +3,7 @@
 use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
-use crate::tolerance::SQUARES;
+use crate::rounding::SQUARES;
 use glam::{DVec3, Vec3};
 
 /// The number of children in a group.

@@ -1,6 +1,6 @@
 //! A node: a box, a ball, and its children.
 
-use crate::tolerance::{BOX_F64, THIN_F32, U64};
+use crate::rounding::{BOX_F64, THIN_F32, U64};
 use glam::{DVec3, Vec3};
 
 /// An oriented box, grown by the pieces' rounding, and a ball about the same centre. Both contain

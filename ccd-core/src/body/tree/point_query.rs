@@ -3,7 +3,7 @@
 use super::waiting::Waiting;
 use super::{Below, Tree};
 use crate::body::pieces::Pieces;
-use crate::tolerance::SIGN_F64;
+use crate::rounding::SIGN_F64;
 use glam::DVec3;
 use std::ops::Range;
 

@@ -4,7 +4,8 @@ use super::waiting::Waiting;
 use super::{Below, Node, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
-use crate::tolerance::{RAYS, SIGN_F64, U64};
+use crate::rounding::{SIGN_F64, U64};
+use crate::tuning::RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
 

@@ -2,7 +2,8 @@
 
 use crate::math::order::greater;
 use crate::math::vector::unit;
-use crate::tolerance::{FLAT, U64};
+use crate::rounding::U64;
+use crate::tuning::FLAT;
 use glam::DVec3;
 
 /// The space between two parallel planes, the same distance from a node's centre. It contains all

@@ -3,7 +3,7 @@
 use super::fit::{Cloud, Sample, best_frame};
 use crate::math::order::greater;
 use crate::math::vector::length;
-use crate::tolerance::U64;
+use crate::rounding::U64;
 use glam::{DMat3, DVec3};
 
 /// The box about a body, as tight as f64 lets it be. The root's own box is rounded to f32: bodies that slide

@@ -5,11 +5,11 @@ use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
 use crate::problem::Problem;
+use crate::rounding::BOX_F64;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{direction, long_box};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::BOX_F64;
 
 /// The interval of a box along a direction against its points, without the widening.
 #[test]

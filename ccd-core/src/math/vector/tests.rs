@@ -1,9 +1,9 @@
 //! Compares with double-double arithmetic, over all sizes of numbers.
 
 use super::{across, distance, length, normal, unit};
+use crate::rounding::U64;
 use crate::tests::double::Double3;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tolerance::U64;
 use glam::DVec3;
 
 /// A number of any size, down to the least.

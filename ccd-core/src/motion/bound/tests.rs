@@ -1,8 +1,8 @@
 use super::{Velocities, published, sound};
 use crate::math::vector::{length, unit};
+use crate::rounding::RATE_F64;
 use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::RATE_F64;
 use glam::DVec3;
 
 /// Its rounding is part of the rates that are bounded with it.

@@ -1,8 +1,8 @@
 use super::Gap;
+use crate::rounding::RATE_F64;
 use crate::tests::double::Double;
 use crate::tests::scene::{RngExt, magnitude, rng};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::RATE_F64;
 
 /// A free time without its allowance against the root of the square equation.
 #[test]

@@ -4,10 +4,10 @@ use super::Path;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::rounding::place_rounding;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::place_rounding;
 use glam::{DMat3, DVec3};
 
 #[test]

@@ -3,8 +3,8 @@
 use super::*;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::rounding::place_rounding;
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
-use crate::tolerance::place_rounding;
 use glam::DVec3;
 
 #[test]

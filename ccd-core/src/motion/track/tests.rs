@@ -5,10 +5,10 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{Velocities, published, sound};
 use crate::motion::gap::{Gap, first_crossing};
+use crate::rounding::RATE_F64;
 use crate::tests::double::Double;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::RATE_F64;
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 

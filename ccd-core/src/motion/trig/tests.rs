@@ -1,9 +1,9 @@
 use super::sin_cos;
 use crate::limits::MAX_TURN;
 use crate::math::order::greater;
+use crate::rounding::U64;
 use crate::tests::double::Double;
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::U64;
 
 #[test]
 fn agrees_with_the_standard_library() {

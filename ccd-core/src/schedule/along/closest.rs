@@ -13,7 +13,7 @@ use crate::schedule::DepthFirst;
 use crate::schedule::closest_approach::ladder::Ladder;
 use crate::schedule::closest_approach::required::Required;
 use crate::schedule::closest_approach::{Beyond, meets_later};
-use crate::tolerance::{COARSE, STRAY_SHARE};
+use crate::tuning::{COARSE, STRAY_SHARE};
 use found::{Found, Seen};
 use std::time::Instant;
 

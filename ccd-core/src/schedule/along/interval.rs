@@ -9,8 +9,8 @@ use crate::math::vector::length;
 use crate::motion::Motion;
 use crate::motion::trajectory::{Stray, Stretch, Trajectory};
 use crate::query::{Movement, Moving, Query};
+use crate::rounding::U64;
 use crate::schedule::BestFirst;
-use crate::tolerance::U64;
 use std::time::Instant;
 
 impl<O: DistanceOracle> BestFirst<O> {

@@ -9,8 +9,9 @@ use crate::motion::trajectory::Stretch;
 use crate::motion::trajectory::Trajectory;
 use crate::problem::Problem;
 use crate::query::{Moving, Query};
+use crate::rounding::STRETCH_F64;
 use crate::settings::{StartPolicy, Terms};
-use crate::tolerance::{BLURRED, STRAY_SHARE, STRETCH_F64, WORTH_A_CUT};
+use crate::tuning::{BLURRED, STRAY_SHARE, WORTH_A_CUT};
 use glam::DVec3;
 
 /// A stretch of time.

@@ -10,7 +10,7 @@ use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::schedule::scratch::Scratch;
 use crate::settings::Terms;
-use crate::tolerance::{COARSE, STRAY_SHARE};
+use crate::tuning::{COARSE, STRAY_SHARE};
 
 /// Cuts a stretch that looks too long before it is tried: where it meets a proven one, the bodies are measured.
 /// Returns false if it is worth a try.

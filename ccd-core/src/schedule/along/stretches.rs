@@ -11,7 +11,7 @@ use crate::schedule::answer::metered;
 use crate::schedule::scratch::Scratch;
 use crate::schedule::start::at_start;
 use crate::settings::Terms;
-use crate::tolerance::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
+use crate::tuning::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 

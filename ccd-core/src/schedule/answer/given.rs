@@ -6,11 +6,11 @@ use crate::distance::separation::support_gap;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
+use crate::rounding::{RESTING, is_blurred};
 use crate::schedule::meter::Meter;
 use crate::schedule::pieces::meeting::Meeting;
 use crate::schedule::pieces::pair;
 use crate::schedule::pieces::snapshot::Snapshot;
-use crate::tolerance::{RESTING, is_blurred};
 
 /// Returns the outcome for the given bodies. The normal, the witnesses and the bounds of a contact
 /// are those of the pieces that it names.

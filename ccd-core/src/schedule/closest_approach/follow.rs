@@ -7,7 +7,7 @@ use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::pieces::pair;
 use crate::schedule::pieces::snapshot::Snapshot;
-use crate::tolerance::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
+use crate::tuning::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
 
 /// Follows the pieces of a contact to a time at which they are nearer, about a local minimum of their
 /// distance. Returns the nearest that was seen.

@@ -9,7 +9,7 @@ use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::nearest::{Nearest, Stop};
 use crate::schedule::out_of_reach::{least_distance, nearest_clock};
-use crate::tolerance::{FOLLOWED, GUESSES};
+use crate::tuning::{FOLLOWED, GUESSES};
 use std::ops::ControlFlow;
 
 /// Measures the bodies when balls around them are nearest, and follows the nearest pieces from there; then

@@ -13,7 +13,7 @@ use crate::schedule::pieces::pair::Step;
 use crate::schedule::pieces::snapshot::Snapshot;
 use crate::schedule::proven::Proven;
 use crate::settings::StartPolicy;
-use crate::tolerance::{JOIN_BEYOND, OVERLAPPING};
+use crate::tuning::{JOIN_BEYOND, OVERLAPPING};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;

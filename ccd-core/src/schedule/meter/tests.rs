@@ -4,7 +4,7 @@ use super::*;
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::settings::Settings;
-use crate::tolerance::LOOKS_PER_VISIT;
+use crate::tuning::LOOKS_PER_VISIT;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;

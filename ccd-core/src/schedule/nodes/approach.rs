@@ -5,7 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::gap::Gap;
 use crate::problem::Problem;
-use crate::tolerance::RATE_F64;
+use crate::rounding::RATE_F64;
 use glam::DVec3;
 
 /// Upper bounds for two nodes, of A and of B, from now on.

@@ -1,7 +1,7 @@
 //! Computes the times for which gaps stay open, in f32.
 
 use super::lanes::splat;
-use crate::tolerance::{CLOCK_F32, LEAST_BEND_F32, U32};
+use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
 use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
 /// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for NaN and for a pair that is not

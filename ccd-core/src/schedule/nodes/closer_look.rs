@@ -7,8 +7,9 @@ use super::flat_pair;
 use super::screw::Screw;
 use super::siblings::Siblings;
 use crate::problem::{Problem, Side};
+use crate::rounding::REACH_F32;
 use crate::schedule::meter::Meter;
-use crate::tolerance::{AXIS_ROUNDS, COARSE_F32, REACH_F32, SCREW_AFTER};
+use crate::tuning::{AXIS_ROUNDS, COARSE_F32, SCREW_AFTER};
 
 /// The looks that a query has use for.
 #[derive(Debug)]

@@ -5,7 +5,8 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::relative::View;
 use crate::problem::{Problem, Side, Which};
-use crate::tolerance::{CLOSED_GAP, LEAST_GAP_F32, PLACES, RATE_F32};
+use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32};
+use crate::tuning::CLOSED_GAP;
 use glam::Vec3;
 use std::cell::OnceCell;
 

@@ -5,7 +5,7 @@ use super::clock;
 use super::lanes::{Vec3x8, splat};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
+use crate::rounding::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 

@@ -10,7 +10,8 @@ use crate::body::tree::{Named, NodeId, Slab};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{Problem, Side};
-use crate::tolerance::{CLOSED_GAP, COARSE_F32, RATE_F64, REACH_F32, TURNED_SHARE};
+use crate::rounding::{RATE_F64, REACH_F32};
+use crate::tuning::{CLOSED_GAP, COARSE_F32, TURNED_SHARE};
 use glam::DVec3;
 
 /// Returns a time for which two flat nodes, of A and of B, certainly stay apart by the gap of nodes

@@ -1,6 +1,6 @@
 //! Eight numbers at once, and eight vectors, one of each for every child of a group.
 
-use crate::tolerance::LEAST_AXIS_F32;
+use crate::rounding::LEAST_AXIS_F32;
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 use std::ops::{Add, Mul, Sub};

@@ -8,7 +8,7 @@
 use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
-use crate::tolerance::profile_rounding;
+use crate::rounding::profile_rounding;
 use glam::{DVec2, DVec3};
 
 /// The corners of a triangle in the plane of `r` and `ζ`.

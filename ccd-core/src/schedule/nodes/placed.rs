@@ -5,7 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
 use crate::problem::Side;
-use crate::tolerance::BOX_AXES_F32;
+use crate::rounding::BOX_AXES_F32;
 use glam::{DVec3, Vec3};
 
 /// A node or a triangle where its body is.

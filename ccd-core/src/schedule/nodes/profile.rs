@@ -10,7 +10,8 @@ use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::trig::sin_cos;
-use crate::tolerance::{LEAST_INNER, RATE_F64, TURNS_F64, profile_rounding};
+use crate::rounding::{RATE_F64, TURNS_F64, profile_rounding};
+use crate::tuning::LEAST_INNER;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 

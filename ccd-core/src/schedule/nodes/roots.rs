@@ -5,7 +5,7 @@ use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::unit;
 use crate::problem::{Problem, Side};
-use crate::tolerance::PROJECTIONS;
+use crate::tuning::PROJECTIONS;
 use glam::DVec3;
 
 /// Returns whether a fixed plane between the boxes of both bodies keeps them farther apart than a

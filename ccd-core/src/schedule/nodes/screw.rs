@@ -15,8 +15,9 @@ use crate::body::tree::{Below, Members, Named, NodeId};
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{Problem, Side, Which};
+use crate::rounding::{ADVANCE_F64, RATE_F64};
 use crate::schedule::capacity::empty;
-use crate::tolerance::{ADVANCE_F64, CLOSED_GAP, LEAST_ADVANCE, RATE_F64, SCREW_DRIFT};
+use crate::tuning::{CLOSED_GAP, LEAST_ADVANCE, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::Range;
 

@@ -13,7 +13,8 @@ use super::clock;
 use super::eight_pairs::{EightPairs, bending};
 use super::lanes::{Vec3x8, splat};
 use super::shape::{Children, OtherNode};
-use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
+use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
+use crate::tuning::ATTACHED_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// The node that sweeps towards a plane attached to the other body.

@@ -6,7 +6,7 @@ use crate::math::vector::length;
 use crate::motion::pose::Frame;
 use crate::motion::track::{Angle, AxisMotion, Spinning, Track};
 use crate::problem::Side;
-use crate::tolerance::{RATE_F64, TURNED_SUPPORT};
+use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use glam::DVec3;
 
 /// The heights of a piece's points along an axis while their body moves.

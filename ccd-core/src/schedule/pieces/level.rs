@@ -5,8 +5,9 @@ use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
 use crate::problem::{Problem, Which};
-use crate::tolerance::{RESTED, RESTING};
+use crate::rounding::RESTING;
 use crate::touching_plane::TouchingPlane;
+use crate::tuning::RESTED;
 use glam::DVec3;
 
 /// Two pieces that a [`TouchingPlane`] keeps apart.

@@ -2,8 +2,8 @@
 
 use super::snapshot::Snapshot;
 use crate::distance::common_normals::CommonNormals;
+use crate::rounding::{AROUND, LEVEL};
 use crate::schedule::meter::Meter;
-use crate::tolerance::{AROUND, LEVEL};
 use glam::DVec3;
 
 /// The nearest points of the cores of two pieces, in A's frame, and the surfaces around them.

@@ -10,9 +10,9 @@ use crate::distance::separation::Checked;
 use crate::distance::separation::sharp::sharpened;
 use crate::math::vector::unit;
 use crate::problem::{Problem, Side};
+use crate::rounding::RESTING;
 use crate::schedule::meter::Meter;
 use crate::settings::StartPolicy;
-use crate::tolerance::RESTING;
 use glam::DVec3;
 
 /// A pair of pieces that is advanced.

@@ -12,10 +12,9 @@ use crate::motion::bound::{Bound, published, sound};
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
+use crate::rounding::{RATE_F64, RESTING};
 use crate::schedule::meter::Meter;
-use crate::tolerance::{
-    A_WHILE, AXIS_ROUNDS, RATE_F64, RESTED, RESTING, TURNED_SHARE, USUAL_STEPS,
-};
+use crate::tuning::{A_WHILE, AXIS_ROUNDS, RESTED, TURNED_SHARE, USUAL_STEPS};
 use glam::DVec3;
 use std::cell::Cell;
 use std::iter;

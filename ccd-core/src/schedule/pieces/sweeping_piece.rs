@@ -15,7 +15,8 @@ use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::motion::track::{Angle, Spinning};
 use crate::problem::Side;
-use crate::tolerance::{ATTACHED_TIME, AXIS_ROUNDS, RATE_F64, attached_rounding};
+use crate::rounding::{RATE_F64, attached_rounding};
+use crate::tuning::{ATTACHED_TIME, AXIS_ROUNDS};
 use glam::DVec3;
 use std::cell::Cell;
 

@@ -10,7 +10,7 @@ use crate::body::tree::ray::crossings;
 use crate::math::vector::{across, unit_or_any};
 use crate::motion::pose::Frame;
 use crate::problem::{Problem, Side};
-use crate::tolerance::INSIDE;
+use crate::rounding::INSIDE;
 use beside::beside_edges;
 use glam::DVec3;
 

@@ -10,6 +10,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::Moving;
+use crate::rounding::NEAREST_SHARE;
 #[cfg(feature = "hull-tree")]
 use crate::schedule::Fast;
 use crate::schedule::solve::Solve;
@@ -18,7 +19,6 @@ use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::torus;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude, rng, scene};
-use crate::tolerance::NEAREST_SHARE;
 use glam::DVec3;
 use std::time::Duration;
 

@@ -3,7 +3,7 @@
 use crate::exact::predicates::side_of;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::tolerance::height_rounding;
+use ccd_core::rounding::height_rounding;
 use std::cmp::Ordering;
 
 /// Points, with positions relative to the first one.

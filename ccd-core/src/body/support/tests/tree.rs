@@ -2,8 +2,8 @@
 
 use super::looks;
 use crate::body::support::{Support, SupportTree};
+use crate::rounding::HEIGHT_F64;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
-use crate::tolerance::HEIGHT_F64;
 use glam::DVec3;
 
 /// Points of every kind: a ball's surface, a ball, a plane, a line, a single place, a grid, a needle.
@@ -42,7 +42,7 @@ fn searching_agrees_with_a_scan() {
         let reach = reach.fold(0.0, crate::math::order::greater);
         let (middle, radius) = tree.ball();
         for p in &points {
-            assert!(p.distance(middle) <= radius * (1.0 + 16.0 * crate::tolerance::U64));
+            assert!(p.distance(middle) <= radius * (1.0 + 16.0 * crate::rounding::U64));
         }
         for look in looks(200) {
             let height = |p: &DVec3| look.dot(*p);

@@ -2,10 +2,10 @@
 
 use super::{Disc, Discs, LANES, SupportTree};
 use crate::math::order::greater;
+use crate::rounding::{DISC_F32, DISC_TILT_F32, HEIGHT_F64};
 use crate::tests::rational::Exact3;
 use crate::tests::scene::direction;
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::{DISC_F32, DISC_TILT_F32, HEIGHT_F64};
 use glam::{DVec3, Vec3};
 
 /// Points in a ball of radius 1, and a direction along which one at the rim of their disc is farthest, or

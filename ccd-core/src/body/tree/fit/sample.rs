@@ -3,7 +3,7 @@
 use super::Cloud;
 use crate::body::hierarchy::bounds;
 use crate::math::order::{greater, lesser};
-use crate::tolerance::SAMPLED_TRIANGLES;
+use crate::tuning::SAMPLED_TRIANGLES;
 use glam::{DMat3, DVec3, Vec3};
 
 /// The numbers that are compared at once.

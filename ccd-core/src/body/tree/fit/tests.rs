@@ -3,7 +3,7 @@
 use super::*;
 use crate::math::order::lesser;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tolerance::SAMPLED_TRIANGLES;
+use crate::tuning::SAMPLED_TRIANGLES;
 use glam::DQuat;
 
 /// The least surface of the boxes along all frames.

@@ -1,8 +1,8 @@
 use super::Slab;
 use crate::math::order::greater;
+use crate::rounding::U64;
 use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::U64;
 use glam::DVec3;
 
 /// Half of the distance of the planes without the 16u that are added.

@@ -9,7 +9,7 @@ use crate::schedule::along::stretches::Stretches;
 use crate::schedule::closest_approach::ladder::{Ladder, Rung};
 use crate::schedule::out_of_reach::least_distance;
 use crate::settings::Terms;
-use crate::tolerance::LEAST_CUT;
+use crate::tuning::LEAST_CUT;
 
 impl Query<'_> {
     /// Returns the query that asks for distances: the margin plays no role.

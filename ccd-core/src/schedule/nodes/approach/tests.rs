@@ -5,12 +5,12 @@ use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{Problem, Side};
+use crate::rounding::RATE_F64;
 use crate::schedule::nodes::placed::Placed;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::RATE_F64;
 use glam::DVec3;
 
 /// A motion of any speed and turn, about a centre near the body or far from it.

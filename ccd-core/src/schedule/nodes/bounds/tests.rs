@@ -13,7 +13,7 @@ use crate::schedule::nodes::clock;
 use crate::schedule::nodes::lanes::{Vec3x8, load};
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tolerance::{ATTACHED_TIME, MUCH_LARGER};
+use crate::tuning::{ATTACHED_TIME, MUCH_LARGER};
 use crate::vectorize;
 use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};

@@ -4,11 +4,11 @@ use crate::body::polytope::Polytope;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
+use crate::rounding::BOX_AXES_F32;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{direction, long_box};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::BOX_AXES_F32;
 use glam::DVec3;
 
 /// The reach of a box as it stands against its points, without the allowance.

@@ -6,12 +6,12 @@ use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
+use crate::rounding::profile_rounding;
 use crate::schedule::nodes::placed::Placed;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::body;
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::profile_rounding;
 use glam::DVec3;
 
 /// The radius and the height of a point, and its azimuth near a given one.

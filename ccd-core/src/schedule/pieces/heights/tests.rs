@@ -69,7 +69,7 @@ fn many_points_are_bounded_like_all_of_them() {
         );
         // Rounding of heights about the centre, and of the positions that they are computed from.
         let span = problem.a.body.tree().span() + side.path.centre.length();
-        let slack = 128.0 * crate::tolerance::U64 * (span + velocity.length() + pull.length());
+        let slack = 128.0 * crate::rounding::U64 * (span + velocity.length() + pull.length());
         assert!((heights.least() - twin.least()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
             let (bound, all) = (heights.bound(tau), twin.bound(tau));

@@ -4,7 +4,7 @@ use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::across;
 use crate::math::vector::unit_or_any;
-use crate::tolerance::BESIDE_EDGE;
+use crate::rounding::BESIDE_EDGE;
 use glam::DVec3;
 
 /// For every edge of `other` that is on a thin piece, returns points of the piece on either side of

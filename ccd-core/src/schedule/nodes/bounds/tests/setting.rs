@@ -5,11 +5,11 @@ use crate::body::tree::{
     Below, BoxGroup, LANES, Node, TriangleGroup, TriangleRow, unit_normal, up,
 };
 use crate::math::order::greater;
+use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use crate::schedule::nodes::eight_pairs::RelativeMotionF32;
 use crate::schedule::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::schedule::nodes::turn::Turn;
 use crate::tests::scene::{RngExt, direction, magnitude, rotation, within};
-use crate::tolerance::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use glam::{DMat3, DVec3, Vec3};
 
 fn spin(rng: &mut impl RngExt) -> DVec3 {

@@ -3,10 +3,10 @@
 use super::{Found, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::math::order::greater;
+use crate::rounding::{ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_BEND_F32};
 use crate::schedule::nodes::shape::{Children, OtherNode};
 use crate::settings::Instructions;
 use crate::tests::worst::share;
-use crate::tolerance::{ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_BEND_F32};
 
 /// What an axis gives for eight pairs: the gaps, bends and free times.
 pub(super) struct Clocks {

@@ -9,7 +9,7 @@ use crate::schedule::nodes::eight_pairs::Larger;
 use crate::schedule::nodes::shape::{Children, OtherNode};
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
-use crate::tolerance::{LOOK_AGAIN, MUCH_LARGER, SWEPT, THICKNESS};
+use crate::tuning::{LOOK_AGAIN, MUCH_LARGER, SWEPT, THICKNESS};
 use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;

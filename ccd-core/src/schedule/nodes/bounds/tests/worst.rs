@@ -8,14 +8,14 @@ use super::shares::{Shares, share_of_clock};
 use super::{Found, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::math::order::greater;
+use crate::rounding::{
+    ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_AXIS_F32, LEAST_BEND_F32, LEAST_GAP_F32, U32,
+};
 use crate::schedule::nodes::lanes::Vec3x8;
 use crate::schedule::nodes::shape::{Children, OtherNode};
 use crate::settings::Instructions;
 use crate::tests::scene::{RngExt, direction, magnitude};
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::{
-    ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_AXIS_F32, LEAST_BEND_F32, LEAST_GAP_F32, U32,
-};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
 

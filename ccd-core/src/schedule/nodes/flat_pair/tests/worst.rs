@@ -4,11 +4,11 @@ use super::super::Flat;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
+use crate::rounding::RATE_F64;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, direction, rotation};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::RATE_F64;
 use glam::DVec3;
 
 #[test]

@@ -4,9 +4,9 @@ use crate::math::vector::length;
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
+use crate::rounding::ADVANCE_F64;
 use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
-use crate::tolerance::ADVANCE_F64;
 use glam::DVec3;
 
 #[test]

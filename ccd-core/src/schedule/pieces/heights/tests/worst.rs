@@ -12,11 +12,11 @@ use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
 use crate::motion::track::{Angle, Spinning};
 use crate::problem::Problem;
+use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::{RATE_F64, TURNED_SUPPORT};
 use glam::DVec3;
 
 /// A body's rotation from a frame on, exactly.

@@ -8,12 +8,13 @@ use crate::math::vector::unit;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
+use crate::rounding::attached_rounding;
 use crate::schedule::pieces::snapshot::Snapshot;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::{ATTACHED_TIME, attached_rounding};
+use crate::tuning::ATTACHED_TIME;
 use glam::DVec3;
 
 /// A motion about the body's origin or a centre, over a time of 1; up to 1e5 radians.

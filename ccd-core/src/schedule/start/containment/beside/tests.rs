@@ -4,8 +4,8 @@
 use super::beside_edges;
 use crate::body::Body;
 use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::rounding::BESIDE_EDGE;
 use crate::tests::scene::{Pcg64, RngExt, rng};
-use crate::tolerance::BESIDE_EDGE;
 use glam::{DVec2, DVec3};
 
 /// The samples of an edge.

@@ -1,5 +1,5 @@
-//! Every numeric tolerance of the engine: its unit, the reason for its value, and what breaks
-//! without it.
+//! Every allowance that a proof relies on: its unit, its derivation, and what breaks without it. A wrong one breaks the
+//! guarantee. Numbers that only cost time are in `tuning.rs`.
 //!
 //! `u` is half a unit in the last place of 1: [`U64`] in f64, [`U32`] in f32. An operation rounds
 //! with a relative error of at most `u`. The counts below add up the worst error of every
@@ -13,18 +13,6 @@ pub const U64: f64 = f64::EPSILON / 2.0;
 
 /// Relative rounding error of one operation in f32.
 pub const U32: f32 = f32::EPSILON / 2.0;
-
-/// The number of looks at points of pieces that cost as much as an iteration over a pair of nodes.
-/// A look projects a point onto an axis, or evaluates its track and rate.
-pub const LOOKS_PER_VISIT: u64 = 128;
-
-/// The assumed number of steps of an oracle that does not count them. Each step looks at every
-/// point of two pieces. Searches take 3 to 10 steps.
-pub const USUAL_STEPS: u64 = 8;
-
-/// The [work](crate::Stats::work) between two readings of the clock, if there is a deadline. A
-/// reading takes about 25 ns.
-pub const WORK_BETWEEN_LOOKS: u64 = 256;
 
 /// The largest share of its distance by which a skipped pair may be nearer than the nearest
 /// measured pair of pieces. Bounds of nodes are rounded by at most this ([`CLOCK_F32`]). It makes
@@ -124,14 +112,6 @@ pub fn place_rounding(reach: f64, turn: f64, way: f64) -> f64 {
     32.0 * U64 * ((1.0 + turn) * reach + way)
 }
 
-/// The part of the tolerance by which distances may change from the first period of a turning body to the last one
-/// that it is searched for, without a loss: a contact of the first is one of the bodies. What is left of the tolerance
-/// suffices for the search. Twice as much is taken for rounding and for the change together.
-pub const REPEATED: f64 = 0.25;
-
-/// The part of the duration up to which a search period by period is worth its overhead.
-pub const LEAST_GAIN: f64 = 0.5;
-
 /// The error of lengths due to squares that underflow, in the scene's unit of length: see
 /// [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
@@ -220,58 +200,6 @@ pub fn attached_rounding(turns: f64) -> f64 {
     U64 * (96.0 + 8.0 * turns)
 }
 
-/// The share of a gap that a piece's turning past a fixed plane has to use up before a plane that
-/// turns with the piece is tried. Measured: pieces as small as those of common meshes stay far
-/// below, large ones that turn past small ones are far above.
-pub const TURNED_SHARE: f64 = 0.5;
-
-/// The number of projections between the boxes of two bodies that lead to their nearest points. Any
-/// axis is sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections tell 19, 20,
-/// 22, 24 and 24 of them apart.
-pub const PROJECTIONS: usize = 3;
-
-/// The number of rounds in which an axis is followed along the exact path of the pieces before the
-/// oracle is asked again. Each round is a Newton step that cannot overstep, so a few suffice.
-pub const AXIS_ROUNDS: usize = 16;
-
-/// The least free time of two pieces that are looked at for the first time for which no better plane
-/// is sought, in units of the duration. Measured: pairs of knots are looked at 2 % more often, and a
-/// first look takes half of the time.
-pub const A_WHILE: f64 = 1.0 / 65536.0;
-
-/// The most looks at two pieces on the way to the time at which they are nearest, before that time is
-/// known to be between two clocks, and after that. Each look may halve the interval; a few suffice where
-/// distances are smooth. No answer depends on it.
-pub const FOLLOWING_LOOKS: usize = 16;
-
-/// The part of the tolerance by which bodies may stray from their motions where these are in contact. Four times
-/// of it are lost: half of the tolerance is for the gap that the motions keep, and the other half for the contact
-/// that they show, of which either loses the strays twice.
-pub const STRAY_SHARE: f64 = 0.125;
-
-/// The tolerance that distances of motions are known to, in units of the strays that blur them.
-pub const BLURRED: f64 = 1.0 / 16.0;
-
-/// The ratio of strays from which on a stretch beside one that is proven is cut before it is tried: the bodies are
-/// measured where both meet, which costs less than a failure. Twice the length is at most 8 times the stray.
-pub const MUCH_LONGER: f64 = 16.0;
-
-/// The part of the duration above which stretches are halved, without a look at how near the bodies are. Measured:
-/// over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves alone; with looks
-/// at long stretches as well it takes 1.02 of them, in the worst scene 51 times as many.
-pub const COARSE: f64 = 0.125;
-
-/// The part of a stretch below which a length is worth a cut before the stretch is tried.
-pub const WORTH_A_CUT: f64 = 0.75;
-
-/// The least part of a stretch that is cut off. Fewer cuts make it shorter than many halves do, but what they
-/// go by is a guess.
-pub const LEAST_CUT: f64 = 1.0 / 1024.0;
-
-/// The most parts of a journey, cut at corners of its trajectories, that have a budget of their own. Of more, some
-/// share one: a trajectory of a user's own may have corners without end.
-pub const MOST_PARTS: usize = 1 << 16;
-
 /// Allowance on the distance of two points that move for a while, computed in f64, relative to the lengths of
 /// their places, of their centres, and of their ways.
 ///
@@ -279,32 +207,10 @@ pub const MOST_PARTS: usize = 1 << 16;
 /// the length of that 3; the difference of two lengths doubles it; bends and strays 8. That is below 40; 64 are taken.
 pub const FARTHEST_F64: f64 = 64.0 * U64;
 
-/// The part of the width of a measured distance by which it may grow in a stretch that is cut no more for its greatest:
-/// the bounds would hardly be closer.
-pub const SETTLED: f64 = 0.25;
-
-/// The longest step along the distance of two pieces, in radians of both bodies' turns: they are nearest
-/// at most once in it, mostly.
-pub const FOLLOWED_TURN: f64 = 0.25;
-
-/// The most times at which the bodies are measured for a first guess of their closest approach.
-pub const GUESSES: usize = 4;
-
-/// The part of the tolerance that the least distance of two pieces is sought to.
-pub const FOLLOWED: f64 = 1.0 / 8.0;
-
-/// The least relative growth of a free time that is worth another Newton step.
-pub const WORTHWHILE: f64 = 1.0 / 64.0;
-
 /// The decrease below its distance at the start from which on a pair that began in contact counts
 /// as approaching, in units of the distance's rounding. Four cover the rounding of both distances,
 /// and the rounding that a rate of zero accumulates over the whole duration.
 pub const RESTING: f64 = 4.0;
-
-/// The part of [`RESTING`] that must be left for a resting pair to be followed further, in units of
-/// the distance's rounding. Below it is the rounding of heights: each look would find some of it
-/// again, and a slowly approaching pair would be looked at a million times before it is in contact.
-pub const RESTED: f64 = 1.0 / 16.0;
 
 /// The height up to which the surface around a point counts as level, in units of the distance's rounding: one for
 /// the point, and one for the corners around it.
@@ -325,27 +231,6 @@ pub fn is_blurred(distance: f64, rounding: f64) -> bool {
 /// part, in units of [`U64`].
 pub const LEAST_SHARE: f64 = 1e-6;
 
-/// The distance of two nodes, in units of their radii, beyond which a second look at them is worth
-/// more than a split. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A
-/// smaller value makes large nodes creep past each other, a larger one splits nodes that only pass.
-pub const LOOK_AGAIN: f32 = 0.5;
-
-/// The share of a node's radius that counts as thickness along any axis when the thicker of two
-/// nodes is chosen to be split. It lets flat nodes that are seen edge-on be split as well.
-pub const THICKNESS: f32 = 0.1;
-
-/// The longest step for which a plane that turns with a body is followed, in units of the duration.
-/// Its bound has to assume how far the bodies get in that time.
-pub const ATTACHED_TIME: f32 = 1.0 / 16.0;
-
-/// The ratio of the nodes' radii from which on a plane that turns with the larger one is tried.
-pub const MUCH_LARGER: f32 = 3.0;
-
-/// The part of a large turning node, in units of its radius, that must sweep past a small one
-/// during its certified time for a second look to be worth more than a split: its children would be
-/// swept past all the same. Measured on discs and on soups of large triangles.
-pub const SWEPT: f32 = 1.0 / 128.0;
-
 /// Bounds the rounding of the determinant of three vectors, at least two of them differences of
 /// points, relative to the product of their 1-norms. Also bounds that of a product of two vectors,
 /// relative to theirs.
@@ -353,10 +238,6 @@ pub const SWEPT: f32 = 1.0 / 128.0;
 /// Each difference is rounded (1u), the products of three components take 2 more, the six of them are
 /// summed in 3: at most 8u; 16u are taken.
 pub const SIGN_F64: f64 = 16.0 * U64;
-
-/// The number of rays that are tried to count how often a surface winds about a point. A ray fails
-/// that passes an edge by less than rounding: one in 10⁸ does, even of a million triangles.
-pub const RAYS: u32 = 32;
 
 /// The error of the columns of an orthonormal frame computed in f64, from unit length and right
 /// angles: twelve rotations of [`U64`] each come to less, and f32, to which a box's axes are rounded,
@@ -373,19 +254,9 @@ pub const BOX_F64: f64 = 1e-5;
 /// would have all of their larger nodes split before a pair of pieces is seen.
 pub const NODE_GAP: f64 = 7.0 / 8.0;
 
-/// A gap of nodes that exceeds what is to be kept by no more than this is closed, in units of the
-/// tolerance: what rounding leaves of a gap at the end of a clock is not worth a clock of its own,
-/// and a pair that inherits its parent's clock is looked at before all others.
-pub const CLOSED_GAP: f64 = 1.0 / 16.0;
-
 /// The range of weights of a convex combination before they are divided by their sum: no product of
 /// one with a coordinate, and no sum of four, overflows or underflows.
 pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
-
-/// The most corners that are added to a polytope within the difference of two pieces before the
-/// search for the origin in it is given up. Each corner improves the least depth found. A few tens
-/// were enough for pieces of a thousand corners that begin to overlap.
-pub const MAX_CORNERS: usize = 256;
 
 /// The least distance of a point from a surface, in units of the rounding of distances, at which it
 /// is known to be inside or outside: the positions of both are rounded.
@@ -395,33 +266,9 @@ pub const INSIDE: f64 = 4.0;
 /// the edge's part on it: far above rounding, below the distance to other features.
 pub const BESIDE_EDGE: f64 = 1e-3;
 
-/// The depths below a flat piece at which a point of its solid is sought, in this order, in units
-/// of the piece's size. The first is far above what separates it from the surface; the others reach
-/// inside thinner walls.
-pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
-
 /// Bounds the rounding of a height `n·x`, relative to `|n|₁` and the largest coordinate: three
 /// products and two sums, at most 3u; 4u are taken.
 pub const HEIGHT_F64: f64 = 4.0 * U64;
-
-/// A descent tries to join two pairs of its front when their distance exceeds that of the bodies by
-/// this factor. It tries again once the bodies' distance has shrunk by the same factor. Joining
-/// saves measuring both pairs, and costs measuring one more.
-pub const JOIN_BEYOND: f64 = 2.0;
-
-/// The depth of two hulls along the axis between their middles, in units of the smaller one's radius,
-/// beyond which `Fast` splits them unmeasured. No answer depends on it. A smaller value splits hulls that
-/// have a distance, a larger one searches for common points in vain. Measured on rings and bunnies that
-/// fall: a half takes two thirds of the time on rings, where hulls overlap, and costs nothing on bunnies;
-/// a quarter measures a seventh more pairs of bunnies.
-pub const OVERLAPPING: f64 = 0.5;
-
-/// Up to this many points of a piece are scanned for the farthest one; for more, edges are climbed.
-/// Measured on hulls of random points of a sphere, in random directions, by `cargo bench -p
-/// ccd-bench --bench support`: 46 ns against 40 ns for 16 corners, 56 against 48 for 32, 90 against
-/// 51 for 64, 255 against 50 for 256, 4,400 against 116 for 4,096. Climbing from the last corner
-/// takes 30 to 47 ns throughout. Up to 32 a table is not worth its memory.
-pub const CLIMBED_POINTS: usize = 32;
 
 /// Allowance on the reach of a disc about points, computed in f32 in units of the piece's size,
 /// along a direction whose largest component is 1.
@@ -446,21 +293,6 @@ pub const DISC_TILT_F32: f32 = 64.0 * U32;
 /// heights, at most 14u ([`HEIGHT_F64`]): 60u; 64u are taken.
 pub const TURNED_SUPPORT: f64 = 64.0 * U64;
 
-/// The share of its box that a convex body has to fill to count as one piece. Measured: a board of
-/// 8 corners under 38,000 triangles takes 29 visits as one box and 41 as twelve triangles; a
-/// tetrahedron, a third of its box, against 26,000 triangles takes 7,500 as one piece and 130 as
-/// four triangles.
-pub const BOX_SHARE: f64 = 0.9;
-
-/// The number of corners, level up to rounding, that are visited one by one before all corners of
-/// the piece are scanned.
-pub const PLATEAU_POINTS: usize = 32;
-
-/// The distance from a facet, in units of its piece's size, within which a witness counts as on it.
-/// It decides only which feature a contact names. Witnesses are combinations of corners, off by a
-/// few [`U64`] of that size, which a flat piece magnifies.
-pub const ON_FACET: f64 = 1e-9;
-
 /// Bounds the error of the height `n·x − n·a`, with `n = u × v`, of a point above a plane. All
 /// three vectors are rounded differences of points, and no coordinate of `x` or `a` exceeds
 /// `reach`.
@@ -475,11 +307,6 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
     128.0 * U64 * u * v * reach + f64::MIN_POSITIVE
 }
 
-/// The angle below which a rotation towards principal axes is left out.
-///
-/// Unit: radians. Axes are rounded to f32, which turns them by up to 6e-8.
-pub const LEAST_TURN: f64 = 1e-7;
-
 /// The error of the reach of a box along an axis computed in f64, relative to its radius: its axes
 /// are orthonormal to f32 only.
 ///
@@ -491,38 +318,13 @@ pub const BOX_AXES_F32: f64 = 4.0 * U32 as f64;
 /// axis is rounded to f32 ([`BOX_AXES_F32`]), its size outward.
 pub const THIN_F32: f32 = 16.0 * U32;
 
-/// The thickness of a flat node, relative to its size: coordinates of a plane are rounded by about
-/// `u` of their own, which is larger far from the origin. A larger value adds slabs that prove
-/// little; a smaller one leaves flat contact to f32.
-pub const FLAT: f64 = 1e-9;
-
-/// The least rounding of the gap of nodes in f32 at which it is worth a look in f64, in units of the
-/// gap at which clocks of nodes stop. Below it f32 proves what f64 does.
-pub const COARSE_F32: f64 = 1.0;
-
-/// The largest speed at which the axis of a screw may move sideways, per unit of the duration and of
-/// the smaller body's radius. Surfaces that turn with the screw prove nothing for long beyond it.
-pub const SCREW_DRIFT: f64 = 1.0 / 256.0;
-
-/// The advance of a screw during the query, relative to the smaller body's radius, up to which it
-/// counts as sideways. Its pitch would be so small that nodes span many.
-pub const LEAST_ADVANCE: f64 = 1.0 / 65536.0;
-
 /// The error of the advance along a screw, which counts as drift, relative to the velocity: the axis is
 /// off by 4.5u, twice, and products, sums and differences by 9u; 32u are taken.
 pub const ADVANCE_F64: f64 = 32.0 * U64;
 
-/// The least distance from the axis of a plane beyond which a node is, in units of the distance of the
-/// node's centre. Nodes that reach nearer have profiles too wide to prove anything.
-pub const LEAST_INNER: f64 = 0.25;
-
 /// The widening of an interval of numbers of turns before its whole numbers are taken, in turns and
 /// relative to them: far above the rounding of a quotient of a few units in the last place.
 pub const TURNS_F64: f64 = 1e-9;
-
-/// The number of splits after which nodes are compared along a screw: profiles of nodes are worth
-/// their cost to long queries only.
-pub const SCREW_AFTER: u64 = 512;
 
 /// Bounds the rounding of `f = a r + b ζ` of a node, with its reach, computed in f64 (see
 /// `schedule/nodes/profile.rs`): `n` are `|a|` and `|b|`; `arm` is the distance of the node's centre
@@ -549,12 +351,6 @@ pub(crate) const ABOUT: f64 = 1.0 + 16.0 * U64;
 
 /// The least positive number: what a product rounds by where it underflows.
 pub(crate) const LEAST_F64: f64 = f64::from_bits(1);
-
-/// The most triangles of a node that choose the frame of its box; it then holds all of them.
-///
-/// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
-/// to build, boxes hardly shrink.
-pub const SAMPLED_TRIANGLES: usize = 64;
 
 #[cfg(test)]
 mod tests;

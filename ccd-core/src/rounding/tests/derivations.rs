@@ -1,6 +1,7 @@
 //! The allowances against the sums in their docs.
 
-use crate::tolerance::*;
+use crate::rounding::*;
+use crate::tuning::*;
 use glam::DVec3;
 
 /// Asserts that an allowance is at least the sum that its docs derive, and no more than four times as much.

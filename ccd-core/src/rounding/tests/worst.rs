@@ -3,13 +3,13 @@
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
-use crate::tests::double::{Double, Double3};
-use crate::tests::rational::{Exact3, error_of};
-use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::{
+use crate::rounding::{
     FRAME_F64, HEIGHT_F64, LEAST_ROUNDING, SIGN_F64, SQUARES, TURNS_F64, U64, distance_rounding,
     height_rounding,
 };
+use crate::tests::double::{Double, Double3};
+use crate::tests::rational::{Exact3, error_of};
+use crate::tests::worst::{Tape, Worst, share};
 use glam::{DMat3, DVec3};
 
 /// The accepted coordinates, and far smaller ones: 1e-100 to 1e12.

@@ -1,0 +1,206 @@
+//! Every number that is a choice: it costs time, memory or tightness, and never a proof. Answers are certified with any
+//! positive value; a bad one leaves queries unresolved. Allowances that proofs rely on are in `rounding.rs`.
+
+/// The number of looks at points of pieces that cost as much as an iteration over a pair of nodes.
+/// A look projects a point onto an axis, or evaluates its track and rate.
+pub const LOOKS_PER_VISIT: u64 = 128;
+
+/// The assumed number of steps of an oracle that does not count them. Each step looks at every
+/// point of two pieces. Searches take 3 to 10 steps.
+pub const USUAL_STEPS: u64 = 8;
+
+/// The [work](crate::Stats::work) between two readings of the clock, if there is a deadline. A
+/// reading takes about 25 ns.
+pub const WORK_BETWEEN_LOOKS: u64 = 256;
+
+/// The part of the tolerance by which distances may change from the first period of a turning body to the last one
+/// that it is searched for, without a loss: a contact of the first is one of the bodies. What is left of the tolerance
+/// suffices for the search. Twice as much is taken for rounding and for the change together.
+pub const REPEATED: f64 = 0.25;
+
+/// The part of the duration up to which a search period by period is worth its overhead.
+pub const LEAST_GAIN: f64 = 0.5;
+
+/// The share of a gap that a piece's turning past a fixed plane has to use up before a plane that
+/// turns with the piece is tried. Measured: pieces as small as those of common meshes stay far
+/// below, large ones that turn past small ones are far above.
+pub const TURNED_SHARE: f64 = 0.5;
+
+/// The number of projections between the boxes of two bodies that lead to their nearest points. Any
+/// axis is sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections tell 19, 20,
+/// 22, 24 and 24 of them apart.
+pub const PROJECTIONS: usize = 3;
+
+/// The number of rounds in which an axis is followed along the exact path of the pieces before the
+/// oracle is asked again. Each round is a Newton step that cannot overstep, so a few suffice.
+pub const AXIS_ROUNDS: usize = 16;
+
+/// The least free time of two pieces that are looked at for the first time for which no better plane
+/// is sought, in units of the duration. Measured: pairs of knots are looked at 2 % more often, and a
+/// first look takes half of the time.
+pub const A_WHILE: f64 = 1.0 / 65536.0;
+
+/// The most looks at two pieces on the way to the time at which they are nearest, before that time is
+/// known to be between two clocks, and after that. Each look may halve the interval; a few suffice where
+/// distances are smooth. No answer depends on it.
+pub const FOLLOWING_LOOKS: usize = 16;
+
+/// The part of the tolerance by which bodies may stray from their motions where these are in contact. Four times
+/// of it are lost: half of the tolerance is for the gap that the motions keep, and the other half for the contact
+/// that they show, of which either loses the strays twice.
+pub const STRAY_SHARE: f64 = 0.125;
+
+/// The tolerance that distances of motions are known to, in units of the strays that blur them.
+pub const BLURRED: f64 = 1.0 / 16.0;
+
+/// The ratio of strays from which on a stretch beside one that is proven is cut before it is tried: the bodies are
+/// measured where both meet, which costs less than a failure. Twice the length is at most 8 times the stray.
+pub const MUCH_LONGER: f64 = 16.0;
+
+/// The part of the duration above which stretches are halved, without a look at how near the bodies are. Measured:
+/// over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves alone; with looks
+/// at long stretches as well it takes 1.02 of them, in the worst scene 51 times as many.
+pub const COARSE: f64 = 0.125;
+
+/// The part of a stretch below which a length is worth a cut before the stretch is tried.
+pub const WORTH_A_CUT: f64 = 0.75;
+
+/// The least part of a stretch that is cut off. Fewer cuts make it shorter than many halves do, but what they
+/// go by is a guess.
+pub const LEAST_CUT: f64 = 1.0 / 1024.0;
+
+/// The most parts of a journey, cut at corners of its trajectories, that have a budget of their own. Of more, some
+/// share one: a trajectory of a user's own may have corners without end.
+pub const MOST_PARTS: usize = 1 << 16;
+
+/// The part of the width of a measured distance by which it may grow in a stretch that is cut no more for its greatest:
+/// the bounds would hardly be closer.
+pub const SETTLED: f64 = 0.25;
+
+/// The longest step along the distance of two pieces, in radians of both bodies' turns: they are nearest
+/// at most once in it, mostly.
+pub const FOLLOWED_TURN: f64 = 0.25;
+
+/// The most times at which the bodies are measured for a first guess of their closest approach.
+pub const GUESSES: usize = 4;
+
+/// The part of the tolerance that the least distance of two pieces is sought to.
+pub const FOLLOWED: f64 = 1.0 / 8.0;
+
+/// The least relative growth of a free time that is worth another Newton step.
+pub const WORTHWHILE: f64 = 1.0 / 64.0;
+
+/// The part of [`RESTING`](crate::rounding::RESTING) that must be left for a resting pair to be followed further, in units of
+/// the distance's rounding. Below it is the rounding of heights: each look would find some of it
+/// again, and a slowly approaching pair would be looked at a million times before it is in contact.
+pub const RESTED: f64 = 1.0 / 16.0;
+
+/// The distance of two nodes, in units of their radii, beyond which a second look at them is worth
+/// more than a split. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A
+/// smaller value makes large nodes creep past each other, a larger one splits nodes that only pass.
+pub const LOOK_AGAIN: f32 = 0.5;
+
+/// The share of a node's radius that counts as thickness along any axis when the thicker of two
+/// nodes is chosen to be split. It lets flat nodes that are seen edge-on be split as well.
+pub const THICKNESS: f32 = 0.1;
+
+/// The longest step for which a plane that turns with a body is followed, in units of the duration.
+/// Its bound has to assume how far the bodies get in that time.
+pub const ATTACHED_TIME: f32 = 1.0 / 16.0;
+
+/// The ratio of the nodes' radii from which on a plane that turns with the larger one is tried.
+pub const MUCH_LARGER: f32 = 3.0;
+
+/// The part of a large turning node, in units of its radius, that must sweep past a small one
+/// during its certified time for a second look to be worth more than a split: its children would be
+/// swept past all the same. Measured on discs and on soups of large triangles.
+pub const SWEPT: f32 = 1.0 / 128.0;
+
+/// The number of rays that are tried to count how often a surface winds about a point. A ray fails
+/// that passes an edge by less than rounding: one in 10⁸ does, even of a million triangles.
+pub const RAYS: u32 = 32;
+
+/// A gap of nodes that exceeds what is to be kept by no more than this is closed, in units of the
+/// tolerance: what rounding leaves of a gap at the end of a clock is not worth a clock of its own,
+/// and a pair that inherits its parent's clock is looked at before all others.
+pub const CLOSED_GAP: f64 = 1.0 / 16.0;
+
+/// The most corners that are added to a polytope within the difference of two pieces before the
+/// search for the origin in it is given up. Each corner improves the least depth found. A few tens
+/// were enough for pieces of a thousand corners that begin to overlap.
+pub const MAX_CORNERS: usize = 256;
+
+/// The depths below a flat piece at which a point of its solid is sought, in this order, in units
+/// of the piece's size. The first is far above what separates it from the surface; the others reach
+/// inside thinner walls.
+pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
+
+/// A descent tries to join two pairs of its front when their distance exceeds that of the bodies by
+/// this factor. It tries again once the bodies' distance has shrunk by the same factor. Joining
+/// saves measuring both pairs, and costs measuring one more.
+pub const JOIN_BEYOND: f64 = 2.0;
+
+/// The depth of two hulls along the axis between their middles, in units of the smaller one's radius,
+/// beyond which `Fast` splits them unmeasured. No answer depends on it. A smaller value splits hulls that
+/// have a distance, a larger one searches for common points in vain. Measured on rings and bunnies that
+/// fall: a half takes two thirds of the time on rings, where hulls overlap, and costs nothing on bunnies;
+/// a quarter measures a seventh more pairs of bunnies.
+pub const OVERLAPPING: f64 = 0.5;
+
+/// Up to this many points of a piece are scanned for the farthest one; for more, edges are climbed.
+/// Measured on hulls of random points of a sphere, in random directions, by `cargo bench -p
+/// ccd-bench --bench support`: 46 ns against 40 ns for 16 corners, 56 against 48 for 32, 90 against
+/// 51 for 64, 255 against 50 for 256, 4,400 against 116 for 4,096. Climbing from the last corner
+/// takes 30 to 47 ns throughout. Up to 32 a table is not worth its memory.
+pub const CLIMBED_POINTS: usize = 32;
+
+/// The share of its box that a convex body has to fill to count as one piece. Measured: a board of
+/// 8 corners under 38,000 triangles takes 29 visits as one box and 41 as twelve triangles; a
+/// tetrahedron, a third of its box, against 26,000 triangles takes 7,500 as one piece and 130 as
+/// four triangles.
+pub const BOX_SHARE: f64 = 0.9;
+
+/// The number of corners, level up to rounding, that are visited one by one before all corners of
+/// the piece are scanned.
+pub const PLATEAU_POINTS: usize = 32;
+
+/// The distance from a facet, in units of its piece's size, within which a witness counts as on it.
+/// It decides only which feature a contact names. Witnesses are combinations of corners, off by a
+/// few [`U64`](crate::rounding::U64) of that size, which a flat piece magnifies.
+pub const ON_FACET: f64 = 1e-9;
+
+/// The angle below which a rotation towards principal axes is left out.
+///
+/// Unit: radians. Axes are rounded to f32, which turns them by up to 6e-8.
+pub const LEAST_TURN: f64 = 1e-7;
+
+/// The thickness of a flat node, relative to its size: coordinates of a plane are rounded by about
+/// `u` of their own, which is larger far from the origin. A larger value adds slabs that prove
+/// little; a smaller one leaves flat contact to f32.
+pub const FLAT: f64 = 1e-9;
+
+/// The least rounding of the gap of nodes in f32 at which it is worth a look in f64, in units of the
+/// gap at which clocks of nodes stop. Below it f32 proves what f64 does.
+pub const COARSE_F32: f64 = 1.0;
+
+/// The largest speed at which the axis of a screw may move sideways, per unit of the duration and of
+/// the smaller body's radius. Surfaces that turn with the screw prove nothing for long beyond it.
+pub const SCREW_DRIFT: f64 = 1.0 / 256.0;
+
+/// The advance of a screw during the query, relative to the smaller body's radius, up to which it
+/// counts as sideways. Its pitch would be so small that nodes span many.
+pub const LEAST_ADVANCE: f64 = 1.0 / 65536.0;
+
+/// The least distance from the axis of a plane beyond which a node is, in units of the distance of the
+/// node's centre. Nodes that reach nearer have profiles too wide to prove anything.
+pub const LEAST_INNER: f64 = 0.25;
+
+/// The number of splits after which nodes are compared along a screw: profiles of nodes are worth
+/// their cost to long queries only.
+pub const SCREW_AFTER: u64 = 512;
+
+/// The most triangles of a node that choose the frame of its box; it then holds all of them.
+///
+/// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
+/// to build, boxes hardly shrink.
+pub const SAMPLED_TRIANGLES: usize = 64;
