@@ -5,6 +5,7 @@ use crate::schedule::BestFirst;
 use crate::schedule::solve::Solve;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};
+use crate::tests::trajectories::Swing;
 use crate::{Motion, Outcome, Pose};
 
 fn boxes(scene: &Scene) -> [SweptBox; 2] {
@@ -52,6 +53,33 @@ fn points_stay_in_their_box() {
         }
     }
     assert!(tightest < 1e-3 && turning > 500, "{tightest:e} {turning}");
+}
+
+#[test]
+fn points_of_bodies_on_trajectories_stay_in_their_box() {
+    let mut rng = rng(3);
+    let mut widest: f64 = 0.0;
+    for _ in 0..300 {
+        let scene = scene(&mut rng, Kind::Any, 8);
+        let (body, swing) = (&scene.bodies[0], Swing::draw(&mut rng, 3.0));
+        let swept = Moving::from((body, &swing)).swept_box(2.0, &Settings::DEFAULT);
+        let swept = swept.unwrap();
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for step in 0..=256 {
+            let pose = swing.pose(f64::from(step) / 128.0).unwrap();
+            let pieces = body.pieces();
+            for x in (0..pieces.len()).flat_map(|piece| pieces.triangle(piece)) {
+                let point = pose.transform_point(x);
+                (low, high) = (least(low, point), most(high, point));
+            }
+        }
+        assert!(swept.min.cmple(low).all() && swept.max.cmpge(high).all());
+        let span = 2.0 * body.span();
+        let excess = (swept.max - swept.min - (high - low)).max_element() / (span + 1.0);
+        widest = greater(widest, excess);
+    }
+    // Swings of up to three units, whose accelerations are known.
+    assert!(widest < 4.0, "{widest}");
 }
 
 fn room_of(scene: &Scene, k: usize) -> f64 {

@@ -1,6 +1,7 @@
 //! Scenes against all pairs asked one by one.
 
 use super::*;
+use crate::trajectory::Ballistic;
 use crate::{Error, Hit, HitKind, Limit, Pieces, Solver, StartPolicy, Volume};
 use ccd_core::Trajectory;
 use ccd_core::Unresolved;
@@ -447,4 +448,61 @@ fn a_fixed_body_takes_no_motion() {
     // It may be put elsewhere.
     scene.set_movement(other, Motion::still(pose)).unwrap();
     assert_eq!(scene.movement(other).as_motion(), Some(Motion::still(pose)));
+}
+
+/// Bodies that are thrown, and one that rests: the answers are those of the pairs, one by one.
+#[test]
+fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
+    let mut rng = Pcg64::seed_from_u64(8);
+    let (mut contacts, mut none) = (0, 0);
+    for round in 0..40 {
+        let bodies = bodies(&mut rng);
+        let throws: Vec<Ballistic> = (0..12).map(|_| thrown(&mut rng)).collect();
+        let settings = Settings::DEFAULT;
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN);
+        for (k, throw) in throws.iter().enumerate() {
+            scene.add(&bodies[k % 4], throw);
+        }
+        scene.add(&bodies[0], Motion::STILL);
+        let mut expected = Vec::new();
+        let mut solver = Solver::new();
+        for b in 0..scene.len() {
+            for a in 0..b {
+                let [of_a, of_b] = [a, b].map(|k| scene.members[k].moving());
+                let answer = solver.first_contact(of_a, of_b, 1.0).unwrap();
+                match answer.hit().unwrap() {
+                    Some(hit) => expected.push((hit.time, [a, b], hit)),
+                    None => none += 1,
+                }
+                let swept = |moving: Moving<'_>| moving.swept_box(1.0, &settings).unwrap();
+                let apart = !swept(of_a).meets(&swept(of_b));
+                assert!(
+                    !apart || answer.hit().unwrap().is_none(),
+                    "{round}: {a} {b}"
+                );
+            }
+        }
+        expected.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        let found = scene.contacts(1.0);
+        assert_eq!(found.len(), expected.len(), "{round}");
+        for (found, (_, bodies, hit)) in found.into_iter().zip(&expected) {
+            let found = found.unwrap();
+            assert_eq!((found.bodies, found.hit), (*bodies, *hit), "{round}");
+            contacts += 1;
+        }
+        let first = scene.first_contact(1.0).unwrap();
+        let first = first.map(|impact| impact.bodies);
+        assert_eq!(first, expected.first().map(|event| event.1), "{round}");
+    }
+    assert!(contacts > 100 && none > 1_000, "{contacts} {none}");
+}
+
+/// A throw towards the middle, under an acceleration.
+pub(super) fn thrown(rng: &mut Pcg64) -> Ballistic {
+    let mut any =
+        |size: f64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..size)));
+    let (place, aside) = (any(4.0), any(2.0));
+    let pose = Pose::at(place).unwrap();
+    let motion = Motion::new(pose, aside - place, any(2.0)).unwrap();
+    Ballistic::new(motion, any(6.0)).unwrap()
 }

@@ -13,7 +13,7 @@ use crate::motion::trajectory::{Accelerations, Smooth};
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::query::Query;
 use crate::schedule::solve::Solve;
-use crate::schedule::{BestFirst, DepthFirst, Schedule};
+use crate::schedule::{BestFirst, DepthFirst, Naive, Schedule};
 use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::Exhaustive;
@@ -115,6 +115,50 @@ fn first_contacts_hold_at_sampled_times() {
         hits > 100 && misses > 100 && starts > 5,
         "{hits} {misses} {starts}"
     );
+}
+
+/// Schedules that take no accelerations find the same contacts, as late and no later.
+#[test]
+fn every_schedule_finds_first_contacts_along_trajectories() {
+    let mut rng = rng(31);
+    let (mut hits, mut misses) = (0, 0);
+    for number in 0..60 {
+        let mut swings = Swings::draw(&mut rng);
+        swings.config.tolerance = magnitude(&mut rng, -3.0, -2.0);
+        let Settings {
+            margin, tolerance, ..
+        } = swings.config;
+        let naive = Naive::default().first_contact(&swings.query(), &mut Exhaustive);
+        match (naive.unwrap().outcome, swings.first()) {
+            (Outcome::Contact { time, .. }, other) => {
+                hits += 1;
+                let near = swings.distance(time);
+                assert!(near <= margin + tolerance + ROUNDING, "{number}: {near:e}");
+                for k in 0..200 {
+                    let found = swings.distance(time * f64::from(k) / 200.0);
+                    assert!(
+                        found >= margin - ROUNDING,
+                        "{number}: {found:e} before {time}"
+                    );
+                }
+                let graze = matches!(other, Outcome::Free { proven_gap } if proven_gap <= margin + tolerance);
+                assert!(
+                    graze || other.hit().is_ok_and(|hit| hit.is_some()),
+                    "{number}: {other:?}"
+                );
+            }
+            (Outcome::Free { proven_gap }, _) => {
+                misses += 1;
+                for k in 0..=200 {
+                    let found = swings.distance(f64::from(k) / 200.0);
+                    assert!(found >= proven_gap - ROUNDING, "{number}: {found:e}");
+                }
+            }
+            (Outcome::Touching { .. } | Outcome::Overlapping { .. }, _) => {}
+            (outcome, _) => panic!("{number}: {outcome:?}"),
+        }
+    }
+    assert!(hits > 10 && misses > 10, "{hits} {misses}");
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use super::super::tests::{bodies, parts};
 use super::*;
+use crate::scene::tests::thrown;
+use crate::trajectory::Ballistic;
 use crate::{Body, HitKind, Pose, Solver};
 use ccd_core::Outcome;
 use ccd_core::Settings;
@@ -334,4 +336,45 @@ fn settings_at_their_limits_are_taken() {
     scene.add(&ball, flies(1e12, 1.0));
     scene.add(&ball, flies(1e12 - 30.0, 21.0));
     assert!(scene.stops(2.0).is_ok());
+}
+
+#[test]
+fn bodies_on_trajectories_that_stop_never_overlap() {
+    let mut rng = Pcg64::seed_from_u64(9);
+    let mut solver = Solver::new();
+    let (mut stopped, mut crossed) = (0, 0);
+    for round in 0..40 {
+        let bodies = bodies(&mut rng);
+        let throws: Vec<Ballistic> = (0..12).map(|_| thrown(&mut rng)).collect();
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN);
+        for (k, throw) in throws.iter().enumerate() {
+            scene.add(&bodies[k % 4], throw);
+        }
+        scene.add_fixed(&bodies[1], Pose::IDENTITY);
+        let stops = scene.stops(1.0).unwrap();
+        stopped += stops.iter().filter(|stop| stop.by.is_some()).count();
+        let goes_on = Stop {
+            time: 1.0,
+            by: None,
+            contact: None,
+        };
+        let free = vec![goes_on; scene.len()];
+        let at_start = overlapping(&scene, &poses(&scene, &free, 0.0), &mut solver);
+        let mut through = HashSet::new();
+        for step in 0..=40 {
+            let time = f64::from(step) / 40.0;
+            let now = overlapping(&scene, &poses(&scene, &stops, time), &mut solver);
+            assert!(
+                now.is_subset(&at_start),
+                "{round} {time} {now:?} {at_start:?}"
+            );
+            through.extend(overlapping(
+                &scene,
+                &poses(&scene, &free, time),
+                &mut solver,
+            ));
+        }
+        crossed += through.difference(&at_start).count();
+    }
+    assert!(stopped > 100 && crossed > 50, "{stopped} {crossed}");
 }
