@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Stores the measurements of an evaluation: chart.csv as dated rows with machine and commit in results/, and
-# the charts of the root README in charts/.
+# Stores the measurements of an evaluation: chart.csv as dated rows with machine and commit in results/. Draws the
+# chart of the root README anew, from the tables that `ccd-bench chart --splice` has put into README.md.
 #
 # usage: keep.sh [REPORT [COMMIT]]
 #   REPORT   the folder that `ccd-bench chart --out` wrote to, default target/ccd-report
@@ -19,6 +19,5 @@ fi
 out=$here/results/$day-$name-chart.csv
 awk -v head="date,machine,commit" -v row="$day,$machine,$commit" \
     '{ print (NR == 1 ? head : row) "," $0 }' "$report/chart.csv" >"$out"
-mkdir -p "$here/charts"
-cp "$report/pareto-small.svg" "$report/triangles.svg" "$here/charts/"
+"$here/scripts/speed.py"
 echo "$out"

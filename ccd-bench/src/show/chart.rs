@@ -2,7 +2,7 @@
 //!
 //! | chart | shows |
 //! |---|---|
-//! | `pareto`, `pareto-small` | time against error, a line for each method over its tolerances |
+//! | `pareto` | time against error, a line for each method over its tolerances |
 //! | `triangles` | time against the size of the mesh |
 //! | `stability`, `growth` | how far each method follows each family of scenes, and how its cost grows |
 //!
@@ -44,8 +44,6 @@ pub struct Charts<'a> {
     pub scenes: &'a [SceneFacts<'a>],
     /// The methods in display order; cells of other methods are left out.
     pub methods: &'a [MethodFacts<'a>],
-    /// The scenes of the small chart of time against error.
-    pub headline: &'a [&'a str],
 }
 
 /// The facts about a scene that charts need.
@@ -147,8 +145,7 @@ impl Charts<'_> {
             return Err(ChartError::NothingToDraw);
         }
         let mut drawings = Vec::new();
-        drawings.extend(pareto::all_scenes(self)?);
-        drawings.extend(pareto::headline(self)?);
+        drawings.extend(pareto::chart(self)?);
         drawings.extend(triangles::chart(self)?);
         Ok(drawings)
     }

@@ -38,8 +38,6 @@ const DEFAULT: &str = "best-first direct";
 const AS_PUBLISHED: &str = "fast vmarch";
 /// The methods that the paper compares itself with; the factors are in the table's title.
 const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
-/// The scenes of the small chart.
-const HEADLINE: [&str; 2] = ["knot34560 turning", "bunny turning"];
 
 impl<'e> Presentation<'e> {
     /// Summarises the measurements.
@@ -111,7 +109,6 @@ impl<'e> Presentation<'e> {
             cells: &self.cells,
             scenes: &scenes,
             methods: &methods,
-            headline: &HEADLINE,
         };
         charts.write(folder)?;
         Ok(views::write_page(

@@ -62,8 +62,7 @@ impl Page<'_> {
     fn charts_html(&self) -> Result<String, PageError> {
         let drawings = self.charts.drawings()?;
         let mut html = String::new();
-        // The small chart is for places without room for all scenes.
-        for drawing in drawings.iter().filter(|d| d.name != "pareto-small") {
+        for drawing in &drawings {
             // Writing to a string does not fail.
             let _ = writeln!(html, "<figure>{}</figure>", drawing.svg);
         }

@@ -12,6 +12,7 @@ use ccd_core::order::greater;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
+const NAME: &str = "pareto";
 /// Smaller errors are rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
 /// The width of a method's lane in the strip.
@@ -23,42 +24,9 @@ const LEAST_STRIP: f64 = 46.0;
 
 type Shown<'a> = (&'a MethodFacts<'a>, Look);
 
-/// Draws all scenes.
-pub(super) fn all_scenes(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
-    draw(charts, "pareto", &charts.measured_scenes(), Layout::DENSE)
-}
-
-/// Draws the scenes of the headline.
-pub(super) fn headline(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
-    let mut scenes = charts.measured_scenes();
-    scenes.retain(|scene| charts.headline.contains(&scene.name));
-    draw(charts, "pareto-small", &scenes, Layout::ROOMY)
-}
-
-/// The number of panels side by side, and their height.
-#[derive(Clone, Copy, Debug)]
-struct Layout {
-    columns: usize,
-    height: f64,
-}
-
-impl Layout {
-    const DENSE: Layout = Layout {
-        columns: 3,
-        height: 190.0,
-    };
-    const ROOMY: Layout = Layout {
-        columns: 2,
-        height: 280.0,
-    };
-}
-
-fn draw(
-    charts: &Charts<'_>,
-    name: &str,
-    scenes: &[&SceneFacts<'_>],
-    layout: Layout,
-) -> Result<Option<Drawing>, ChartError> {
+/// Draws all scenes that were measured.
+pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
+    let scenes = charts.measured_scenes();
     let shown: Vec<_> = charts
         .shown(&Family::COMPARED)
         .into_iter()
@@ -90,8 +58,8 @@ fn draw(
         legend: Legend::of(&shown),
         x,
         y,
-        columns: layout.columns,
-        height: layout.height,
+        columns: 3,
+        height: 190.0,
         right_margin: strip,
     };
     let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
@@ -104,9 +72,9 @@ fn draw(
         }
     });
     Ok(Some(Drawing {
-        name: name.to_owned(),
+        name: NAME.to_owned(),
         title: format!("{title}. One panel for each scene."),
-        svg: svg.map_err(failed(name))?,
+        svg: svg.map_err(failed(NAME))?,
     }))
 }
 

@@ -83,7 +83,6 @@ fn with_page<T>(look: impl FnOnce(&Page<'_>) -> T) -> T {
             family: Family::Ours,
             label: "ours",
         }],
-        headline: &[],
     };
     look(&Page {
         title: "Of \"knots\"",
