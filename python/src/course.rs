@@ -1,4 +1,4 @@
-//! What moves a body: a motion, a link of an arm, a path.
+//! The movement of a body: a motion, a link of an arm, or a path.
 
 use crate::chain::PyLink;
 use crate::errors::{input, wrong_type};
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use rigid_ccd::trajectory::{Link, Poses, Trajectory};
 use rigid_ccd::{Body, Motion, Moving, Remark};
 
-/// How a body moves.
+/// The movement of a body.
 pub(crate) enum Course<'c> {
     Motion(Motion),
     Link(Link<'c>, f64),
@@ -16,7 +16,7 @@ pub(crate) enum Course<'c> {
 }
 
 impl<'c> Course<'c> {
-    /// Takes what Python passes as `motion_a` or `motion_b`; None is at rest.
+    /// Extracts a movement from the argument `motion_a` or `motion_b`; None is at rest.
     pub(crate) fn of(given: Option<&'c Bound<'_, PyAny>>, what: &str) -> PyResult<Self> {
         let Some(given) = given.filter(|given| !given.is_none()) else {
             return Ok(Course::Motion(Motion::STILL));
@@ -37,7 +37,7 @@ impl<'c> Course<'c> {
         ))
     }
 
-    /// When the course ends; none for a motion, which goes on.
+    /// Returns the end of the movement; `None` for a motion, which has no end.
     fn end(&self) -> Option<f64> {
         match self {
             Course::Motion(_) => None,
@@ -55,14 +55,14 @@ impl<'c> Course<'c> {
     }
 }
 
-/// Two bodies with their courses.
+/// Two bodies with their movements.
 pub(crate) struct Pair<'c> {
     pub(crate) a: (&'c Body, Course<'c>),
     pub(crate) b: (&'c Body, Course<'c>),
 }
 
 impl Pair<'_> {
-    /// Returns the duration of a query: by default that of links and paths, which is the same for both, or 1.
+    /// Returns the duration of a query. The default is that of links and paths, which must be equal for both, or 1.
     pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
         let courses = [&self.a.1, &self.b.1];
         let ends = courses.iter().filter_map(|course| course.end());
@@ -92,7 +92,7 @@ impl Pair<'_> {
         Ok(duration)
     }
 
-    /// Remarks upon what turns a body, in a duration.
+    /// Returns remarks about the rotation of a body over a duration.
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {

@@ -1,4 +1,4 @@
-//! Pages of rows: what `ccd view` shows.
+//! Pages of rows, as `ccd view` writes them.
 
 use crate::body::body_of;
 use crate::errors::{input as refuse, of_file};
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Writes a page for each of some rows of a table of motions, by their numbers; `rigid_ccd.audit` calls it.
+/// Writes a page for each of some rows of a table of motions, by their indices; called by `rigid_ccd.audit`.
 #[pyfunction]
 #[pyo3(signature = (a, b, motions, rows, folder, **settings))]
 pub(crate) fn write_pages(
@@ -53,7 +53,7 @@ enum Fault {
     Page(PagesError),
 }
 
-/// Writes a page for each of some rows of a table into a folder; returns their paths, in the order of the rows.
+/// Writes a page for each of some rows of a table into a folder; returns the pages' paths, in the order of the rows.
 fn write(
     asked: Asked<'_>,
     reader: Reader,

@@ -1,4 +1,4 @@
-//! Long work without the GIL, which Ctrl-C ends.
+//! Long work without the GIL, which Ctrl-C can interrupt.
 
 use crate::errors::fault;
 use pyo3::exceptions::PyRuntimeError;
@@ -9,10 +9,10 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// The time between two looks at signals: a tenth of what a person notices.
+/// The interval between two checks for signals.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Does work on a thread of its own, without the GIL, and returns its result.
+/// Runs work on its own thread, without the GIL, and returns the result.
 ///
 /// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
 /// soon; it comes back beside the result. Without a thread to spare, or after a panic, there is an exception alone.

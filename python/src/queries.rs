@@ -1,4 +1,4 @@
-//! One query at a time.
+//! Single queries.
 
 use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
@@ -15,19 +15,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The work of about a tenth of a second. A query with more to do is asked again on a thread of its own, while this one
-/// looks for Ctrl-C.
+/// The budget of about a tenth of a second of work. A query with more to do is asked again on a thread of its own,
+/// while this one looks for Ctrl-C.
 const SHORT: u64 = 100_000;
 
-/// The time of that, as a path has a budget for each of its parts.
+/// The deadline of a first attempt, since a path has a budget for each of its segments.
 const MOMENT: Duration = Duration::from_millis(200);
 
 thread_local! {
-    /// The solver of this thread, which keeps its memory from query to query. A panic leaves a new one.
+    /// The solver of this thread, whose memory is reused from query to query. A panic leaves a new one.
     static SOLVER: Cell<Solver> = Cell::new(Solver::new());
 }
 
-/// Asks a solver, without the GIL. Ctrl-C ends it.
+/// Runs a query, without the GIL. Ctrl-C ends it.
 ///
 /// `farther` compares what two answers without a result prove: the larger number is the better bound.
 fn ask(
@@ -86,7 +86,7 @@ fn ask(
     })
 }
 
-/// Asks a question about contacts.
+/// Runs a query about contacts.
 fn contact(
     py: Python<'_>,
     settings: Settings,
@@ -106,7 +106,7 @@ fn pair<'c>(
     })
 }
 
-/// Finds the first contact of two moving bodies, from time 0 to `duration`; None when they stay apart.
+/// Finds the first contact of two moving bodies, from time 0 to `duration`; None if they stay apart.
 ///
 /// Nothing touches before its time, and without a contact nothing touches at all: that is proven, in floating point.
 ///
@@ -215,7 +215,7 @@ pub(crate) fn closest_approach<'py>(
     )
 }
 
-/// Brackets the greatest distance of two moving bodies, to within the tolerance: that of their nearest points at each time.
+/// Brackets the greatest distance over time of two moving bodies, to within the tolerance.
 ///
 /// At the `time` of the answer it is at least `lower`, and it is never more than `upper`. Arguments and exceptions are those
 /// of `first_contact`, without a margin. What the bodies exceed their shapes by, their `sticks_out`, is in `upper`.
@@ -247,7 +247,7 @@ pub(crate) fn greatest_distance<'py>(
     )
 }
 
-/// Brackets the distance of two bodies at rest, each at a pose as of `Motion.between`; None is the world's origin.
+/// Brackets the distance of two bodies at rest, each at a pose as in `Motion.between`; None is the world's origin.
 ///
 /// >>> from rigid_ccd import Body, distance
 /// >>> ball = Body.sphere(0.5)
@@ -279,7 +279,7 @@ pub(crate) fn distance<'py>(
     )
 }
 
-/// Asks for bounds of a distance.
+/// Runs a query about a distance.
 fn measure<'py>(
     py: Python<'py>,
     settings: Settings,

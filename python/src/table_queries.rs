@@ -14,7 +14,7 @@ use rigid_ccd::batch::{Bodies, Question};
 use rigid_ccd::table::motions::TableError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Answers a question about each row of a table of motions; `rigid_ccd.first_contacts` and the like call it.
+/// Answers a question about each row of a table of motions; called by `rigid_ccd.first_contacts` and its siblings.
 #[pyfunction]
 #[pyo3(signature = (question, a, b, motions, *, clearance = None, threads = None, progress = None, micros = true, **settings))]
 #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
@@ -92,7 +92,7 @@ pub(crate) fn answer_table(
     }
 }
 
-/// From `answer_table` up to who calls `rigid_ccd.first_contacts`.
+/// The number of stack frames from `answer_table` to the caller of `rigid_ccd.first_contacts`.
 const CALLS_UP: i32 = 3;
 
 fn question(name: &str) -> PyResult<Question> {
@@ -116,7 +116,7 @@ fn known(question: Question) -> &'static [&'static str] {
     }
 }
 
-/// Refuses settings that no query can have.
+/// Refuses settings that are invalid for every query.
 fn check(asked: Asked<'_>) -> PyResult<()> {
     match asked.settings.clearance {
         Some(_) if !asked.question.is_for_a_clearance() => {

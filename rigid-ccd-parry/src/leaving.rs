@@ -1,4 +1,4 @@
-//! Bodies that overlap at the start of a straight cast and are to be let go if they part, as parry lets them.
+//! Bodies that overlap at the start of a linear cast and are ignored as long as they part, as in parry.
 //!
 //! Two convex pieces that move straight overlap for one stretch of time. Once they part they never meet again: a pair
 //! that begins to part is left out, and all other pairs are asked about. parry, too, looks at each pair by itself.
@@ -15,15 +15,15 @@ use ccd_core::glam::DVec3;
 use direction::direction;
 use rigid_ccd::Solver;
 
-/// The most pairs of pieces that are left out. Beyond it the bodies are in contact at the start.
+/// The maximum number of pairs of pieces that are left out. Beyond it the bodies are in contact at the start.
 const MOST_PAIRS: usize = 256;
 
-/// Some pieces of both bodies, by their numbers: all pairs of them are asked about.
+/// Some pieces of both bodies, by index; all pairs of them are examined.
 struct Task {
     pieces: [Vec<u32>; 2],
 }
 
-/// Returns the first contact of all pairs that do not begin to part; `overlap` is what was found at the start.
+/// Returns the first contact of all pairs that do not begin to part; `overlap` is the hit at the start.
 pub(crate) fn parting(
     scene: &Scene<'_>,
     overlap: Found,
@@ -69,16 +69,16 @@ pub(crate) fn parting(
     Ok(first)
 }
 
-/// What comes out for some pieces.
+/// The outcome of a task.
 enum Asked {
-    /// These two overlap at the start.
+    /// These two pieces overlap at the start.
     Overlap([u32; 2]),
     /// One body is inside the other at the start.
     Inside,
     Found(Option<Found>),
 }
 
-/// Asks about all pairs of a task.
+/// Finds the first contact of all pairs of a task.
 fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, CastError> {
     let some = |k: usize| {
         let which = k as u8 + 1;
@@ -104,7 +104,7 @@ fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, Cas
     })
 }
 
-/// Returns the body of some pieces, whose sub-shapes have their numbers.
+/// Returns the body of some pieces, with the pieces' indices as sub-shape indices.
 fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
     let mut form = Form::EMPTY;
     for &number in pieces {
@@ -114,7 +114,7 @@ fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Shape
     Prepared::new(&form)
 }
 
-/// Returns the pieces of a body that the other body may come near to.
+/// Returns the pieces of body `k` that the other body may reach.
 fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
@@ -138,7 +138,7 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         .collect()
 }
 
-/// Returns the distance of a point from the segment from the origin along a vector.
+/// Returns the distance of a point from the segment between the origin and `way`.
 fn distance_to_way(point: DVec3, way: DVec3) -> f64 {
     let square = way.dot(way);
     let share = if square > 0.0 {
@@ -149,7 +149,7 @@ fn distance_to_way(point: DVec3, way: DVec3) -> f64 {
     length(point - share * way)
 }
 
-/// Returns a ball about a piece.
+/// Returns an enclosing ball of a piece.
 fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
     let first = piece.points[0];
     let reach = piece.points.iter().map(|p| length(*p - first));

@@ -1,4 +1,4 @@
-//! Two bodies and their motions from the start of a cast on: the engine's question, and its answer in parry's terms.
+//! A query of the engine for two bodies, from the start of a cast on, and its answer in parry's terms.
 
 use crate::horizon::Horizon;
 use crate::interval::Interval;
@@ -13,18 +13,18 @@ use rigid_ccd::Solver;
 #[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) bodies: [&'a Prepared; 2],
-    /// From the start of the interval on, as far as they matter.
+    /// The motions from the start of the interval on, without rotations that have no effect.
     pub(crate) motions: [Motion; 2],
     /// The full motions, rotation included. Hits are reported in these frames.
     pub(crate) frames: [Motion; 2],
     pub(crate) horizon: Horizon,
     pub(crate) interval: Interval,
-    /// The distance at which they count as in contact.
+    /// The distance at which the bodies are in contact.
     pub(crate) target: f64,
     pub(crate) settings: Settings,
 }
 
-/// What a cast found.
+/// The hit of a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Found {
     pub(crate) time: f64,
@@ -32,22 +32,22 @@ pub(crate) struct Found {
     pub(crate) witnesses: [DVec3; 2],
     /// The directions to the other body, each in its body's frame.
     pub(crate) normals: [DVec3; 2],
-    /// The sub-shapes that are nearest.
+    /// The indices of the nearest sub-shapes.
     pub(crate) numbers: [u32; 2],
     pub(crate) ending: Ending,
 }
 
-/// How a cast ended.
+/// The way in which a cast ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// With a contact.
+    /// A contact after the start.
     Contact,
-    /// With bodies that overlap at the start: two pieces, or one body inside the other.
+    /// An overlap at the start, of two pieces, or of one body inside the other.
     Overlap,
     Inside,
-    /// With bodies that are nearer than the target distance at the start.
+    /// A distance below the target distance at the start.
     Near,
-    /// At a limit: nothing touches before.
+    /// A limit of work or time, with no contact before it.
     Limit,
 }
 
@@ -60,7 +60,8 @@ impl Scene<'_> {
         Ok(self.found(&answer, solver))
     }
 
-    /// Returns whether overlapping pieces may be let go: if both bodies move straight, and touch by their pieces alone.
+    /// Returns whether overlapping bodies may be ignored while they part: only if both move in straight lines, and
+    /// their pieces overlap.
     pub(crate) fn is_let_go(&self) -> bool {
         let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
         // Inside a mesh that is a solid there is no piece to part from.
@@ -98,7 +99,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns a contact in the bodies' frames.
+    /// Returns a contact as a hit in the bodies' frames.
     fn shown(&self, after: f64, contact: &Contact, ending: Ending) -> Found {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
@@ -127,7 +128,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns the hit for a time at which a limit was reached, with the nearest points if they can be had.
+    /// Returns the hit at a limit, with the nearest points if they can be found.
     fn seen(&self, after: f64, solver: &mut Solver) -> Found {
         solver.set_settings(Settings {
             budget: lesser(self.settings.budget, LOOK),
@@ -156,7 +157,7 @@ impl Scene<'_> {
 }
 
 impl Found {
-    /// A hit without nearest points: they are as in parry's casts.
+    /// Returns a hit without nearest points, with parry's values in their place.
     fn unseen(time: f64, ending: Ending) -> Self {
         Found {
             time,

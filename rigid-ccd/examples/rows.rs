@@ -1,4 +1,4 @@
-//! A table of motions by the library alone: what answering costs, without tables of results.
+//! Answers a table of motions with the library alone, to measure the cost without tables of results.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example rows -- A.obj B.obj motions.csv [THREADS [ROWS [TIMES]]]

@@ -1,4 +1,4 @@
-//! The rows of a table, answered on all cores.
+//! Answers the rows of a table on all cores.
 
 use super::batch::{Names, id_field};
 use super::input::Reader;
@@ -17,29 +17,29 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// What is asked about the rows of a table.
+/// A question about the rows of a table, with its settings.
 #[derive(Clone, Copy)]
 pub(crate) struct Asked<'a> {
     pub(crate) bodies: Bodies<'a>,
     pub(crate) question: Question,
     pub(crate) settings: &'a Settings,
-    /// The number of threads; none for one on each core.
+    /// The number of threads; `None` is one for each core.
     pub(crate) threads: Option<u16>,
     pub(crate) micros: Micros,
 }
 
-/// Whether the time of each query is told.
+/// Whether the results have the time of each query.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Micros {
     Told,
     LeftOut,
 }
 
-/// The results of a table's rows, up to the first that was not answered, and what went wrong after them.
+/// The results of a table's rows up to the first one without an answer, and the error after them.
 pub(crate) struct Answered {
     pub(crate) results: RecordBatch,
     pub(crate) fault: Option<TableError>,
-    /// What is odd about the rows.
+    /// The remarks about the rows.
     pub(crate) remarks: Vec<Remark>,
 }
 
@@ -111,7 +111,7 @@ fn rows(
     told.iter().map(|told| result(asked, told)).collect()
 }
 
-/// Answers some rows of a table, by their numbers, one after another, until the flag is set.
+/// Answers some rows of a table, by their indices, one after another, until the flag is set.
 pub(crate) fn each(
     asked: Asked<'_>,
     reader: Reader,
@@ -144,7 +144,7 @@ pub(crate) fn each(
     pieces.fault.map_or(Ok(()), Err)
 }
 
-/// Returns the settings with a flag that ends queries.
+/// Returns the settings with a flag that stops queries.
 fn stopped_by(asked: Asked<'_>, stop: &Arc<AtomicBool>) -> Settings {
     Settings {
         stop: Some(Arc::clone(stop)),
@@ -156,17 +156,17 @@ fn unreadable(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
 
-/// What a solver tells about a row, or why it is not valid.
+/// The answer of a valid row, or the error of an invalid one.
 type Told<'r> = Result<Timed<'r>, &'r RowError>;
 
-/// An answer, and what it took.
+/// An answer and its time.
 struct Timed<'r> {
     course: &'r Course,
     answer: Result<Answer, InputError>,
     micros: f64,
 }
 
-/// Asks about a row; none where the query is stopped.
+/// Answers a row; `None` if the query was stopped.
 fn tell<'r>(asked: Asked<'_>, row: &'r CourseRow, solver: &mut Solver) -> Option<Told<'r>> {
     let course = match row {
         Ok((_, course)) => course,
@@ -186,7 +186,7 @@ fn tell<'r>(asked: Asked<'_>, row: &'r CourseRow, solver: &mut Solver) -> Option
     }
 }
 
-/// Makes the results of a row.
+/// Makes the row of results of a row.
 fn result(asked: Asked<'_>, told: &Told<'_>) -> ResultRow {
     let timed = match told {
         Ok(timed) => timed,

@@ -53,7 +53,7 @@ pub fn cast_shapes_nonlinear(
         .map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes_nonlinear`], and tells why it has no answer; `times` are the start and the end.
+/// Like [`cast_shapes_nonlinear`], but returns an error if there is no answer; `times` are the start and the end.
 ///
 /// # Errors
 /// [`CastError`].
@@ -69,7 +69,7 @@ pub fn try_cast_shapes_nonlinear(
     answer(&question, [g1, g2])
 }
 
-/// Finds when two shapes that move straight first touch: `query::cast_shapes`, never late.
+/// Finds when two shapes in linear motion first touch: `query::cast_shapes`, never late.
 ///
 /// # Guarantee
 /// That of [`cast_shapes_nonlinear`].
@@ -105,7 +105,7 @@ pub fn cast_shapes(
     try_cast_shapes((pos1, vel1, g1), (pos2, vel2, g2), options).map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes`], and tells why it has no answer; each shape comes with its pose and velocity.
+/// Like [`cast_shapes`], but returns an error if there is no answer; each shape comes with its pose and velocity.
 ///
 /// # Errors
 /// [`CastError`].
@@ -118,7 +118,7 @@ pub fn try_cast_shapes(
     answer(&question, [g1, g2])
 }
 
-/// What is kept from call to call.
+/// The solver and the bodies that a thread reuses from call to call.
 #[derive(Default)]
 struct Kept {
     shelf: Shelf,
@@ -126,7 +126,7 @@ struct Kept {
 }
 
 thread_local! {
-    /// Taken away while a call uses it.
+    /// The thread's memory, taken out while a call uses it.
     static KEPT: Cell<Option<Box<Kept>>> = const { Cell::new(None) };
 }
 

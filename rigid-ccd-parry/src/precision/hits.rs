@@ -1,10 +1,10 @@
-//! What is found, in parry's types.
+//! Conversion of hits to parry's types.
 
 use super::convert::{time, vector};
 use super::library::query::{ShapeCastHit, ShapeCastStatus};
 use crate::scene::{Ending, Found};
 
-/// Returns the hit in parry's terms: the time rounded down.
+/// Converts a hit to parry's type, with the time rounded down.
 pub(super) fn hit(found: &Found) -> ShapeCastHit {
     let [witness1, witness2] = found.witnesses.map(vector);
     let [normal1, normal2] = found.normals.map(vector);

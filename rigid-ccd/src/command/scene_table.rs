@@ -1,4 +1,4 @@
-//! The table of a scene: a row for each body.
+//! The table of a scene: one row for each body.
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
@@ -17,45 +17,45 @@ use std::path::{Path, PathBuf};
 /// The column that names a body.
 const BODY: &str = "body";
 
-/// The end of all motions, where none is given.
+/// The default end of all motions.
 const DURATION: f64 = 1.0;
 
-/// How the bodies of a scene are loaded, and how long they move.
+/// The options for loading a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
     pub(super) meshes: &'a MeshArgs,
     pub(super) pieces: &'a PiecesArgs,
-    /// The end of all motions, if it is given.
+    /// The end of all motions, if given.
     pub(super) duration: Option<f64>,
 }
 
 /// The bodies of a scene.
 pub(super) struct SceneTable {
-    /// By description.
+    /// The bodies, by their descriptions.
     bodies: HashMap<String, Body>,
     files: Vec<PathBuf>,
-    /// What was found about each.
+    /// The messages from loading the bodies.
     reports: Vec<String>,
-    /// What is odd about the motions.
+    /// The remarks about the motions.
     remarks: Vec<Remark>,
     rows: Vec<Row>,
     /// The end of all motions.
     pub(super) duration: f64,
-    /// Whether nobody has given it.
+    /// Whether the duration is the default.
     is_usual: bool,
 }
 
 /// A body of a scene.
 struct Row {
-    /// What it is.
+    /// The description of the body.
     text: String,
     id: String,
-    /// The id, with what it is if the id is a number.
+    /// The id, with the description if the id is a number.
     name: String,
     motion: Motion,
 }
 
-/// Reads a table, and loads each body once.
+/// Reads a table, and loads each distinct body once.
 pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     let name = || path.display().to_string();
     let duration = how.duration.unwrap_or(DURATION);
@@ -93,7 +93,7 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     Ok(scene)
 }
 
-/// Says which rows have the same id: a contact would not tell which of them touches.
+/// Names the rows with the same id, which contacts could not distinguish.
 fn twice(rows: &[(RowPosition, Query)]) -> Option<String> {
     let mut known: HashMap<&str, RowPosition> = HashMap::new();
     rows.iter().find_map(|(position, query)| {
@@ -107,7 +107,7 @@ fn twice(rows: &[(RowPosition, Query)]) -> Option<String> {
     })
 }
 
-/// Reads a table as descriptions of bodies beside motions.
+/// Reads a table as descriptions of bodies and their motions.
 fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)> {
     let name = || path.display().to_string();
     let mut reader = csv::ReaderBuilder::new()
@@ -163,10 +163,10 @@ fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)
     Ok((described, table))
 }
 
-/// What a column of times may be called, which a scene does not have.
+/// Likely names of a column of times, which a scene does not have.
 const TIMES: [&str; 3] = ["duration", "t", "time"];
 
-/// Words an error of a table of motions for one of a scene.
+/// Rewords an error of a table of motions for the table of a scene.
 fn worded(error: &TableError) -> String {
     match error {
         TableError::UnknownColumn {
@@ -181,7 +181,7 @@ fn worded(error: &TableError) -> String {
     }
 }
 
-/// Takes the prefix of body A from the names of columns, which have none in a scene; its duration is an option.
+/// Removes the prefix of body A from column names in a message, because a scene has none.
 fn plain(error: &str) -> String {
     let error = error.replace("column duration", "--duration");
     let words = error.split_inclusive([' ', '`']);
@@ -204,13 +204,13 @@ impl SceneTable {
         Ok(())
     }
 
-    /// Returns the files that were read, each with what names it.
+    /// Returns the files that were read, each with its option or body.
     pub(super) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let files = self.files.iter();
         files.map(|path| ("a body of the scene", path.as_path()))
     }
 
-    /// Prints what was found about each body, until when they move, and what is odd about it.
+    /// Prints the messages about the bodies, the duration and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
         for report in &self.reports {
             tell(report);

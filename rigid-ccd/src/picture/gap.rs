@@ -1,4 +1,4 @@
-//! The gap between two bodies over time, and a line that is proven to be under it.
+//! The distance of two bodies over time, and a proven lower bound of it.
 
 use crate::Solver;
 use crate::batch::Bodies;
@@ -8,23 +8,23 @@ use ccd_core::{Body, InputError, Settings, Stretch, Trajectory};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
-/// The most ghosts that are drawn of one query, but for the first.
+/// The maximum number of ghosts of one query, besides the first.
 const GHOSTS: f64 = 12.0;
-/// The number of times at which the gap is measured.
+/// The number of times at which the distance is measured.
 const TIMES: usize = 96;
-/// The most steps of conservative advancement.
+/// The maximum number of steps of conservative advancement.
 const STEPS: usize = 48;
-/// The longest that the gap of one query is measured, but for one measurement.
+/// The time limit for measuring one query, checked after each measurement.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// The most visits of one measurement.
+/// The budget of one measurement.
 const BUDGET: u64 = 100_000;
-/// What a speed and a stray are multiplied by, so that their rounding is covered many times over.
+/// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
 const ROUNDED_UP: f64 = 1.0 + 1e-9;
 
-/// What is proven about all times.
+/// A lower bound that is proven for all times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reached {
-    /// Nothing.
+    /// No bound.
     Nothing,
     /// The bodies are at least this far apart.
     Throughout(f64),
@@ -33,20 +33,20 @@ pub enum Reached {
 /// The gap over time, and the steps of conservative advancement.
 #[derive(Clone, Debug)]
 pub struct GapOverTime {
-    /// The gap.
+    /// The curve of the distance and its lower bound.
     pub gap: Gap,
-    /// The times of the steps, from 0 on: after each the bodies stay apart at least until the next.
+    /// The times of the steps, starting with 0: after each, the bodies stay apart until the next.
     pub steps: Vec<f64>,
 }
 
 impl GapOverTime {
-    /// Returns the least gap of the proven line.
+    /// Returns the least value of the proven lower bound.
     pub(super) fn least(&self) -> Option<f64> {
         let gaps = self.gap.proven.iter().map(|[_, gap]| *gap);
         gaps.reduce(lesser)
     }
 
-    /// Returns the steps that are drawn: not too near to each other.
+    /// Returns the steps to draw, thinned out.
     pub fn ghosts(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
         for &step in &self.steps {
@@ -60,7 +60,7 @@ impl GapOverTime {
         drawn
     }
 
-    /// Returns the time of the least gap that was measured.
+    /// Returns the time of the least measured distance.
     pub fn nearest(&self) -> f64 {
         let points = self.gap.points.iter();
         let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
@@ -68,8 +68,8 @@ impl GapOverTime {
     }
 }
 
-/// Measures the gap at some times, most where the proven line is far below, and connects what is proven at these: from
-/// each time the gap shrinks at most as fast as the bodies' points approach.
+/// Samples the distance, most densely where the proven bound is loose. Between two samples the bound follows from a
+/// bound on the bodies' closing speed.
 ///
 /// # Errors
 /// If the motions are out of range.
@@ -113,7 +113,7 @@ struct Survey<'a> {
     patience: Instant,
 }
 
-/// How fast the gap may shrink between two times, and how far off the bodies may be.
+/// The maximum closing speed between two times, and the bodies' deviation from their motions.
 #[derive(Clone, Copy, Debug)]
 struct Shrinking {
     speed: f64,
@@ -121,7 +121,7 @@ struct Shrinking {
 }
 
 impl Survey<'_> {
-    /// Advances conservatively from the start, until the bodies may touch; then measures at the end.
+    /// Advances conservatively from the start until the bodies may touch, then measures at the end.
     fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
         let end = self.course.duration();
         let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
@@ -143,7 +143,7 @@ impl Survey<'_> {
         Ok((points, steps))
     }
 
-    /// Adds measurements, each in the middle of the worst interval.
+    /// Adds measurements, each in the middle of the interval with the most to gain.
     fn refine(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
@@ -163,7 +163,7 @@ impl Survey<'_> {
         Ok(())
     }
 
-    /// Returns how much is gained by a measurement between two others: the area under the gap that is not proven.
+    /// Returns the gain of a measurement between two others: the area between the distance and the proven bound.
     fn worth(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
         let time = after.time - before.time;
         if !(time > 1e-6 * self.course.duration()) {
@@ -184,7 +184,7 @@ impl Survey<'_> {
         Ok(GapPoint { time, lower, upper })
     }
 
-    /// Bounds how fast points of the bodies approach each other between two times.
+    /// Bounds the closing speed of the bodies' points between two times.
     fn shrinking(&self, from: f64, to: f64) -> Result<Shrinking, InputError> {
         let (a, b) = match self.course {
             Course::Motions(query) => (query.a.stretch(from, to)?, query.b.stretch(from, to)?),
@@ -201,7 +201,8 @@ impl Survey<'_> {
         })
     }
 
-    /// Returns the line: from each measurement down on both sides, but never below what is proven about all times.
+    /// Returns the lower bound as a polyline: it falls on both sides of each measurement, but not below what is proven
+    /// for all times.
     fn proven(&self, points: &[GapPoint]) -> Result<Vec<[f64; 2]>, InputError> {
         let floor = self.floor;
         let mut line = Vec::new();
@@ -230,7 +231,7 @@ impl Survey<'_> {
     }
 }
 
-/// Bounds the distance of a body's points from the centre of a stretch's motion.
+/// Bounds the distance of a body's points from the centre of a segment's motion.
 fn reach((stretch, body): (&Stretch, &Body)) -> f64 {
     body.span() + stretch.motion.centre().length()
 }

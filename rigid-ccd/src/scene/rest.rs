@@ -1,10 +1,10 @@
-//! What is left of a trajectory from a time on.
+//! The remainder of a trajectory after a time.
 
 use ccd_core::tolerance::U64;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Movement, Stray, Stretch, Trajectory};
 
-/// A trajectory from a time on, which is its time 0.
+/// A trajectory shifted in time: its time 0 is a given time of the inner one.
 pub(super) struct Rest<'a> {
     pub(super) of: Movement<'a>,
     pub(super) from: f64,

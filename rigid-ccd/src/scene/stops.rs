@@ -1,4 +1,4 @@
-//! Bodies that stop where they touch, each at its own time.
+//! Bodies that stop at their first contact, each at its own time.
 
 use super::clock::Clock;
 use super::event::{Event, Impact};
@@ -19,20 +19,20 @@ use ccd_distance_gjk::Direct;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Until when a body may move.
+/// The time at which a body stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// The time at which the body stops; the duration if nothing stops it.
+    /// The time at which the body stops; the duration if it does not stop.
     pub time: f64,
-    /// The body that stops it, by index; none if nothing does.
+    /// The index of the body that stops it; `None` if it does not stop.
     pub by: Option<usize>,
-    /// The contact with that body, which would be at the time of its hit; none if nothing stops it, or if a limit was
-    /// reached before a contact was found. Bodies that rest on each other stop at once, before that time.
+    /// The contact with that body, at the time of its hit; `None` if the body does not stop, or if a limit was reached
+    /// before a contact was found. Bodies that rest on each other stop at once, before that time.
     pub contact: Option<Impact>,
 }
 
 impl Stop {
-    /// Returns the unit normal of the contact, from this body to the one that stops it; none without a
+    /// Returns the unit normal of the contact, from this body to the one that stops it; `None` without a
     /// [contact](Stop::contact).
     ///
     /// ```
@@ -62,8 +62,8 @@ impl Stop {
 }
 
 impl Scene<'_> {
-    /// Finds until when each body may move, by index, if it stops where it touches another one while all others go
-    /// on. A simulation that sets these poses after each step lets nothing pass through anything.
+    /// Finds the time until which each body may move, by index, if it stops at its first contact while the others
+    /// continue. A simulation that sets these poses after each step lets nothing pass through anything.
     ///
     /// Bodies that touch at the start are let go, as by [`StartPolicy::Leave`], whatever the settings are: they may
     /// slide and part, but not come nearer than half of their distance. Bodies that overlap at the start do not stop
@@ -104,7 +104,7 @@ impl Scene<'_> {
     }
 }
 
-/// Makes half of the tolerance a distance to keep: step by step, what rests comes no nearer.
+/// Returns the settings with half of the tolerance added to the margin: bodies at rest do not sink in over many steps.
 fn keeping_half(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
@@ -115,10 +115,10 @@ fn keeping_half(given: &Settings) -> Settings {
     }
 }
 
-/// The bodies that have stopped, and what is still to happen.
+/// The bodies that have stopped, and the contacts still to come.
 struct Stopping<'s, 'a> {
     scene: &'s Scene<'a>,
-    /// The other bodies that each one may touch.
+    /// The possible contact partners of each body.
     others: Vec<Vec<usize>>,
     stops: Vec<Stop>,
     clock: Clock,
@@ -126,10 +126,10 @@ struct Stopping<'s, 'a> {
     oracle: Direct,
 }
 
-/// A contact of two bodies, as they move before either stops, or with one that has.
+/// A future contact of two bodies, of which at most one has stopped.
 struct Coming {
     event: Event,
-    /// The bodies that move until then.
+    /// Which of both bodies move until then.
     moving: [bool; 2],
 }
 
@@ -155,7 +155,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         }
     }
 
-    /// Takes one contact after another in order of time, stops its bodies, and looks at what still moves about them.
+    /// Processes the contacts in order of time: stops their bodies, and finds new contacts with the stopped bodies.
     fn run(mut self, events: Vec<Event>) -> Result<Vec<Stop>, PairError> {
         let mut coming = BinaryHeap::new();
         for event in events {
@@ -194,7 +194,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         Ok(self.stops)
     }
 
-    /// Returns what comes to a body that has stopped now.
+    /// Returns the future contacts of a body that has just stopped.
     fn about(&mut self, index: usize) -> Vec<Coming> {
         let time = self.stops[index].time;
         let others = std::mem::take(&mut self.others[index]);
@@ -205,7 +205,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         found.collect()
     }
 
-    /// Returns the contact of two bodies from a time on, at which one of them has stopped.
+    /// Returns the contact of two bodies after a time at which one of them stopped.
     fn from(&mut self, time: f64, bodies: [usize; 2]) -> Option<Coming> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::answered(bodies, &answer)?,
@@ -215,8 +215,8 @@ impl<'s, 'a> Stopping<'s, 'a> {
         Some(self.coming(event, time))
     }
 
-    /// Returns what comes to bodies that were asked from a time on. Bodies that rest on each other, and are nearer
-    /// than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
+    /// Returns the future contact for an event that was found from a time on. Bodies that rest on each other, and are
+    /// nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
     fn coming(&self, event: Event, from: f64) -> Coming {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
@@ -249,7 +249,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         self.schedule.first_contact(&query, &mut self.oracle)
     }
 
-    /// Returns what moves a body from a time on.
+    /// Returns the motion or trajectory of a body from a time on.
     fn going_on<'r>(&self, rest: &'r Rest<'a>, index: usize) -> Result<Movement<'r>, InputError> {
         if !self.moves(index) {
             return Ok(Motion::still(rest.of.pose(self.stops[index].time)?).into());
@@ -266,7 +266,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
     }
 }
 
-/// Bounds how far a body is from where it should be if it goes on from a pose that is rounded.
+/// Bounds the deviation of a body that continues from a rounded pose.
 fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
     let stretch = movement.stretch(0.0, 0.0)?;
     let motion = &stretch.motion;

@@ -1,4 +1,4 @@
-//! The rows of a query: motions, or paths.
+//! The rows of a query: motions or paths.
 
 use super::columns::{Columns, Form};
 use super::csv_records::CsvRecords;
@@ -12,12 +12,12 @@ use crate::batch::{Bodies, Question};
 use ccd_core::{InputError, Pose, Settings};
 use std::io;
 
-/// How both bodies of a query move.
+/// The motions of both bodies in a query.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
-    /// At constant velocities.
+    /// Motions at constant velocities.
     Motions(Query),
-    /// From pose to pose.
+    /// Paths from pose to pose.
     Path(Path),
 }
 
@@ -29,7 +29,7 @@ impl Course {
         }
     }
 
-    /// Returns the end, as a time from the start.
+    /// Returns the duration.
     pub fn duration(&self) -> f64 {
         match *self {
             Course::Motions(Query { duration, .. }) | Course::Path(Path { duration, .. }) => {
@@ -38,7 +38,7 @@ impl Course {
         }
     }
 
-    /// Poses a question about two bodies that move so. The distance is asked for at the start.
+    /// Builds the query of two bodies with these motions. The distance is asked for at the start.
     ///
     /// # Errors
     /// Those of [`ccd_core::Query::new`].
@@ -63,7 +63,7 @@ impl Course {
         }
     }
 
-    /// Returns what the table calls the time at the start.
+    /// Returns the table's time at the start.
     pub fn start(&self) -> f64 {
         match self {
             Course::Motions(_) => 0.0,
@@ -82,7 +82,7 @@ impl Course {
         }
     }
 
-    /// Returns the time of the table at a time from the start, rounded down: no later than it is.
+    /// Converts a time from the start to the table's time, rounded down.
     pub fn earliest(&self, time: f64) -> f64 {
         match self {
             Course::Motions(_) => time,
@@ -90,7 +90,7 @@ impl Course {
         }
     }
 
-    /// Returns the time of the table at a time from the start, rounded up: no earlier than it is.
+    /// Converts a time from the start to the table's time, rounded up.
     pub fn latest(&self, time: f64) -> f64 {
         match self {
             Course::Motions(_) => time,
@@ -104,7 +104,7 @@ impl Course {
 pub enum Courses<S> {
     /// Each row is a query.
     Motions(MotionRows<S>),
-    /// All rows of an id are a query.
+    /// All rows with the same id form a query.
     Paths(PathRows<S>),
 }
 
@@ -122,7 +122,7 @@ impl<R: io::Read> Courses<CsvRecords<R>> {
 }
 
 impl<S: Records> Courses<S> {
-    /// Continues after the header: a table with a column `t` is one of paths.
+    /// Creates the iterator after the header was read: a table with a column `t` is a table of paths.
     ///
     /// # Errors
     /// The header has columns that cannot be used, or the first row cannot be read.
@@ -153,7 +153,7 @@ impl<S: Records> Courses<S> {
         }
     }
 
-    /// Returns what is odd about the rows so far, each kind once.
+    /// Returns the remarks about the rows so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
         match self {
             Courses::Motions(table) => table.remarks(),

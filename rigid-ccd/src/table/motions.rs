@@ -17,7 +17,7 @@ use crate::table::records::Records;
 use ccd_core::Motion;
 use std::io;
 
-/// The motions of two bodies over one duration.
+/// One row of a table of motions: the motions of two bodies over one duration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
     /// The id of the row in the results.
@@ -37,7 +37,7 @@ pub struct MotionTable {
     pub rows: Vec<(RowPosition, Query)>,
     /// The errors of the other rows.
     pub errors: Vec<RowError>,
-    /// What is odd about the rows, each kind once.
+    /// The remarks about the rows, one of each kind.
     pub remarks: Vec<Remark>,
 }
 
@@ -88,7 +88,7 @@ impl<R: io::Read> MotionRows<CsvRecords<R>> {
 }
 
 impl<S: Records> MotionRows<S> {
-    /// Continues after the header.
+    /// Creates the iterator after the header was read.
     pub(in crate::table) fn after_header(records: S, columns: Columns) -> Self {
         MotionRows { records, columns }
     }
@@ -111,7 +111,7 @@ impl<S: Records> MotionRows<S> {
         self.records.bytes()
     }
 
-    /// Returns what is odd about the rows so far, each kind once.
+    /// Returns the remarks about the rows so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
         self.columns.remarks()
     }

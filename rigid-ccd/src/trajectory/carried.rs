@@ -1,4 +1,4 @@
-//! A body that moves in the frame of a moving one.
+//! A body that moves in a moving frame.
 
 use super::bounded::{Bounded, Speeds, of_origin, speeds};
 use ccd_core::order::greater;
@@ -28,13 +28,13 @@ pub struct Carried<C, T> {
 }
 
 impl<C, T> Carried<C, T> {
-    /// Lets a trajectory carry another one.
+    /// Creates the trajectory of `inner` in the frame of `carrier`.
     pub fn new(carrier: C, inner: T) -> Self {
         Carried { carrier, inner }
     }
 }
 
-/// A motion at constant velocities, as a part of other trajectories.
+/// A motion at constant velocities, for use within other trajectories.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steady(pub Motion);
 
@@ -49,7 +49,7 @@ impl Smooth for Steady {
         Accelerations::default()
     }
 
-    /// The turn since time 0 is rounded, and so is the way.
+    /// Bounds the rounding of the rotation since time 0 and of the displacement.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Speeds { linear, angular } = speeds(&self.0);
         let time = greater(from.abs(), to.abs());
@@ -67,13 +67,13 @@ impl Bounded for Steady {
     }
 }
 
-/// A trajectory between two times, as its origin moves.
+/// Bounds on the origin of a trajectory between two times.
 struct Origin {
-    /// At the middle.
+    /// The motion at the middle time.
     tangent: Motion,
     speeds: Speeds,
     accelerations: Accelerations,
-    /// Bounds the distance from the origin of the outer frame.
+    /// A bound on the distance from the origin of the outer frame.
     way: f64,
 }
 
@@ -94,7 +94,7 @@ impl Origin {
 }
 
 impl<C: Bounded, T: Bounded> Carried<C, T> {
-    /// Returns the bounds of both parts; none where a part has no pose.
+    /// Returns the bounds of both parts; `None` if a part has no pose.
     fn parts(&self, from: f64, to: f64) -> Option<[Origin; 2]> {
         let carrier = Origin::of(&self.carrier, from, to).ok()?;
         let inner = Origin::of(&self.inner, from, to).ok()?;

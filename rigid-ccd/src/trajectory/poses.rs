@@ -11,7 +11,7 @@ use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose, Stray, Stretch, Trajectory};
 use leg::Leg;
 
-/// A path through poses at given times: of a planner, or of a simulator's log.
+/// A path through poses at given times, for example from a planner or a simulator's log.
 ///
 /// From one pose to the next, a point of the body moves straight, and the body turns about it the shortest way,
 /// both at constant rates ([`Motion::between`]); or by any number of turns, at about a [given](Poses::turning) angular
@@ -35,7 +35,7 @@ use leg::Leg;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Poses {
     poses: Vec<(f64, Pose)>,
-    /// From each pose to the next; none if all turns are the shortest ones.
+    /// The angular velocities from each pose to the next; empty if all rotations are the shortest ones.
     spins: Vec<DVec3>,
     centre: DVec3,
 }
@@ -73,7 +73,7 @@ impl Poses {
         })
     }
 
-    /// Lets another point of the body move straight.
+    /// Sets the point of the body that moves in straight lines.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -86,7 +86,8 @@ impl Poses {
         }
     }
 
-    /// Lets the body turn from each pose to the next at about an angular velocity, in the world: by any number of turns.
+    /// Sets the approximate angular velocity from each pose to the next, in the world, for rotations of any number of
+    /// turns.
     ///
     /// What it leaves over to the next pose is turned beside it, at a constant rate. Where it is zero, the turn is the
     /// shortest.
@@ -137,7 +138,7 @@ impl Poses {
         Ok(Poses { spins, ..self })
     }
 
-    /// The time of the last pose.
+    /// Returns the time of the last pose.
     pub fn end(&self) -> f64 {
         self.poses[self.poses.len() - 1].0
     }
@@ -147,8 +148,8 @@ impl Poses {
         self.poses.iter().map(|&(time, _)| time)
     }
 
-    /// Returns the motion between the poses that a time is between, as it is at that time: that before a pose
-    /// where `to` is not later, else that after it. Bounds how fast its angular velocity changes, too.
+    /// Returns the motion of the segment at a time, as of that time. At a pose, this is the segment before it if `to`
+    /// is not later, else the one after it. Bounds how fast its angular velocity changes, too.
     fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = if to > time {
             self.poses.partition_point(|&(at, _)| at <= time)
@@ -171,18 +172,18 @@ impl Poses {
         Motion::about(pose, DVec3::ZERO, DVec3::ZERO, self.centre)
     }
 
-    /// The point of the body that moves straight.
+    /// Returns the point of the body that moves in straight lines.
     #[cfg(feature = "pages")]
     pub(crate) fn centre(&self) -> DVec3 {
         self.centre
     }
 
-    /// The angular velocity that is given from a pose to the next; 0 for the shortest turn.
+    /// Returns the given angular velocity from a pose to the next; 0 for the shortest rotation.
     fn spin(&self, k: usize) -> DVec3 {
         self.spins.get(k).copied().unwrap_or_default()
     }
 
-    /// Returns the rotation vector from each pose to the next, about; of the last one it is 0.
+    /// Returns the approximate rotation vector from each pose to the next; 0 for the last one.
     #[cfg(feature = "pages")]
     pub(crate) fn turns(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
@@ -193,14 +194,14 @@ impl Poses {
         turns.chain([Ok(DVec3::ZERO)])
     }
 
-    /// The poses strictly between two times.
+    /// Returns the poses strictly between two times.
     fn between(&self, from: f64, to: f64) -> &[(f64, Pose)] {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
         &self.poses[first..last.max(first)]
     }
 
-    /// Returns a motion from the pose at one time to that at another, and how far the path strays from it.
+    /// Returns a motion from the pose at one time to that at another, and how far the path deviates from it.
     fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [begin, end] = [self.at(from, to)?.0.start(), self.at(to, to)?.0.start()];
         let motion = Motion::between(begin, end, self.centre, to - from)?;
@@ -224,7 +225,7 @@ impl Poses {
         })
     }
 
-    /// Bounds the rounding of poses from one time to another: they are computed from those given before.
+    /// Bounds the rounding of poses between two times, which are computed from the given pose before them.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
@@ -268,7 +269,7 @@ impl Trajectory for Poses {
     }
 }
 
-/// How far a motion is off a pose.
+/// The deviation of a motion from a pose.
 #[derive(Clone, Copy, Debug, Default)]
 struct Off {
     shift: f64,

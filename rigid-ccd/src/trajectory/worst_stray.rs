@@ -1,25 +1,25 @@
-//! Tests a trajectory: does it stray no farther than it says?
+//! A test of the bounds of a trajectory's deviation.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{InputError, Trajectory};
 
-/// The place at which a trajectory strays farthest from a stretch, in units of its bound.
+/// The sample with the largest deviation relative to its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst {
-    /// The distance over the bound: at most 1 for a sound trajectory.
+    /// The deviation divided by its bound: at most 1 for a sound trajectory.
     pub ratio: f64,
-    /// The first time of the stretch.
+    /// The first time of the segment.
     pub from: f64,
-    /// The last time of the stretch.
+    /// The last time of the segment.
     pub to: f64,
-    /// The time in between.
+    /// The time of the sample.
     pub time: f64,
-    /// The point, in the frame of the motion's centre, along the body's axes.
+    /// The point of the body, in the frame of the motion's centre, along the body's axes.
     pub arm: DVec3,
 }
 
-/// Seeks the stretch, the time and the point of a body at which a trajectory strays farthest beyond its bounds.
+/// Searches for the segment, the time and the point with the largest deviation relative to its bound.
 ///
 /// It draws stretches within the duration, of all lengths, and points up to `reach` from the centre; then it
 /// changes the worst draw a little, again and again. The same seed makes the same draws. Poses are those of
@@ -77,7 +77,7 @@ pub fn worst_stray(
     Ok(worst.map_or(none, |(_, worst)| worst))
 }
 
-/// Numbers from 0 to 1 that make a stretch, a time and a point.
+/// Numbers from 0 to 1 that determine a segment, a time and a point.
 type Draw = [f64; 6];
 
 struct Search<'t> {
@@ -88,7 +88,7 @@ struct Search<'t> {
 }
 
 impl Search<'_> {
-    /// A number from 0 to 1: SplitMix64.
+    /// Returns a number from 0 to 1: SplitMix64.
     fn number(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;

@@ -1,8 +1,8 @@
-//! The limits that end a query early, with advice.
+//! The limits that end a query early, with advice for each.
 
 use ccd_core::Limit;
 
-/// Each limit with its advice.
+/// All limits, each with its advice.
 const LIMITS: [(Limit, &str); 5] = [
     (
         Limit::Budget,

@@ -8,7 +8,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::Range;
 
-/// Parses a row of a table of motions; `index` is the id of a row without one.
+/// Parses a row of a table of motions; `index` is the default id.
 ///
 /// # Errors
 /// What is wrong with the row.
@@ -44,18 +44,18 @@ pub fn query<R: Record + ?Sized>(
     })
 }
 
-/// How both bodies are at a time.
+/// The poses of both bodies at a time.
 pub(in crate::table) struct Poses {
     pub(in crate::table) time: f64,
     pub(in crate::table) a: Posed,
     pub(in crate::table) b: Posed,
 }
 
-/// How a body is at a time.
+/// The pose of a body in a row of a path.
 #[derive(Clone, Copy)]
 pub(in crate::table) struct Posed {
     pub(in crate::table) pose: Pose,
-    /// The angular velocity to the next row; zero for the shortest turn.
+    /// The angular velocity to the next row; zero for the shortest rotation.
     pub(in crate::table) spin: DVec3,
     pub(in crate::table) centre: DVec3,
 }
@@ -79,7 +79,7 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
     })
 }
 
-/// Returns the id of a row, which may be unreadable otherwise; none where it has none.
+/// Returns the id of a row, even if other cells are unreadable; `None` without one.
 pub(in crate::table) fn id<R: Record + ?Sized>(columns: &Columns, record: &R) -> Option<String> {
     record.text(columns.index(ID)?)
 }
@@ -89,7 +89,7 @@ struct Row<'a, C> {
     cells: C,
 }
 
-/// How a row gives a motion.
+/// The two ways in which a row specifies a motion.
 enum Given {
     EndPose,
     Velocities,
@@ -135,7 +135,7 @@ impl<C: Cells> Row<'_, C> {
         }
     }
 
-    /// Tells how the row gives a motion: the cells of the other way are empty.
+    /// Returns how the row specifies the motion; the cells of the other way must be empty.
     fn given(&self, side: Side) -> Result<Given, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::Spin];
@@ -158,7 +158,7 @@ impl<C: Cells> Row<'_, C> {
         }
     }
 
-    /// Returns the slot of the first column of two quantities whose cell is as wanted.
+    /// Returns the slot of the first column of two quantities whose cell satisfies a condition.
     fn slot_where(
         &self,
         side: Side,
@@ -170,14 +170,14 @@ impl<C: Cells> Row<'_, C> {
         slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
     }
 
-    /// Returns a vector, with 0 for columns that the table does not have; none where it has none of them.
+    /// Returns a vector, with 0 for missing columns; `None` if all of its columns are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
         let parts = self.numbers::<3>(self.columns.slots(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
 
-    /// Returns a quaternion that is not normalised yet, but can be; none where the table has no columns for it.
+    /// Returns a nonzero quaternion before normalisation; `None` if the table has no columns for it.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
         let slots = self.columns.slots(side, quantity);
         // A table has all four columns, or none.
@@ -208,7 +208,7 @@ impl<C: Cells> Row<'_, C> {
         Ok(out)
     }
 
-    /// Returns a number; none for a column that the table does not have.
+    /// Returns a number; `None` if the table does not have the column.
     ///
     /// An empty cell is an error: writers of tables leave one for a NaN, and 0 would be another motion.
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {

@@ -1,11 +1,11 @@
-//! The table of motions, written.
+//! Writes the table of motions.
 
 use super::Query;
 use crate::table::columns::{DURATION, Form, ID, Quantity, Side};
 use ccd_core::Motion;
 use std::io;
 
-/// Writes queries as start poses and velocities; columns with their default in every row are omitted.
+/// Writes motions as start poses and velocities; columns with their default in every row are omitted.
 ///
 /// Numbers read back to the same bits, orientations up to rounding.
 ///
