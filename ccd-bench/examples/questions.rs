@@ -1,4 +1,4 @@
-//! The cost of every question over that of the first contact, row by row.
+//! The cost of every question relative to that of the first contact, row by row.
 //!
 //! Asks each row for the first contact, for any contact and for the closest approach in turn, several times,
 //! and compares the least times of each row. The verdicts have to agree.
@@ -79,7 +79,7 @@ impl Solvers {
     }
 }
 
-/// Returns the outcome and the least time of some calls, after one that is not timed.
+/// Returns the outcome and the least time of several calls, after an untimed one.
 fn least(
     rounds: usize,
     mut call: impl FnMut() -> Result<Answer, InputError>,

@@ -17,7 +17,7 @@ use std::io::Write;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
-/// The least time of a call on one thread, nearly.
+/// The approximate duration of a call on one thread.
 const CALL: Duration = Duration::from_millis(500);
 
 fn main() -> anyhow::Result<()> {
@@ -52,7 +52,7 @@ fn main() -> anyhow::Result<()> {
     print(queries.len(), rates)
 }
 
-/// Answers all queries, and returns the time of that.
+/// Answers all queries, and returns the duration.
 fn answer(
     solver: &mut ParallelSolver,
     (a, b): (&Body, &Body),
@@ -66,8 +66,8 @@ fn answer(
     Ok((taken, answers.into_iter().collect::<Result<_, _>>()?))
 }
 
-/// Prints the rates on each number of threads, the best and the median of all rounds, and their ratios to
-/// those on one thread.
+/// Prints the rates for each number of threads, the best and the median of all rounds, and their ratios to those of one
+/// thread.
 fn print(queries: usize, mut rates: Vec<Vec<f64>>) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "{queries} queries a call")?;

@@ -1,4 +1,4 @@
-//! The methods that are compared, by name: this project's, published rivals built here, peer libraries.
+//! The methods of the comparison, by name: this project's, published rivals built here, and peer libraries.
 
 pub mod guarded;
 pub mod peer;
@@ -115,7 +115,7 @@ impl Method {
         all
     }
 
-    /// Returns FAST as published, whose bound does not hold over a step: its answers may be late.
+    /// Returns FAST as published, whose bound does not hold over a step, so that its answers may be late.
     pub fn published() -> Method {
         let kind = SolverKind {
             schedule: ScheduleKind::Fast,
@@ -125,7 +125,7 @@ impl Method {
         Method::Ours(kind, Pieces::Patches)
     }
 
-    /// Returns the method of a name.
+    /// Returns the method with a name.
     pub fn named(name: &str) -> Option<Method> {
         let hidden = [PeerKind::Hanging, PeerKind::Dying].map(Method::Peer);
         let more = hidden.into_iter().chain(Method::combinations());
@@ -144,7 +144,7 @@ impl Method {
         }
     }
 
-    /// Returns true for the default kind on pieces that it would not choose itself.
+    /// Returns true for the default method on pieces other than its own choice.
     pub fn is_model(self) -> bool {
         match self {
             Method::Ours(kind, pieces) => {
@@ -169,7 +169,7 @@ impl Method {
 }
 
 impl MotionKind {
-    /// Returns the query along this kind of motion.
+    /// Returns the query with motions of this kind.
     ///
     /// # Errors
     /// If a screw's parameters overflow.
@@ -193,7 +193,7 @@ impl RivalKind {
     }
 }
 
-/// Finds the first contact of two bodies on motions.
+/// Finds the first contact of two bodies with given motions.
 ///
 /// # Errors
 /// A motion or the duration is out of range.
@@ -236,7 +236,7 @@ impl Adjustable for Ours<'_> {
 }
 
 impl Solver for Ours<'_> {
-    /// Steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
+    /// Answers a query; steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
     fn answer(&mut self, query: &Query) -> Reply {
         let answer = match first_contact(self.bodies, query, &self.config, self.solver.as_mut()) {
             Ok(answer) => answer,

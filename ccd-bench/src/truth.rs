@@ -38,20 +38,20 @@ pub enum Truth {
     Hit {
         /// The time just before the first contact, usually by less than 1e-13 of the duration.
         lo: f64,
-        /// The time just after it.
+        /// The time just after the first contact.
         hi: f64,
     },
-    /// They share no point at any time.
+    /// The surfaces share no point at any time.
     Free,
-    /// They share a point at the start, or cannot be separated there in floating point.
+    /// The surfaces share a point at the start, or cannot be separated there in floating point.
     Start,
-    /// They share no point before `lo`, cannot be separated at `lo`, and no proof of contact was
-    /// found then or later: they touch without intersecting, or nearly touch.
+    /// The surfaces share no point before `lo`, cannot be separated at `lo`, and no proof of contact was found then or
+    /// later: they touch without intersecting, or nearly touch.
     Graze {
-        /// The time at which they first come that near.
+        /// The first time at which the surfaces come that near.
         lo: f64,
     },
-    /// They share no point before `lo`; the work limit of a query was reached.
+    /// The surfaces share no point before `lo`; the work limit of a query was reached.
     Undecided {
         /// The end of the proven time.
         lo: f64,
@@ -67,12 +67,12 @@ pub struct Bracket {
     pub upper: f64,
 }
 
-/// Judges queries about two surfaces.
+/// A referee that decides queries about two surfaces.
 #[derive(Clone, Copy, Debug)]
 pub struct Referee<'a> {
     a: &'a Surface,
     b: &'a Surface,
-    /// The most tests of pairs for a query.
+    /// The maximum number of tests of pairs for a query.
     tests: u64,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Referee<'a> {
         }
     }
 
-    /// Limits the tests of pairs for a query; one that needs more is [`Truth::Undecided`], or its distance is
+    /// Limits the tests of pairs for a query. A query that needs more is [`Truth::Undecided`], or its distance is
     /// bracketed less closely.
     #[must_use]
     pub fn within(self, tests: u64) -> Self {

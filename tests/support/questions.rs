@@ -1,5 +1,4 @@
-//! Questions other than that for the first contact, over every backend and kind of piece, and over motions as
-//! users give their own.
+//! All questions except the first contact, over every backend and kind of piece, and for user-defined trajectories.
 
 use crate::backends::Oracle;
 use crate::models::Kind;
@@ -11,7 +10,7 @@ use ccd_core::{Accelerations, Answer, DistanceOracle, InputError, Motion, Settin
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
-/// A motion of a user's own: its tangents, without accelerations.
+/// A motion as a user-defined trajectory: its tangents, without accelerations.
 #[derive(Clone, Copy, Debug)]
 pub struct Own(pub Motion);
 
@@ -39,28 +38,28 @@ pub struct Asked {
 /// The answers to every question about motions.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
-    /// Whether they touch at all.
+    /// Whether the bodies touch at all.
     pub any: Answer,
-    /// How close they come.
+    /// The least distance.
     pub closest: Answer,
-    /// Whether they keep a distance: a required one, and the answer.
+    /// A required distance, and whether the bodies keep it.
     pub cleared: (f64, Answer),
 }
 
-/// The answers to every question about the same motions, given as a user's own.
+/// The answers to every question about the same motions, given as user-defined trajectories.
 #[derive(Clone, Copy, Debug)]
 pub struct AnswersAlong {
-    /// When they first touch.
+    /// The first contact.
     pub first: Answer,
-    /// Whether they touch at all.
+    /// Whether the bodies touch at all.
     pub any: Answer,
-    /// How close they come.
+    /// The least distance.
     pub closest: Answer,
-    /// Whether they keep a distance: a required one, and the answer.
+    /// A required distance, and whether the bodies keep it.
     pub cleared: (f64, Answer),
-    /// How far apart they get.
+    /// The greatest distance.
     pub greatest: Answer,
-    /// When they first touch, and when last.
+    /// The first and the last contact.
     pub interval: Answer,
 }
 
@@ -74,7 +73,7 @@ impl Oracle {
     ];
 }
 
-/// Calls `check` with the answers of every oracle that suits the bodies, for all bodies of the query.
+/// Calls `check` with the answers of every oracle that supports the bodies, for all bodies of the query.
 pub fn for_each_answers(
     query: &Query,
     config: &Settings,
@@ -91,7 +90,7 @@ pub fn for_each_answers(
     });
 }
 
-/// Calls `check` with the answers along motions that are a user's own, as [`for_each_answers`] does.
+/// Calls `check` with the answers for user-defined trajectories, as [`for_each_answers`] does.
 pub fn for_each_answers_along(
     query: &Query,
     config: &Settings,
@@ -120,7 +119,7 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, Asked)) {
     }
 }
 
-/// Returns a distance on either side of the least one, or about it, and the settings that require it.
+/// Returns a required distance below, at or above the least distance, and the settings that require it.
 fn beside(closest: &Answer, config: &Settings) -> (f64, Settings) {
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // As good as random.

@@ -1,5 +1,5 @@
-//! Fast bodies in rapier, stepped as they are, with rapier's own continuous collision detection, and with certified
-//! times: what passes through what, and how deep bodies get into each other.
+//! Fast bodies in rapier, stepped without continuous collision detection, with rapier's own, and with certified times:
+//! passages through each other, and penetration depths.
 //!
 //! ```sh
 //! cargo run --release -p ccd-bench --example physics -- [STEPS [CHART.svg]]
@@ -23,14 +23,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use worlds::{Detection, Simulated, World};
 
-/// How a world is stepped.
+/// The method of stepping a world.
 #[derive(Clone, Copy, Debug)]
 enum Method {
-    /// As it is.
+    /// No continuous collision detection.
     Plain,
-    /// With rapier's continuous collision detection.
+    /// rapier's continuous collision detection.
     Rapier,
-    /// With certified times.
+    /// Certified times.
     Certified,
 }
 
@@ -93,7 +93,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Steps a world, and returns what was seen and the time that the steps took.
+/// Steps a world; returns the measurements and the duration of the steps.
 fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)> {
     let duration = world.physics.integration_parameters.dt;
     let bodies: Vec<_> = world.bodies.iter().map(|body| body.body.clone()).collect();
@@ -147,7 +147,7 @@ fn poses(world: &World) -> Result<Vec<Pose>> {
     poses.collect()
 }
 
-/// Returns how each body of a world moved in a step that nothing stopped.
+/// Returns the motion of each body in a step without stops.
 fn moved(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
     let between = |(body, start): (&Simulated, &Pose)| {
         let rigid = &world.physics.bodies[body.handle];

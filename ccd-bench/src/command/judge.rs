@@ -1,4 +1,4 @@
-//! The command `ccd-bench judge`: asks one method, and judges its answers by the exact ones.
+//! The command `ccd-bench judge`: runs one method, and compares its answers with the exact ones.
 
 use crate::method::Method;
 use crate::method::guarded::{Guarded, Programs, Setting};

@@ -73,7 +73,7 @@ Examples:
   ccd-bench truth --a part.stl --b part.stl --motions motions.csv --threads 1 --out truth.csv
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd-bench truth --a part.stl --b slab.obj --motions -";
 
-/// Judges all valid rows; the table gives the reason for the others.
+/// Brackets the first contact of all valid rows; the table gives the reason for the others.
 pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     for (option, path) in [
         ("--motions", &args.motions),

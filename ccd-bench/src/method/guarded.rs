@@ -1,4 +1,4 @@
-//! Runs a method in a process of its own, which is stopped when it takes too long.
+//! Runs a method in a separate process, which is stopped at a time limit.
 
 use super::Method;
 use super::solver::{Claim, Reply, TimedReply};
@@ -15,7 +15,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Asks a method one query at a time. Stops and restarts it when it hangs or dies.
+/// Runs a method on one query at a time, in a separate process. Stops and restarts it when it hangs or dies.
 #[derive(Debug)]
 pub struct Guarded {
     program: PathBuf,
@@ -25,21 +25,21 @@ pub struct Guarded {
     process: Option<Process>,
 }
 
-/// A method, and what it is to answer with.
+/// A method and its settings.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
     /// The method.
     pub method: Method,
     /// The tolerance, for methods that take one.
     pub tolerance: f64,
-    /// The distance to keep; a method that keeps none refuses any other than 0.
+    /// The distance to keep; a method without margins refuses any other than 0.
     pub margin: f64,
-    /// The time that the process may take to prepare its bodies.
+    /// The time limit for preparing the bodies.
     pub preparation: Duration,
 }
 
 impl Setting {
-    /// Returns the usual setting of a method at a tolerance: no margin, two minutes of preparation.
+    /// Returns the default setting of a method at a tolerance: no margin, two minutes of preparation.
     pub fn new(method: Method, tolerance: f64) -> Self {
         Setting {
             method,
@@ -66,7 +66,7 @@ pub enum Asked {
     Died,
 }
 
-/// The programs that answer.
+/// The programs that run the methods.
 #[derive(Clone, Debug, Default)]
 pub struct Programs {
     /// The script that runs the methods of kind [`Method::Script`].
@@ -74,7 +74,7 @@ pub struct Programs {
 }
 
 impl Programs {
-    /// Starts the script of a method, if it has one: libraries may be missing.
+    /// Starts the script of a method, if it has one, to detect missing libraries.
     ///
     /// # Errors
     /// If it does not start.
@@ -161,7 +161,7 @@ impl Guarded {
         self.running().map(|_| ())
     }
 
-    /// Asks one query. A process that was stopped or has died is restarted first; that is not timed.
+    /// Runs one query. A process that was stopped or has died is restarted first; that is not timed.
     ///
     /// # Errors
     /// Those of [`Guarded::start`].

@@ -1,4 +1,4 @@
-//! The protocol between a guard and the process it guards: one line for each query, one for each reply.
+//! The protocol between a guard and the guarded process: one line for each query, and one for each reply.
 
 use super::solver::{Claim, Reply, Solver, TimedReply, timed};
 use ccd_core::glam::{DQuat, DVec3};
@@ -7,13 +7,13 @@ use rigid_ccd::table::motions::Query;
 use std::io::{self, BufRead, Write};
 use std::time::Duration;
 
-/// The line that the process writes once it has prepared its bodies.
+/// The process's first line after it has prepared its bodies.
 pub const READY: &str = "ready";
 
-/// The start of the line that it writes instead if it refuses the bodies or the setting; the reason follows.
+/// The prefix of its first line if it refuses the bodies or the setting; the reason follows.
 pub const REFUSED: &str = "refused: ";
 
-/// Answers queries as they are read, until there are no more.
+/// Answers queries until the input ends.
 ///
 /// # Errors
 /// If a line is no query, or if the reader of the replies is gone.
@@ -35,7 +35,7 @@ pub fn serve(
     Ok(())
 }
 
-/// Formats a query as one line, which is read back to the same bits; the name is left out.
+/// Formats a query as one line without its name; parsing gives the same bits.
 pub fn format_query(query: &Query) -> String {
     let motion = |motion: &Motion| {
         let start = motion.start();
@@ -127,7 +127,7 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
     Some(TimedReply { reply, micros })
 }
 
-/// Never answers.
+/// A solver that never answers.
 #[derive(Clone, Copy, Debug)]
 pub struct Hanging;
 
@@ -139,7 +139,7 @@ impl Solver for Hanging {
     }
 }
 
-/// Ends its process instead of answering.
+/// A solver that ends its process instead of answering.
 #[derive(Clone, Copy, Debug)]
 pub struct Dying;
 

@@ -39,9 +39,9 @@ pub struct Contest<'s> {
 /// The limits of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowance {
-    /// The time for one method on one scene at one tolerance; after that, no more queries are asked.
+    /// The time for one method on one scene at one tolerance; no more queries are started after it.
     pub cell: Duration,
-    /// The time for one query of a peer, which is stopped after that.
+    /// The time limit of one query of a peer, which is then stopped.
     pub patience: Duration,
     /// The largest number of queries.
     pub rows: usize,
@@ -52,8 +52,7 @@ pub struct Allowance {
     pub preparation: Duration,
 }
 
-/// The largest number of pairs of pieces for a schedule without a tree, since it processes all
-/// pairs in every step.
+/// The maximum number of pairs of pieces for a schedule without a tree, which processes all pairs in every step.
 pub const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
 
 /// A method could not be run.
@@ -107,8 +106,8 @@ impl<'s> Contest<'s> {
         Referee::new(&self.surfaces[0], &self.surfaces[1])
     }
 
-    /// Returns the rows to ask for if at most `most` are asked. The rows are spread evenly, and so
-    /// is any number of the first ones.
+    /// Returns the order of the rows to run, of which at most `most` are run. The rows are spread evenly, and so is any
+    /// number of the first ones.
     pub fn order(&self, most: usize) -> Vec<usize> {
         let count = self.given.len();
         let stride = (1..=count)
@@ -141,8 +140,7 @@ impl<'s> Contest<'s> {
         session.set_tolerance(tolerance).map_err(failed)
     }
 
-    /// Asks a method the queries, and judges its answers. Returns `None` if it can be asked none of
-    /// the queries.
+    /// Runs a method on the queries, and judges its answers. Returns `None` if it can be asked none of the queries.
     ///
     /// # Errors
     /// If a stopped peer cannot be restarted.

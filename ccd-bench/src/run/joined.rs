@@ -1,4 +1,4 @@
-//! Exports scenes to other programs, and joins the trials that those measured.
+//! Exports scenes to other programs, and imports the trials that they measured.
 
 use crate::method::solver::Claim;
 use crate::method::{Method, MotionKind};
@@ -31,11 +31,11 @@ enum Reported {
     Claim(Claim),
     CutOff,
     Died,
-    /// It measured something else, such as a single distance, and is not judged.
+    /// Another quantity, such as a single distance, which is not judged.
     Static,
 }
 
-/// Writes each scene into a folder of its name: `a.obj`, `b.obj`, `motions.csv`.
+/// Writes each scene into a folder with its name: `a.obj`, `b.obj`, `motions.csv`.
 ///
 /// # Errors
 /// If a scene cannot be made or a file cannot be written.

@@ -1,4 +1,4 @@
-//! The scenes as data: their models, and their rows in tables of motions.
+//! The list of scenes: their models, and their rows in tables of motions.
 
 use super::{Models, Scene, SceneError};
 use crate::scene::model::Model;
@@ -19,7 +19,7 @@ pub struct Listing {
     rows: Option<Rows>,
 }
 
-/// Rows of a table, counted from 0.
+/// A range of rows of a table, counted from 0.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Rows {

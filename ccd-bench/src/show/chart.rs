@@ -28,10 +28,10 @@ use look::{Fill, Look};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The paper's tolerance `[FAST06 §6.2]`, at which charts of one tolerance are drawn.
+/// The paper's tolerance `[FAST06 §6.2]`, used by charts of one tolerance.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
 
-/// The remark on medians over other rows.
+/// The remark on medians over different rows.
 const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on \
                          the rows that both were asked.";
 
@@ -53,7 +53,7 @@ pub struct Charts<'a> {
 pub struct SceneFacts<'a> {
     /// The name in the tables.
     pub name: &'a str,
-    /// The moving shape; scenes of one shape are joined by a line over its sizes.
+    /// The moving shape; a line over the sizes joins scenes of the same shape.
     pub shape: &'a str,
     /// The number of triangles of the moving mesh.
     pub triangles: usize,
@@ -79,7 +79,7 @@ pub enum Family {
     Rival,
     /// A library in use.
     Peer,
-    /// This project's method on another model of the same mesh; in tables only.
+    /// This project's method on another model of the same mesh, shown in tables only.
     Model,
 }
 
@@ -98,7 +98,7 @@ pub struct Drawing {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
-    /// The table has no row of a known scene and a known method.
+    /// The table has no row with a known scene and a known method.
     #[error("nothing to draw: no row of the table is of a known scene and a known method")]
     NothingToDraw,
     /// The drawing library failed.
@@ -153,7 +153,7 @@ impl Charts<'_> {
         Ok(drawings)
     }
 
-    /// Returns true if the method was late or missed a contact anywhere.
+    /// Returns true if the method was late or missed a contact in any cell.
     pub fn is_unsafe(&self, method: &str) -> bool {
         self.cells
             .iter()
@@ -183,7 +183,7 @@ impl Charts<'_> {
         cells
     }
 
-    /// Returns the methods of some families that have cells, each with its look.
+    /// Returns the methods of some families that have cells, each with its style.
     fn shown(&self, families: &[Family]) -> Vec<(&MethodFacts<'_>, Look)> {
         let measured = |name: &str| {
             let known = |cell: &&Cell| self.scenes.iter().any(|s| s.name == cell.scene);
@@ -208,7 +208,7 @@ impl Charts<'_> {
 }
 
 impl Family {
-    /// The families that are compared with each other.
+    /// The families that charts compare.
     const COMPARED: [Family; 3] = [Family::Ours, Family::Rival, Family::Peer];
 
     /// Returns the heading in the legend.

@@ -19,14 +19,14 @@ pub struct View<'a> {
     pub shots: Vec<Shot>,
 }
 
-/// A motion of a view, and what is said about it.
+/// A motion of a view, with its description.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The motions.
     pub query: Query,
     /// The name.
     pub name: String,
-    /// What happens, in a sentence.
+    /// The event, in a sentence.
     pub status: String,
     /// The time to show; `None` shows the end.
     pub time: Option<f64>,

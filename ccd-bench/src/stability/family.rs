@@ -5,16 +5,16 @@ use ccd_core::{InputError, Motion, Pose};
 use ccd_decomp::{MeshError, TriangleMesh};
 use rigid_ccd::table::motions::Query;
 
-/// Scenes of one kind that a parameter makes harder.
+/// Scenes of one kind, with a parameter that makes them harder.
 #[derive(Clone, Debug)]
 pub struct Family {
     /// The name.
     pub name: &'static str,
-    /// What the parameter is.
+    /// The description of the parameter.
     pub parameter: &'static str,
-    /// Its values, the easiest first.
+    /// The values of the parameter, the easiest first.
     pub values: Vec<f64>,
-    /// Makes the scene of a value.
+    /// The function that makes the scene of a value.
     pub make: fn(f64) -> Result<Step, StepError>,
 }
 
@@ -38,18 +38,18 @@ pub struct Step {
 pub struct Case {
     /// The query.
     pub query: Query,
-    /// Its answer.
+    /// The exact answer.
     pub expected: Expected,
 }
 
-/// The exact answer of a query, where contact means a distance of at most the margin.
+/// The exact answer of a query, in which contact means a distance of at most the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expected {
     /// The first contact is between two times, after the start.
     Contact {
-        /// No contact is before it.
+        /// The time before which there is no contact.
         lo: f64,
-        /// There is a contact by then.
+        /// The time by which there is a contact.
         hi: f64,
     },
     /// There is no contact.
@@ -70,7 +70,7 @@ pub enum StepError {
     Input(#[from] InputError),
 }
 
-/// The motion of one body, with its travel and its turn over the whole duration.
+/// The motion of one body, with its displacement and its rotation over the whole duration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
     pub(super) at: DVec3,
@@ -81,18 +81,17 @@ pub(super) struct Course {
     pub(super) centre: DVec3,
 }
 
-/// The turns of the world in which a scene is asked besides its own: about no axis of symmetry.
+/// The rotations of the world in which a scene is repeated, about no axis of symmetry.
 const WORLDS: [(DVec3, f64); 2] = [
     (DVec3::new(0.6, 0.0, 0.8), 1.1),
     (DVec3::new(-0.48, 0.6, 0.64), 2.3),
 ];
 
-/// The tolerance of a step that sets none.
+/// The default tolerance of a step.
 const TOLERANCE: f64 = 1e-6;
 
 impl Expected {
-    /// Returns a contact at a time that is known, and reached by the query's rounded numbers, to within a
-    /// slack.
+    /// Returns a contact at a known time, which the query's rounded numbers reach to within a slack.
     pub(super) fn at(time: f64, slack: f64) -> Self {
         Expected::Contact {
             lo: time - slack,
@@ -102,7 +101,7 @@ impl Expected {
 }
 
 impl Expected {
-    /// Returns the answer of a query of another duration than 1.
+    /// Converts the answer from duration 1 to another duration.
     fn over(self, duration: f64) -> Self {
         match self {
             Expected::Contact { lo, hi } => Expected::Contact {
@@ -123,20 +122,20 @@ impl Course {
         centre: DVec3::ZERO,
     };
 
-    /// Falls from z = 3 by 4.
+    /// A fall from z = 3 by 4.
     pub(super) const FALLING: Course = Course {
         at: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
         ..Course::STILL
     };
 
-    /// Rests at z = −1, so that the top of a slab is at 0.
+    /// Rest at z = −1, so that the top of a slab is at 0.
     pub(super) const UNDER: Course = Course {
         at: DVec3::NEG_Z,
         ..Course::STILL
     };
 
-    /// Rests at a place.
+    /// Returns the motion of a body at rest.
     pub(super) fn rest(at: DVec3) -> Self {
         Course {
             at,
@@ -144,7 +143,7 @@ impl Course {
         }
     }
 
-    /// Moves straight.
+    /// Returns a motion in a straight line.
     pub(super) fn straight(at: DVec3, velocity: DVec3) -> Self {
         Course {
             at,
@@ -173,7 +172,7 @@ impl Step {
         }
     }
 
-    /// Adds a query with exactly these numbers; the answer is that of a duration of 1.
+    /// Adds a query with exactly these numbers; the answer is for a duration of 1.
     pub(super) fn exactly(
         self,
         a: Course,
@@ -183,7 +182,7 @@ impl Step {
         self.in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
-    /// Adds the query, and the same one in worlds that are turned. The answer has to bear their rounding.
+    /// Adds the query, and the same one in rotated worlds. The answer has to bear their rounding.
     pub(super) fn turned_too(
         mut self,
         a: Course,

@@ -12,7 +12,7 @@ use rigid_ccd::table::motions::Query;
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
 
-/// A time that no query here takes.
+/// A time limit that no query here reaches.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn cube() -> TriangleMesh {

@@ -13,7 +13,7 @@ use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
-/// The decrease of the distance of released bodies that may go unnoticed, in units of rounding.
+/// The allowed decrease of the distance of released bodies, in units of rounding.
 const RESTING: f64 = 1.0;
 
 /// A fault of an answer.
@@ -95,7 +95,7 @@ impl<'a> Judge<'a> {
         (faults, proven)
     }
 
-    /// Returns the time until which an answer claims that nothing touches.
+    /// Returns the time until which an answer proves that there is no contact.
     fn proven(&self, outcome: &Outcome) -> f64 {
         match *outcome {
             Outcome::Contact { time, .. } => time,

@@ -25,8 +25,8 @@ pub mod targets;
 pub mod trial;
 pub mod vector;
 
-/// Lets panics pass that the product catches, of libraries for instance: libFuzzer's hook aborts at every panic.
-/// It still aborts at those that no one catches.
+/// Keeps libFuzzer's hook, which aborts at every panic, from panics that the product catches, for example those of
+/// libraries. It still aborts at those that no one catches.
 pub fn let_caught_panics_pass() {
     drop(std::panic::take_hook());
 }

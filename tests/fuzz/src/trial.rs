@@ -1,4 +1,4 @@
-//! One query: answered by many methods, judged.
+//! One query, answered by many methods and judged.
 
 use crate::case::{Case, Form, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
@@ -16,11 +16,11 @@ pub struct Trial {
     /// The reason why the engine, or the decomposition, refused the case.
     pub refused: Option<String>,
     pub failures: Vec<Failure>,
-    /// True if the referee's search for an earlier contact was complete.
+    /// Whether the referee's search for an earlier contact was complete.
     pub proven: bool,
 }
 
-/// Something wrong with an answer.
+/// A fault of an answer.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub fault: Fault,
@@ -39,7 +39,7 @@ impl fmt::Display for Trial {
 }
 
 impl Failure {
-    /// Returns the text of the failure, with the command that runs its query again.
+    /// Returns the text of the failure, with the command that repeats its query.
     pub fn report(&self, command: &str, case: &Case) -> String {
         let Failure {
             fault,
@@ -58,7 +58,7 @@ impl Failure {
     }
 }
 
-/// Builds the bodies of a case, asks the methods, and judges their answers.
+/// Builds the bodies of a case, runs the methods, and judges their answers.
 pub fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
     let mut trial = Trial {
         case,
@@ -76,7 +76,7 @@ pub fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
     trial
 }
 
-/// Builds bodies of every kind that is needed.
+/// Builds bodies of every required kind.
 fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
     let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
     for (kind, method) in asked {
@@ -123,7 +123,7 @@ fn answers<'b>(
     given
 }
 
-/// Records what is wrong with the answers.
+/// Records the faults of the answers.
 fn judge(trial: &mut Trial, given: &[Given<'_>]) {
     let Some(first) = given.first() else { return };
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
@@ -175,7 +175,7 @@ fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
     }
 }
 
-/// Returns the same case with as few triangles as still fail in the same way.
+/// Returns the case with as few triangles as still fail in the same way.
 pub fn shrunk(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut asked = vec![(Kind::Triangles, Method::Direct)];

@@ -1,5 +1,4 @@
-//! rapier in double precision: one step of its simulation, as long as the query, with continuous collision
-//! detection.
+//! rapier in double precision: one step of its simulation over the whole query, with continuous collision detection.
 
 use crate::method::peer::parry::double::shapes::{pose, tri_mesh, vector};
 use crate::method::peer::{PeerError, contact_at};
@@ -13,8 +12,7 @@ use rapier3d_f64::prelude::{
 };
 use rigid_ccd::table::motions::Query;
 
-/// Simulates A as a free body and B as a fixed one in one step, and takes the pose in which the
-/// step stops A.
+/// Simulates A as a free body and B as a fixed one in one step; the contact is the pose at which the step stops A.
 ///
 /// The engine does not sweep meshes, only convex bodies and compounds of them. A is therefore a compound
 /// of its triangles here; B stays a mesh. Each triangle is swept against B's by [parry's
@@ -33,10 +31,9 @@ pub struct Simulated {
     b: RigidBodyHandle,
 }
 
-/// A hit is reported at up to this multiple of the allowed error.
+/// The largest distance at which a hit is reported, as a multiple of the allowed error.
 const ERRORS_AT_HIT: f64 = 1.25;
-/// A step that covers this fraction of its motion counts as complete; poses are rounded by about as
-/// much.
+/// The fraction of its motion at which a step counts as complete, because poses are rounded.
 const WHOLE: f64 = 1.0 - 1e-9;
 
 impl Simulated {
@@ -112,8 +109,7 @@ fn share(query: &Query, end: &Pose) -> f64 {
     (centre - start).dot(way) / way.length_squared()
 }
 
-/// Returns the same fraction for a body that only turns. A sweep mixes two orientations, the
-/// shorter way.
+/// Returns the same fraction for a body that only rotates. A sweep mixes two orientations, the shorter way.
 fn share_of_turn(motion: &Motion, duration: f64, end: &Pose) -> f64 {
     let turn_to = |rotation: DQuat| {
         let turn = rotation * motion.start().rotation().conjugate();

@@ -58,24 +58,23 @@ struct Found {
     step: f64,
 }
 
-/// The placement of the bodies, and the limits of a descent.
+/// The placement of the bodies and the limits of a descent.
 struct Look<'a> {
     /// Body B as seen from body A.
     placement: &'a Placement,
     /// The time until the end of the duration.
     remaining: f64,
-    /// The fraction of its distance by which a pair that is not opened may be nearer than the
-    /// nearest triangles found.
+    /// The allowed excess, as a fraction: an unopened pair may be nearer by it than the nearest triangles found.
     excess: f64,
 }
 
 /// The result of a descent.
 enum Descent {
-    /// The descent stopped at all pairs where it may stop.
+    /// The descent stopped at pairs that need not be opened.
     Done(Found),
-    /// It found triangles within the tolerance.
+    /// The descent found triangles within the tolerance.
     Within,
-    /// It ran out of patience, or numbers are not finite.
+    /// The work limit was reached, or numbers are not finite.
     GaveUp,
 }
 
@@ -147,9 +146,9 @@ impl C2a {
         const FIRST: (u64, f64) = (3, 3.0);
         /// The number of steps after those, and their excess.
         const THEN: (u64, f64) = (6, 0.5);
-        /// A fraction of the duration: after a shorter step, all steps are exact.
+        /// The step length below which all later steps are exact, as a fraction of the duration.
         const SHORT: f64 = 0.005;
-        /// A multiple of the tolerance: at a smaller distance, all steps are exact.
+        /// The distance below which all steps are exact, as a multiple of the tolerance.
         const NEAR: f64 = 16.0;
 
         let exact = last.is_some_and(|last| {

@@ -1,11 +1,11 @@
-//! The time in which bodies move by a tolerance.
+//! The resolution in time of a tolerance.
 
 use super::Course;
 use super::obb_tree::ObbTree;
 
-/// Returns a time in which no point of one body moves by more than the tolerance as seen from the
-/// other. It is the tolerance over the relative speed of the centres plus the speeds of rotation of
-/// both bodies at their farthest points.
+/// Returns a time in which no point of one body moves by more than the tolerance relative to the other. It is the
+/// tolerance over the relative speed of the centres plus the speeds of rotation of both bodies at their farthest
+/// points.
 ///
 /// The result is infinite for bodies at rest.
 pub(super) fn resolution(courses: &[Course; 2], trees: &[ObbTree; 2], tolerance: f64) -> f64 {

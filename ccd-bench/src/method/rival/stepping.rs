@@ -1,4 +1,4 @@
-//! A static test at every step, the usual practice without a continuous method.
+//! A static test at every step, the usual practice without continuous collision detection.
 
 use super::Course;
 use super::obb_tree::{Crossing, ObbTree, crossing};
@@ -7,7 +7,7 @@ use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
 
-/// The largest number of samples of one query, some seconds' worth.
+/// The maximum number of samples of one query, some seconds of work.
 const MAX_SAMPLES: u64 = 1 << 20;
 
 /// Tests two triangle meshes for intersection at equal steps in time.
@@ -50,7 +50,7 @@ impl Adjustable for Stepping {
 }
 
 impl Solver for Stepping {
-    /// Steps are samples; the last one is at the end of the duration.
+    /// Answers a query; steps are samples, the last one at the end of the duration.
     fn answer(&mut self, query: &Query) -> Reply {
         let courses = [Course::new(&query.a), Course::new(&query.b)];
         let step = resolution(&courses, &self.trees, self.tolerance);

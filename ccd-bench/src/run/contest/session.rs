@@ -18,7 +18,7 @@ pub struct Session<'s> {
     runner: Runner<'s>,
 }
 
-/// The solver of a session: in this process, or in one of its own that can be stopped.
+/// The solver of a session, in this process or in a separate one that can be stopped.
 enum Runner<'s> {
     InProcess(Box<dyn Adjustable + 's>),
     Guarded(Box<Guarded>),
@@ -103,8 +103,8 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Lets a solver that prepares pieces on first use do so on some queries, for a limited time.
-    /// Returns the number of prepared queries.
+    /// Runs some queries for a limited time, for solvers that prepare pieces on first use. Returns the number of
+    /// prepared queries.
     pub(super) fn prepare<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Query>,
@@ -122,7 +122,7 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Asks one query.
+    /// Runs one query.
     ///
     /// # Errors
     /// If a peer's process does not restart.
@@ -147,7 +147,7 @@ impl Answered {
         matches!(self, Answered::InTime { reply, .. } if refused(reply))
     }
 
-    /// Returns the time that is claimed, or NaN.
+    /// Returns the claimed time, or NaN.
     pub(super) fn time(&self) -> f64 {
         match self {
             Answered::InTime { reply, .. } => reply.claim.time().unwrap_or(f64::NAN),

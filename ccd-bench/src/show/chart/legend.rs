@@ -1,4 +1,4 @@
-//! The legend, below the data and never on it.
+//! The legend, placed below the data.
 
 use super::look::{Fill, Look};
 use super::sheet::{DrawError, MARGIN, Sheet, Spot, TEXT, TextFormat, WIDTH, text_width};
@@ -13,7 +13,7 @@ const SAMPLE: f64 = 30.0;
 /// The gap between a sample and its text, and between two columns.
 const GAP: f64 = 6.0;
 
-/// The names and looks, by family.
+/// The names and styles of methods, by family.
 pub(super) struct Legend<'a> {
     groups: Vec<(&'static str, Vec<(String, &'a Look)>)>,
     column: f64,
@@ -64,7 +64,7 @@ impl<'a> Legend<'a> {
         LINE * self.groups.iter().map(lines).sum::<usize>() as f64
     }
 
-    /// Draws it with its upper left corner at the given spot, in pixels.
+    /// Draws the legend with its upper left corner at the given position, in pixels.
     pub(super) fn draw(&self, sheet: &Sheet<'_>, (left, mut top): Spot) -> Result<(), DrawError> {
         let head = head_width(&self.groups);
         for (title, group) in &self.groups {

@@ -1,12 +1,11 @@
-//! The look of a method, the same in every chart.
+//! The style of a method, the same in every chart.
 
 use super::sheet::{DrawError, Pen, Sheet, Spot, stroke};
 use super::{Family, MethodFacts};
 use plotters::style::{Color, RGBColor, ShapeStyle, WHITE};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Okabe and Ito's colours, which colour-blind people can distinguish, without the yellow, which is
-/// invisible on white.
+/// Okabe and Ito's colours, which colour-blind people can distinguish, without the yellow, which is invisible on white.
 pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),
@@ -33,9 +32,9 @@ pub(super) struct Look {
 /// The interior of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fill {
-    /// For a method that was never late.
+    /// A solid marker, for a method that was never late.
     Solid,
-    /// For a method that is unsafe.
+    /// A hollow marker, for an unsafe method.
     Hollow,
 }
 
@@ -63,8 +62,7 @@ const MARKERS: [Marker; 8] = [
     Marker::Bar,
 ];
 
-/// Returns a look for each method, in their order. Looks within a family differ; families differ by
-/// the dash.
+/// Returns a style for each method, in their order. Looks within a family differ; families differ by the dash.
 pub(super) fn looks(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) -> Vec<Look> {
     let mut taken = [0; 4];
     let look = |method: &MethodFacts<'_>| {
@@ -96,7 +94,7 @@ impl Look {
 }
 
 impl Sheet<'_> {
-    /// Draws a marker with its middle at a spot.
+    /// Draws a marker centred at a position.
     pub(super) fn marker(&self, at: Spot, look: &Look) -> Result<(), DrawError> {
         let inside = match look.fill {
             Fill::Solid => look.colour,
@@ -120,7 +118,7 @@ fn outline(colour: RGBColor) -> ShapeStyle {
     stroke(colour, OUTLINE)
 }
 
-/// Returns the corners around the middle, at least three.
+/// Returns the corners of a marker around its centre, at least three.
 fn corners(marker: Marker, (x, y): Spot) -> Vec<Spot> {
     let around = |count: u32, first: f64, radius: fn(u32) -> f64| {
         (0..count)

@@ -18,7 +18,7 @@ pub(super) const LEFT_MARGIN: f64 = Y_LABEL + 10.0;
 pub(super) const BOTTOM_MARGIN: f64 = X_LABEL + 18.0;
 /// The space above a panel for its title.
 pub(super) const TOP_MARGIN: f64 = 20.0;
-/// A tick closer to the end of its axis than this share is at the end.
+/// The share of the axis within which a tick counts as at the end.
 const END: f64 = 0.03;
 /// The height of the arrow on a value that is a lower bound.
 const ARROW: f64 = 12.0;
@@ -30,7 +30,7 @@ pub(super) struct Panel<'a> {
     pub(super) title: &'a str,
     pub(super) x: &'a Axis,
     pub(super) y: &'a Axis,
-    /// The axes with labels: those without a neighbour that has them.
+    /// The axes with labels: those whose neighbour has none.
     pub(super) labelled: Labelled,
 }
 
@@ -108,7 +108,7 @@ impl Panel<'_> {
         Ok(())
     }
 
-    /// Returns the spot of a value, or `None` for NaN.
+    /// Returns the position of a value, or `None` for NaN.
     pub(super) fn spot(&self, x: f64, y: f64) -> Option<Spot> {
         let across = self.rect.left + self.x.share(x)? * self.rect.width;
         let down = self.rect.bottom() - self.y.share(y)? * self.rect.height;
@@ -179,7 +179,7 @@ impl Panel<'_> {
     }
 }
 
-/// Returns where a label stands at its tick: labels at the ends stay within the panel, apart from those of the next.
+/// Returns the alignment of a label at its tick: labels at the ends stay within the panel.
 fn across(share: f64) -> HPos {
     match share {
         share if share < END => HPos::Left,

@@ -12,7 +12,7 @@ use ccd_core::order::greater;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-/// Smaller errors are rounding, and are drawn at the edge.
+/// The least error that is drawn; smaller ones are rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
 /// The width of a method's lane in the strip.
 const LANE: f64 = 10.0;
@@ -211,7 +211,7 @@ fn draw_strip(
     Ok(())
 }
 
-/// Returns `AtLeast` if the median of a cell is the time of queries that were given up or cut off.
+/// Returns `AtLeast` if the median of a cell is the time of queries without a complete answer.
 pub(super) fn kind(cell: &Cell) -> Kind {
     if cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
         Kind::AtLeast

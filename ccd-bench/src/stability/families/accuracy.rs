@@ -61,10 +61,10 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// The error of a time that was computed from coordinates of a few units, at speeds of at least 1.
+/// The error of times computed from coordinates of a few units, at speeds of at least 1.
 const SLACK: f64 = 1e-14;
 
-/// T1, tilted.
+/// T1, tilted: a face falls onto a face.
 fn face_onto_face(angle: f64) -> Result<Step, StepError> {
     let reach = 0.5 * (angle.sin() + angle.cos());
     let falling = Course {
@@ -76,7 +76,7 @@ fn face_onto_face(angle: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
-/// T8 with nearly parallel rods.
+/// T8 with nearly parallel rods: an edge meets an edge.
 fn edge_across_edge(angle: f64) -> Result<Step, StepError> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = Course {
@@ -106,7 +106,7 @@ fn corner_onto_face(angle: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
-/// T12: a square peg turns in a square hole that is a little wider; all four corners meet it at once.
+/// T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
 fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
     let half = 0.5;
     let hole = half + clearance;
@@ -125,7 +125,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(turning, Course::STILL, expected)?)
 }
 
-/// T25: a cube falls flat onto a slab, and turns by next to nothing.
+/// T25: a cube falls flat onto a slab, and rotates very little.
 fn hardly_turning(turn: f64) -> Result<Step, StepError> {
     let falling = Course {
         spin: turn * DVec3::Y,
@@ -142,7 +142,7 @@ fn hardly_turning(turn: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
-/// A cube comes down on a slab at a small angle, half-way of its flight.
+/// A cube comes down on a slab at a small angle, halfway through its flight.
 fn flat_approach(angle: f64) -> Result<Step, StepError> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
@@ -168,7 +168,7 @@ fn hardly_meeting(overlap: f64) -> Result<Step, StepError> {
     })
 }
 
-/// T5: a rod turns, and its corner reaches a wall shortly before it would turn past it.
+/// T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
 fn hardly_reaching(share: f64) -> Result<Step, StepError> {
     let (long, thin) = (2.0f64, 0.05);
     let wall = long.hypot(thin) * (1.0 - share);
@@ -183,7 +183,7 @@ fn hardly_reaching(share: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
 }
 
-/// T17: one ring hangs in the other, a small way from it.
+/// T17: two linked rings, a small distance apart.
 fn linked_rings(way: f64) -> Result<Step, StepError> {
     let (radius, tube) = (1.0, 0.25);
     // At the start the rings are each in the middle of the other's hole; then one moves until their inner

@@ -1,4 +1,4 @@
-//! Bodies that never meet, by ever less.
+//! Bodies that never meet, with smaller and smaller gaps.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
 use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
@@ -25,13 +25,12 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// Returns the tolerance for a gap: a quarter of it, as far as coordinates of a few units let it be
-/// certified.
+/// Returns the tolerance for a gap: a quarter of it, or the least that can be certified for coordinates of a few units.
 fn tolerance(gap: f64) -> f64 {
     greater(0.25 * gap, 2.5e-13)
 }
 
-/// Returns a step with a gap that survives the rounding of turned worlds, or that is asked in its own alone.
+/// Returns a step with a gap that survives the rounding of rotated worlds; otherwise only its own world is used.
 fn free(step: Step, gap: f64, a: Course, b: Course) -> Result<Step, StepError> {
     let step = Step {
         tolerance: tolerance(gap),
@@ -74,7 +73,7 @@ fn leaving(gap: f64) -> Result<Step, StepError> {
     free(step, gap, rising, Course::UNDER)
 }
 
-/// T16: a peg moves through a hole that is a gap wider on all four sides.
+/// T16: a peg moves through a hole with a gap on all four sides.
 fn peg_through_a_hole(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
     let falling = Course::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
@@ -90,7 +89,7 @@ fn spinning_top(gap: f64) -> Result<Step, StepError> {
     free(step, gap, spinning, Course::UNDER)
 }
 
-/// A rod of half length 2 turns by half a turn about its middle, past a wall that its corners just do not reach.
+/// A rod of half length 2 rotates by half a turn about its middle, past a wall that its corners just do not reach.
 fn rod_past_a_wall(gap: f64) -> Result<Step, StepError> {
     let (long, thin) = (2.0, 0.05);
     let reach = f64::hypot(long, thin);

@@ -39,7 +39,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// T15: two hooks, one in the other and turned across, are pulled apart until their bars meet.
+/// T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
 fn hooks(slack: f64) -> Result<Step, StepError> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
@@ -74,16 +74,17 @@ fn ring_onto_ring(way: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::STILL, Expected::at(way, 1e-14))?)
 }
 
-/// The pitch of the threads, and their inner and outer radii.
+/// The pitch of the threads.
 const PITCH: f64 = 0.2;
+/// The inner and outer radii of the threads.
 const THREAD: [f64; 2] = [0.9, 1.0];
 
-/// T18: the flank of a screw turns between those of its nut at the pitch of both.
+/// T18: the flank of a screw rotates between those of its nut at their common pitch.
 fn screw(turns: f64) -> Result<Step, StepError> {
     threads(turns, 0.5)
 }
 
-/// T18: as above, by one turn, with one flank close to the other.
+/// T18, with one turn, and one flank close to the other.
 fn tight_screw(play: f64) -> Result<Step, StepError> {
     threads(1.0, play)
 }
@@ -105,7 +106,7 @@ fn threads(turns: f64, play: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(turning, Course::STILL, Expected::Free)?)
 }
 
-/// A sheet slides between two others, one on either side.
+/// A sheet slides between two others.
 fn between(gap: f64) -> Result<Step, StepError> {
     let sliding = Course::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free(
@@ -115,7 +116,7 @@ fn between(gap: f64) -> Result<Step, StepError> {
     )
 }
 
-/// T16: a plate, tilted, moves through a slit that is a gap wider than its edges reach.
+/// T16: a tilted plate moves through a slit that is wider than its edges by a gap.
 fn through_slit(gap: f64) -> Result<Step, StepError> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
@@ -142,7 +143,7 @@ fn free(step: Step, gap: f64, moving: Course) -> Result<Step, StepError> {
     })
 }
 
-/// T3: a rod turns into a wall, and its mesh is turned in its frame, about the same axis or across it.
+/// T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
 fn turned_frame(degrees: f64) -> Result<Step, StepError> {
     let (long, thin, wall) = (2.0f64, 0.05, 1.2);
     let rod = cuboid(thin, 0.3, long)?;

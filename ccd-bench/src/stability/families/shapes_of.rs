@@ -1,4 +1,4 @@
-//! Many triangles, and bad ones.
+//! Meshes with many triangles, and with bad ones.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
 use super::super::shapes::{
@@ -105,7 +105,7 @@ fn bad_faces(count: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
-/// A cube falls onto a slab, on a triangle that is next to none.
+/// A cube falls onto a sliver triangle of a slab.
 fn sliver(width: f64) -> Result<Step, StepError> {
     let step = Step::new(cube()?, sliver_slab(width)?);
     let expected = Expected::at(0.625, 1e-14);
@@ -120,7 +120,7 @@ fn field_of_solids(count: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(Course::FALLING, Course::STILL, expected)?)
 }
 
-/// Two cones meet beside their tips: where each has the other one's tip on a face.
+/// Two cones meet beside their tips: the tip of each touches a face of the other.
 fn tip_onto_tip(aside: f64) -> Result<Step, StepError> {
     let (sides, radius) = (8, 0.7);
     // Turned by half a side, a face looks along x. It rises by 1 over the way to its middle.

@@ -74,7 +74,7 @@ fn margins() -> Vec<f64> {
     margins
 }
 
-/// A cube falls onto a larger or smaller one, half-way of its fall.
+/// A cube falls onto a larger or smaller one, which it meets halfway.
 fn size_against_size(size: f64) -> Result<Step, StepError> {
     let way = greater(size, 1.0);
     let falling = Course::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
@@ -86,7 +86,7 @@ fn size_against_size(size: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::STILL, Expected::at(0.5, 1e-14))?)
 }
 
-/// T1 in other units.
+/// T1 in other units of length.
 fn unit_of_length(size: f64) -> Result<Step, StepError> {
     let falling = Course::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
@@ -119,7 +119,7 @@ fn moving_together(travel: f64) -> Result<Step, StepError> {
     Ok(step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))?)
 }
 
-/// A cube turns about a centre far below it, so that it moves nearly straight to a wall.
+/// A cube rotates about a centre far below it, and so moves nearly straight to a wall.
 fn far_centre(distance: f64) -> Result<Step, StepError> {
     let spin = 1.0 / distance;
     let turning = Course {
@@ -143,7 +143,7 @@ fn needle(width: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
-/// T20: cubes of half extent 1/2 at a distance that adds to their way without rounding.
+/// T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
 fn far_from_the_origin(distance: f64) -> Result<Step, StepError> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
@@ -152,7 +152,7 @@ fn far_from_the_origin(distance: f64) -> Result<Step, StepError> {
     Ok(step.exactly(falling, Course::rest(origin), Expected::at(0.5, 1e-14))?)
 }
 
-/// A needle falls onto a slab: its sides are long and thin triangles.
+/// A needle falls onto a slab; its sides are long and thin triangles.
 fn slender(ratio: f64) -> Result<Step, StepError> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
@@ -166,7 +166,7 @@ fn slender(ratio: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
-/// T13: a bullet flies a way of 1 at a thin sheet half-way.
+/// T13: a bullet travels distance 1; a thin sheet stands halfway.
 fn bullet_and_paper(ratio: f64) -> Result<Step, StepError> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = Course::straight(DVec3::ZERO, DVec3::X);
@@ -176,7 +176,7 @@ fn bullet_and_paper(ratio: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(flying, paper, expected)?)
 }
 
-/// A cube falls onto a slab, and comes as near as the margin half-way.
+/// A cube falls onto a slab, and comes as near as the margin halfway.
 fn margin(margin: f64) -> Result<Step, StepError> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;

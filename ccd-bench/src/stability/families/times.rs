@@ -1,4 +1,4 @@
-//! Contacts next to the start and next to the end.
+//! Contacts close to the start and close to the end.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
 use super::super::shapes::{cube, sheet, slab};
@@ -21,7 +21,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// Returns a cube that falls at speed 1 onto a slab, and reaches it at a time.
+/// Returns a cube that falls at speed 1 onto a slab, and reaches it at a given time.
 fn falling(time: f64) -> Result<(Step, Course), StepError> {
     let step = Step::new(cube()?, slab()?);
     Ok((
@@ -60,7 +60,7 @@ fn after_the_end(after: f64) -> Result<Step, StepError> {
     })
 }
 
-/// Two flat sheets without thickness, a small way apart, meet face to face.
+/// Two flat sheets without thickness, a small distance apart, meet face to face.
 fn sheets(way: f64) -> Result<Step, StepError> {
     let falling = Course::straight(way * DVec3::Z, DVec3::NEG_Z);
     let step = Step::new(sheet(1.0)?, sheet(1.0)?);

@@ -1,4 +1,4 @@
-//! Turns, from hardly any to thousands.
+//! Rotations, from very small ones to thousands of turns.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
 use super::super::shapes::{cube, cuboid, moved, slab};
@@ -29,7 +29,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// A cube falls flat onto a slab while it turns about the vertical.
+/// A cube falls flat onto a slab while it rotates about the vertical.
 fn drilling(turns: f64) -> Result<Step, StepError> {
     let falling = Course {
         spin: TAU * turns * DVec3::Z,
@@ -40,11 +40,12 @@ fn drilling(turns: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
-/// The half length and half thickness of a rod.
+/// The half length of a rod.
 const LONG: f64 = 2.0;
+/// The half thickness of a rod.
 const THIN: f64 = 0.05;
 
-/// T4: a rod stands upright, and turns; its corner meets a wall at 1.2 in the first quarter of a turn.
+/// T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
 fn rod_into_a_wall(turns: f64) -> Result<Step, StepError> {
     let wall = 1.2;
     let spin = TAU * turns;
@@ -58,8 +59,8 @@ fn rod_into_a_wall(turns: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
 }
 
-/// T9: an arm hangs from the middle of its turn, and swings round to a wall above. At the start its tip moves
-/// along the wall, so that a bound on the speeds of that moment finds no approach.
+/// T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip moves along the
+/// wall, so that a bound on the speeds of that moment finds no approach.
 fn mace(spin: f64) -> Result<Step, StepError> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = moved(&cuboid(THIN, 0.5 * arm, THIN)?, -0.5 * arm * DVec3::Y)?;
@@ -73,7 +74,7 @@ fn mace(spin: f64) -> Result<Step, StepError> {
     Ok(step.turned_too(swinging, Course::rest((wall + 1.0) * DVec3::Y), expected)?)
 }
 
-/// T14: two rods turn against each other, like in a mirror.
+/// T14: two rods rotate against each other, as mirror images.
 fn rods(turns: f64) -> Result<Step, StepError> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning = |spin: f64, x: f64| Course {

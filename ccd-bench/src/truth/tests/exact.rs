@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use rigid_ccd::table::motions::Query;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// The change of a contact by the rounded numbers of a scene, as a fraction of the duration.
+/// The change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.
 const SCENE_ROUNDED: f64 = 1e-14;
 
 fn assert_hit(bodies: [&Surface; 2], query: &Query, exact: f64) {

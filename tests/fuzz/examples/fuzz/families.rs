@@ -19,7 +19,7 @@ use clap::ValueEnum;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Family {
-    /// Needles and slivers, components down to denormal, faces of no area.
+    /// Needles and slivers, denormal components, faces without area.
     Needles,
     /// End poses and centres of rotation far from the origin, and tight tolerances.
     Far,
@@ -29,7 +29,7 @@ pub enum Family {
     Margins,
     /// Every small budget.
     Budget,
-    /// Bodies in contact at the start that are released.
+    /// Bodies in contact at the start that are released under `StartPolicy::Leave`.
     Leave,
     /// Turns of up to a thousand radians.
     Turns,
@@ -58,8 +58,8 @@ impl Family {
     }
 }
 
-/// Returns a case of two shapes that pass each other half-way, or meet: their centres come within
-/// about the sum of their radii. Both move, and turn by up to `turn` over a duration of 1.
+/// Returns a case of two shapes that pass each other halfway, or meet: their centres come within about the sum of their
+/// radii. Both move, and turn by up to `turn` over a duration of 1.
 fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
     let (way, aside) = (draw.direction(), draw.point());

@@ -128,7 +128,7 @@ fn run(family: Family, args: &Args) -> bool {
     tally.failed()
 }
 
-/// Writes the query of a trial as a seed of the fuzz target `query`, asked of a method that goes with its number.
+/// Writes the query of a trial as a seed of the fuzz target `query`, with a method chosen by its number.
 fn write_seed(folder: &Path, family: Family, number: u64, trial: &Trial) -> io::Result<()> {
     match encode(&trial.case, (number % 15) as u8) {
         Some(bytes) => fs::write(

@@ -42,15 +42,15 @@ pub struct SweptPairs {
     tolerance: f64,
 }
 
-/// A hit is reported at up to this multiple of the library's `linear_slop`.
+/// The largest distance at which a hit is reported, as a multiple of the library's `linear_slop`.
 const SLOPS_AT_HIT: f64 = 1.25;
-/// The largest error of a stretch's turn, as a fraction of the tolerance.
+/// The largest error due to rotation within a segment, as a fraction of the tolerance.
 const SHARE_OF_TURN: f64 = 0.25;
-/// The largest turn, in radians, for which the library calls its sweeps a good approximation.
+/// The largest rotation, in radians, for which the library's documentation calls its sweeps a good approximation.
 const LARGEST_TURN: f64 = FRAC_PI_4;
-/// The largest travel of the bodies in a stretch, as a multiple of the smaller one's radius.
+/// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
 const LONGEST_TRAVEL: f64 = 0.5;
-/// Motions of more stretches are refused.
+/// The maximum number of segments; longer motions are refused.
 const MOST_STRETCHES: f64 = 65_536.0;
 
 impl SweptPairs {
@@ -66,7 +66,7 @@ impl SweptPairs {
         })
     }
 
-    /// Returns the number of stretches of a query, or `None` if there are too many.
+    /// Returns the number of segments of a query, or `None` if there are too many.
     fn stretches(&self, query: &Query) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
@@ -80,7 +80,7 @@ impl SweptPairs {
         (count <= MOST_STRETCHES).then_some(count as u64)
     }
 
-    /// Returns the largest turn of a body in a stretch.
+    /// Returns the largest rotation of a body in a segment.
     fn turn_within(&self, reach: f64) -> f64 {
         // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
         // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
@@ -88,7 +88,7 @@ impl SweptPairs {
         lesser(LARGEST_TURN, 4.0 * off.cbrt())
     }
 
-    /// Returns the time in a stretch at which triangles first meet, as a fraction of it.
+    /// Returns the time in a segment at which triangles first meet, as a fraction of it.
     fn first_hit(&self, query: &Query, from: f64, to: f64) -> Option<Real> {
         let a = self.a.stretch(&query.a, from, to);
         let b = self.b.stretch(&query.b, from, to);
@@ -154,11 +154,11 @@ struct Swept {
     radius: f64,
 }
 
-/// The motion of a body over a stretch.
+/// The motion of a body over a segment.
 struct Stretch {
     poses: [Pose; 2],
     sweep: Sweep,
-    /// The largest distance of its points from the straight line between start and end.
+    /// The largest distance of the body's points from the straight line between start and end.
     bulge: Real,
 }
 
@@ -177,7 +177,7 @@ impl Swept {
         })
     }
 
-    /// Returns a bound of the distance of all points from the centre of the motion.
+    /// Returns a bound on the distance of all points from the centre of the motion.
     fn reach(&self, motion: &Motion) -> f64 {
         let [low, high] = self.corners.map(|c| (c - motion.centre()).abs());
         low.max(high).length()
@@ -201,7 +201,7 @@ impl Swept {
     }
 }
 
-/// Returns the box around a box at the start and at the end.
+/// Returns the box that contains a box at the start and at the end.
 fn boxed(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))

@@ -1,4 +1,4 @@
-//! Halves time, and encloses the motion over each of the intervals.
+//! Halves time, and encloses the motion over each interval.
 
 use super::relative::{Enclosure, Relative, Span};
 
@@ -9,11 +9,11 @@ pub(super) const MAX_LEVEL: usize = 52;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slice {
     pub(super) span: Span,
-    /// The number of halvings that led to it.
+    /// The number of halvings that led to the interval.
     pub(super) level: usize,
 }
 
-/// Keeps the last enclosure of every level, since the search stays within one interval for many pairs.
+/// A cache of the last enclosure at every level, because the search stays within one interval for many pairs.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     relative: Relative,
@@ -52,7 +52,7 @@ impl Slice {
 }
 
 impl Clock {
-    /// Starts the clock of a motion, with the width and the number at which halving ends.
+    /// Creates the clock of a motion, with the width and the number at which halving ends.
     pub(super) fn new(relative: Relative, resolution: f64, most_halvings: u64) -> Self {
         let nothing = Kept {
             span: Span {

@@ -34,7 +34,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// Returns the same motion between end poses, about any centre, far from the origin.
+/// Returns the same motion given by end poses, about any centre, far from the origin.
 fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Course {
     let Goal::Velocities { linear, .. } = course.goal else {
         return *course;

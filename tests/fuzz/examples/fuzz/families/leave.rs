@@ -1,4 +1,4 @@
-//! Bodies in contact at the start that are released: they part, slide, approach, turn.
+//! Bodies in contact at the start that are released: they part, slide, approach or rotate.
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};
@@ -72,7 +72,7 @@ fn resting(shape: Shape) -> (Shape, f64) {
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
 }
 
-/// Returns the velocity and spin of the departure, and the expected result.
+/// Returns the velocity and angular velocity of the departure, and the expected result.
 fn way(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
     let along = times(draw.point(), draw.within(0.0..3.0));
     match draw.count(0..5) {

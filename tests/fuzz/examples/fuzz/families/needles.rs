@@ -1,4 +1,4 @@
-//! Needles and slivers, components down to denormal, faces of no area.
+//! Needles and slivers, denormal components, faces without area.
 
 use super::{pass, still, tolerance};
 use crate::case::{Case, Shape};

@@ -14,8 +14,7 @@ fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Query) -> Cla
     Contact::new(a, b, tolerance).answer(query).claim
 }
 
-/// Asserts at three tolerances that the answer is not late, and not earlier than the approach takes
-/// to close the tolerance.
+/// Asserts at three tolerances that the answer is not late, and not earlier than the time to close the tolerance.
 fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: f64) {
     for tolerance in [1e-2, 1e-4, 1e-8] {
         let swapped = Query {
