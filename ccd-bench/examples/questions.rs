@@ -10,7 +10,7 @@
 use anyhow::{Context, bail, ensure};
 use rigid_ccd::batch::median;
 use rigid_ccd::schedule::{BestFirst, DepthFirst, Schedule};
-use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::table::motions::{MotionTable, Motions};
 use rigid_ccd::{Answer, Body, Direct, InputError, Outcome, Settings, load};
 use std::fs::File;
 use std::io::Write;
@@ -60,7 +60,7 @@ impl Solvers {
     fn row(
         &mut self,
         (a, b): (&Body, &Body),
-        query: &Query,
+        query: &Motions,
         config: &Settings,
         rounds: usize,
     ) -> anyhow::Result<Row> {

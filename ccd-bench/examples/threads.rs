@@ -10,7 +10,7 @@
 
 use anyhow::{Context, bail, ensure};
 use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::table::motions::{MotionTable, Motions};
 use rigid_ccd::{Answer, Body, InputError, ParallelSolver, Solver, load};
 use std::fs::File;
 use std::io::Write;
@@ -33,7 +33,7 @@ fn main() -> anyhow::Result<()> {
     let bodies = (&load(a)?, &load(b)?);
     let table = MotionTable::read(File::open(motions).context("motions")?)?;
     ensure!(table.errors.is_empty(), "the table has bad rows");
-    let once: Vec<&Query> = table.rows.iter().map(|(_, query)| query).collect();
+    let once: Vec<&Motions> = table.rows.iter().map(|(_, query)| query).collect();
     let mut solvers: Vec<ParallelSolver> = (1..=threads)
         .filter_map(NonZeroUsize::new)
         .map(|threads| ParallelSolver::with_threads(threads, Solver::new))
@@ -56,7 +56,7 @@ fn main() -> anyhow::Result<()> {
 fn answer(
     solver: &mut ParallelSolver,
     (a, b): (&Body, &Body),
-    queries: &[&Query],
+    queries: &[&Motions],
 ) -> Result<(Duration, Vec<Answer>), InputError> {
     let start = Instant::now();
     let answers = solver.map(queries, |solver, query| {

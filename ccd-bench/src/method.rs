@@ -17,7 +17,7 @@ use ccd_core::{InputError, Instructions, Outcome, Settings};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
 use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, Question, ScheduleKind, Solve, SolverKind};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
 /// A method that answers queries.
@@ -173,7 +173,7 @@ impl MotionKind {
     ///
     /// # Errors
     /// If a screw's parameters overflow.
-    pub fn of(self, query: Query) -> Result<Query, InputError> {
+    pub fn of(self, query: Motions) -> Result<Motions, InputError> {
         match self {
             MotionKind::Given => Ok(query),
             MotionKind::Screw => screw(&query),
@@ -199,7 +199,7 @@ impl RivalKind {
 /// A motion or the duration is out of range.
 pub(crate) fn first_contact(
     bodies: Bodies<'_>,
-    query: &Query,
+    query: &Motions,
     settings: &Settings,
     solver: &mut dyn Solve,
 ) -> Result<Answer, InputError> {
@@ -237,7 +237,7 @@ impl Adjustable for Ours<'_> {
 
 impl Solver for Ours<'_> {
     /// Answers a query; steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         let answer = match first_contact(self.bodies, query, &self.config, self.solver.as_mut()) {
             Ok(answer) => answer,
             // An invalid query is not answered.

@@ -13,7 +13,7 @@ use crate::scene::model::{Model, Origin};
 use ccd_core::{Body, InputError};
 use ccd_decomp::{BodyError, Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::batch::Bodies;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -30,7 +30,7 @@ pub struct Scene {
     /// Body B.
     pub b: SceneBody,
     /// Their motions.
-    pub queries: Vec<Query>,
+    pub queries: Vec<Motions>,
 }
 
 /// A body of a scene, shared between scenes.

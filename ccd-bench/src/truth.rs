@@ -28,7 +28,7 @@ mod triangle;
 pub use surface::Surface;
 pub use table::{TRUTH_COLUMNS, TruthRow, read_truths, write_truths};
 
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use search::Search;
 
 /// The proven facts about a query; times are from 0 to the duration.
@@ -109,7 +109,7 @@ impl<'a> Referee<'a> {
     /// # Complexity
     /// The pairs of triangles near each other before the first contact, times some 46 halvings, up
     /// to a fixed number of tests.
-    pub fn first_contact(&self, query: &Query) -> Truth {
+    pub fn first_contact(&self, query: &Motions) -> Truth {
         Search::new(self, query).run()
     }
 
@@ -119,7 +119,7 @@ impl<'a> Referee<'a> {
     /// The exact distance, for the motion of [`Referee::first_contact`], lies in the bracket. It is
     /// 0 if the surfaces intersect, within the width of the bracket, and infinite for a body
     /// without triangles.
-    pub fn distance(&self, query: &Query, time: f64) -> Bracket {
+    pub fn distance(&self, query: &Motions, time: f64) -> Bracket {
         gap::distance(Search::new(self, query), time)
     }
 }

@@ -1,11 +1,11 @@
 //! A cast in double precision, converted to a query of the engine.
 
 use crate::half_space::HalfSpace;
-use crate::horizon::{Horizon, Reaching, way};
+use crate::horizon::{Horizon, Reaching, relative_displacement};
 use crate::interval::Interval;
 use crate::leaving::parting;
 use crate::order::{greater, length, lesser};
-use crate::scene::{Ending, Found, Scene};
+use crate::scene::{CastHit, Ending, Scene};
 use crate::tolerance::{BEYOND, RELATIVE, SHARE_OF_SIZE};
 use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
@@ -61,8 +61,8 @@ struct Started {
 
 impl Cast<'_> {
     /// Finds the first contact in the interval.
-    pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
-        self.posed(|scene| self.told(scene, solver))
+    pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
+        self.posed(|scene| self.hit(scene, solver))
     }
 
     /// Builds the engine's scene for a cast.
@@ -92,7 +92,10 @@ impl Cast<'_> {
         let started = [0, 1].map(|k| started[k].without_spin_of(bodies[k]));
         let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
         let slack = |k: usize| bodies[k].slack() + slack(started[k].stray, &sides[k]);
-        let rounded = self.rounded(way(&sides, self.target + self.tolerance(&bodies)));
+        let rounded = self.rounded(relative_displacement(
+            &sides,
+            self.target + self.tolerance(&bodies),
+        ));
         let settings = self.settings(&bodies, slack(0) + slack(1) + rounded)?;
         let within = settings.margin + settings.tolerance;
         Ok(Scene {
@@ -152,13 +155,13 @@ impl Cast<'_> {
     }
 
     /// Returns the hit; overlapping bodies that begin to part are ignored until they are apart.
-    fn told(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+    fn hit(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let found = scene.first_contact(solver)?;
         match found {
             Some(found)
                 if found.ending == Ending::Overlap
                     && self.start == StartPolicy::Leave
-                    && scene.is_let_go() =>
+                    && scene.may_part() =>
             {
                 parting(scene, found, solver)
             }
@@ -180,12 +183,12 @@ impl Cast<'_> {
         Ok([started(0)?, started(1)?])
     }
 
-    /// Bounds the deviation due to that subtraction, for bodies that move `way` past each other.
-    fn rounded(&self, way: f64) -> f64 {
+    /// Bounds the deviation due to that subtraction, for bodies that move `displacement` past each other.
+    fn rounded(&self, displacement: f64) -> f64 {
         if self.motions[1].velocity() == DVec3::ZERO {
             0.0
         } else {
-            RELATIVE * way
+            RELATIVE * displacement
         }
     }
 

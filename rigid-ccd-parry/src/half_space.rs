@@ -20,6 +20,8 @@ pub(crate) struct HalfSpace {
 }
 
 impl HalfSpace {
+    /// Creates a half-space from the direction of its normal.
+    ///
     /// # Errors
     /// [`ShapeError::Size`] for a normal that has no direction.
     pub(crate) fn new(normal: DVec3) -> Result<Self, ShapeError> {
@@ -94,13 +96,13 @@ impl HalfSpace {
         let spread = plane.spread() + body.spread();
         let height = normal.dot(to - from);
         let reach = (body.reach + within + FACE * spread) * BEYOND;
-        let way = if rate < 0.0 {
+        let needed = if rate < 0.0 {
             height + reach
         } else {
             reach - height
         };
         let rate = rate.abs() - rounding;
-        (rate > 0.0).then(|| greater(0.0, way) / rate * BEYOND)
+        (rate > 0.0).then(|| greater(0.0, needed) / rate * BEYOND)
     }
 
     /// Bounds the distance from `plane.about` of all points of the half-space that the body may touch.

@@ -69,11 +69,11 @@ impl Horizon {
 fn passed(bodies: [Reaching; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);
-    (speed > 0.0).then(|| way(&bodies, within) / speed * BEYOND)
+    (speed > 0.0).then(|| relative_displacement(&bodies, within) / speed * BEYOND)
 }
 
 /// Bounds the relative displacement of the bodies while they may be in contact.
-pub(crate) fn way([a, b]: &[Reaching; 2], within: f64) -> f64 {
+pub(crate) fn relative_displacement([a, b]: &[Reaching; 2], within: f64) -> f64 {
     let rounding = (BEYOND - 1.0) * (a.spread() + b.spread());
     length(b.place() - a.place()) + rounding + a.reach + b.reach + within
 }

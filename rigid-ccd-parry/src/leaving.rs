@@ -7,7 +7,7 @@ mod direction;
 
 use crate::form::Form;
 use crate::order::{greater, length, lesser};
-use crate::scene::{Ending, Found, Scene};
+use crate::scene::{CastHit, Ending, Scene};
 use crate::tolerance::{ALONG, BEYOND};
 use crate::{CastError, Prepared};
 use ccd_core::Piece;
@@ -26,9 +26,9 @@ struct Task {
 /// Returns the first contact of all pairs that do not begin to part; `overlap` is the hit at the start.
 pub(crate) fn parting(
     scene: &Scene<'_>,
-    overlap: Found,
+    overlap: CastHit,
     solver: &mut Solver,
-) -> Result<Option<Found>, CastError> {
+) -> Result<Option<CastHit>, CastError> {
     let mut tasks = vec![Task {
         pieces: [0, 1].map(|k| near(scene, k)),
     }];
@@ -37,10 +37,10 @@ pub(crate) fn parting(
         if task.pieces.iter().any(Vec::is_empty) {
             continue;
         }
-        match ask(scene, &task, solver)? {
-            Asked::Overlap([a, b]) => {
+        match examine(scene, &task, solver)? {
+            TaskOutcome::Overlap([a, b]) => {
                 left_out += 1;
-                if left_out > MOST_PAIRS || !parts(scene, [a, b], solver) {
+                if left_out > MOST_PAIRS || !begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
                 }
                 let [of_a, of_b] = task.pieces;
@@ -58,10 +58,10 @@ pub(crate) fn parting(
                     pieces: [without(&of_a, a), of_b],
                 });
             }
-            Asked::Inside => return Ok(Some(overlap)),
-            Asked::Found(None) => {}
-            Asked::Found(Some(found)) => {
-                let earlier = first.is_none_or(|first: Found| found.time < first.time);
+            TaskOutcome::Inside => return Ok(Some(overlap)),
+            TaskOutcome::Hit(None) => {}
+            TaskOutcome::Hit(Some(found)) => {
+                let earlier = first.is_none_or(|first: CastHit| found.time < first.time);
                 first = if earlier { Some(found) } else { first };
             }
         }
@@ -70,16 +70,16 @@ pub(crate) fn parting(
 }
 
 /// The outcome of a task.
-enum Asked {
+enum TaskOutcome {
     /// These two pieces overlap at the start.
     Overlap([u32; 2]),
     /// One body is inside the other at the start.
     Inside,
-    Found(Option<Found>),
+    Hit(Option<CastHit>),
 }
 
 /// Finds the first contact of all pairs of a task.
-fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, CastError> {
+fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOutcome, CastError> {
     let some = |k: usize| {
         let which = k as u8 + 1;
         let named = |error| CastError::Shape { which, error };
@@ -91,13 +91,13 @@ fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, Cas
         ..scene.clone()
     };
     let Some(found) = part.first_contact(solver)? else {
-        return Ok(Asked::Found(None));
+        return Ok(TaskOutcome::Hit(None));
     };
     let numbers = found.numbers;
     Ok(match found.ending {
-        Ending::Overlap => Asked::Overlap(numbers),
-        Ending::Inside => Asked::Inside,
-        Ending::Near | Ending::Contact | Ending::Limit => Asked::Found(Some(Found {
+        Ending::Overlap => TaskOutcome::Overlap(numbers),
+        Ending::Inside => TaskOutcome::Inside,
+        Ending::Near | Ending::Contact | Ending::Limit => TaskOutcome::Hit(Some(CastHit {
             numbers: [0, 1].map(|k| scene.bodies[k].sub_shape(numbers[k])),
             ..found
         })),
@@ -118,7 +118,7 @@ fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Shape
 fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
-    let way = velocity * scene.horizon.duration();
+    let displacement = velocity * scene.horizon.duration();
     let (middle, radius) = other.0.ball();
     // In the world at the start.
     let from = other.1.start().transform_point(middle);
@@ -126,8 +126,8 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let comes_near = |piece: &Piece<'_>| {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
-        let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(way));
-        let apart = distance_to_way(place - from, way);
+        let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(displacement));
+        let apart = distance_to_segment(place - from, displacement);
         // Written so that NaN is near.
         !(apart > (within + radius) * BEYOND + rounding)
     };
@@ -138,15 +138,15 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         .collect()
 }
 
-/// Returns the distance of a point from the segment between the origin and `way`.
-fn distance_to_way(point: DVec3, way: DVec3) -> f64 {
-    let square = way.dot(way);
+/// Returns the distance of a point from the segment between the origin and `displacement`.
+fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
+    let square = displacement.dot(displacement);
     let share = if square > 0.0 {
-        lesser(greater(0.0, point.dot(way) / square), 1.0)
+        lesser(greater(0.0, point.dot(displacement) / square), 1.0)
     } else {
         0.0
     };
-    length(point - share * way)
+    length(point - share * displacement)
 }
 
 /// Returns an enclosing ball of a piece.
@@ -157,7 +157,7 @@ fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
 }
 
 /// Returns whether two pieces that overlap at the start begin to part.
-fn parts(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
+fn begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();

@@ -26,7 +26,7 @@ pub(crate) struct Scene<'a> {
 
 /// The hit of a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Found {
+pub(crate) struct CastHit {
     pub(crate) time: f64,
     /// The nearest points, each in its body's frame.
     pub(crate) witnesses: [DVec3; 2],
@@ -42,8 +42,9 @@ pub(crate) struct Found {
 pub(crate) enum Ending {
     /// A contact after the start.
     Contact,
-    /// An overlap at the start, of two pieces, or of one body inside the other.
+    /// An overlap of two pieces at the start.
     Overlap,
+    /// One body inside the other at the start.
     Inside,
     /// A distance below the target distance at the start.
     Near,
@@ -53,16 +54,16 @@ pub(crate) enum Ending {
 
 impl Scene<'_> {
     /// Finds the first contact.
-    pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+    pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), self.motions[k]));
         solver.set_settings(self.settings.clone());
         let answer = solver.first_contact(a, b, self.horizon.duration())?;
-        Ok(self.found(&answer, solver))
+        Ok(self.hit(&answer, solver))
     }
 
     /// Returns whether overlapping bodies may be ignored while they part: only if both move in straight lines, and
     /// their pieces overlap.
-    pub(crate) fn is_let_go(&self) -> bool {
+    pub(crate) fn may_part(&self) -> bool {
         let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
         // Inside a mesh that is a solid there is no piece to part from.
         let bare = |body: &&Prepared| {
@@ -72,9 +73,11 @@ impl Scene<'_> {
         self.motions.iter().all(straight) && self.bodies.iter().all(bare)
     }
 
-    fn found(&self, answer: &Answer, solver: &mut Solver) -> Option<Found> {
+    fn hit(&self, answer: &Answer, solver: &mut Solver) -> Option<CastHit> {
         match answer.outcome {
-            Outcome::Contact { time, contact } => Some(self.shown(time, &contact, Ending::Contact)),
+            Outcome::Contact { time, contact } => {
+                Some(self.hit_of(time, &contact, Ending::Contact))
+            }
             Outcome::Touching { contact } => {
                 let within = self.target > 0.0 && contact.separation.upper <= self.target;
                 let ending = if within {
@@ -82,30 +85,30 @@ impl Scene<'_> {
                 } else {
                     Ending::Contact
                 };
-                Some(self.shown(0.0, &contact, ending))
+                Some(self.hit_of(0.0, &contact, ending))
             }
             Outcome::Overlapping { overlap, .. } => Some(match overlap {
-                Overlap::Pieces(contact) => self.shown(0.0, &contact, Ending::Overlap),
+                Overlap::Pieces(contact) => self.hit_of(0.0, &contact, Ending::Overlap),
                 Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
             }),
-            Outcome::Unresolved(known) => Some(self.seen(known.safe_until, solver)),
+            Outcome::Unresolved(known) => Some(self.hit_at_limit(known.safe_until, solver)),
             // A first contact has no other outcomes.
             Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::Measured { .. } => {
                 match self.horizon {
                     Horizon::Whole(_) => None,
-                    Horizon::Part(duration) => Some(self.seen(duration, solver)),
+                    Horizon::Part(duration) => Some(self.hit_at_limit(duration, solver)),
                 }
             }
         }
     }
 
     /// Returns a contact as a hit in the bodies' frames.
-    fn shown(&self, after: f64, contact: &Contact, ending: Ending) -> Found {
+    fn hit_of(&self, after: f64, contact: &Contact, ending: Ending) -> CastHit {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
         let normals = [separation.normal, -separation.normal];
         let poses = self.poses(after);
-        Found {
+        CastHit {
             time: self.interval.time_after(after),
             witnesses: [0, 1].map(|k| poses[k].inverse().transform_point(points[k])),
             normals: [0, 1].map(|k| poses[k].rotation().conjugate() * normals[k]),
@@ -118,18 +121,18 @@ impl Scene<'_> {
     }
 
     /// Returns a hit of one body inside the other at the start, with a common point.
-    fn inside(&self, point: DVec3) -> Found {
+    fn inside(&self, point: DVec3) -> CastHit {
         let witnesses = self
             .poses(0.0)
             .map(|pose| pose.inverse().transform_point(point));
-        Found {
+        CastHit {
             witnesses,
-            ..Found::unseen(self.interval.start(), Ending::Inside)
+            ..CastHit::without_points(self.interval.start(), Ending::Inside)
         }
     }
 
     /// Returns the hit at a limit, with the nearest points if they can be found.
-    fn seen(&self, after: f64, solver: &mut Solver) -> Found {
+    fn hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
             budget: lesser(self.settings.budget, LOOK),
             deadline: self.settings.deadline,
@@ -146,8 +149,8 @@ impl Scene<'_> {
             Err(_) => None,
         };
         match contact {
-            Some(contact) => self.shown(after, &contact, Ending::Limit),
-            None => Found::unseen(self.interval.time_after(after), Ending::Limit),
+            Some(contact) => self.hit_of(after, &contact, Ending::Limit),
+            None => CastHit::without_points(self.interval.time_after(after), Ending::Limit),
         }
     }
 
@@ -156,10 +159,10 @@ impl Scene<'_> {
     }
 }
 
-impl Found {
+impl CastHit {
     /// Returns a hit without nearest points, with parry's values in their place.
-    fn unseen(time: f64, ending: Ending) -> Self {
-        Found {
+    fn without_points(time: f64, ending: Ending) -> Self {
+        CastHit {
             time,
             witnesses: [DVec3::ZERO; 2],
             normals: [DVec3::X; 2],

@@ -11,7 +11,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct Shelf {
     /// The bodies, the most recently used one last.
-    bodies: Vec<Kept>,
+    bodies: Vec<Entry>,
     /// The maximum memory of the bodies.
     most_bytes: usize,
 }
@@ -26,7 +26,7 @@ impl Default for Shelf {
 }
 
 #[derive(Debug)]
-struct Kept {
+struct Entry {
     form: Form,
     body: Arc<Prepared>,
     bytes: usize,
@@ -44,7 +44,7 @@ impl Shelf {
         let bytes = body.bytes() + form.bytes();
         self.make_room(bytes);
         if bytes <= self.most_bytes {
-            self.bodies.push(Kept {
+            self.bodies.push(Entry {
                 form,
                 body: Arc::clone(&body),
                 bytes,

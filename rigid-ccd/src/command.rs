@@ -127,12 +127,12 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
 
 /// Writes a message to standard error, after the program's name.
 pub fn complain(message: &str) {
-    tell(&format!("{}: {message}", program()));
+    print_line(&format!("{}: {message}", program()));
 }
 
 /// Writes a line to standard error. Cells and names of files in it may hold anything: nothing of it moves the cursor,
 /// changes colours or ends the line.
-pub(crate) fn tell(line: &str) {
+pub(crate) fn print_line(line: &str) {
     // A message that cannot be written is not a failure.
     let _ = writeln!(io::stderr(), "{}", Printable(line));
 }

@@ -6,7 +6,7 @@ mod goal;
 mod groups;
 mod pairs;
 mod race;
-mod rest;
+mod shifted;
 mod stops;
 
 use crate::ParallelSolver;

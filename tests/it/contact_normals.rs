@@ -157,7 +157,8 @@ impl Touch {
     }
 }
 
-/// Returns the sine of the angle by which a direction deviates from the normal cone of a surface at a point.
+/// Returns the sine of the largest angle by which a direction leaves the normal cone of a surface at a point; at most 0
+/// within the cone.
 fn off_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
     let mesh = &actor.shape.mesh;
     let pose = actor.motion.start();

@@ -77,7 +77,7 @@ fn a_dense_solid_answers_like_its_triangles() {
     assert!(contacts >= 9, "{contacts}");
 }
 
-/// The cost near a mesh does not grow with the number of its triangles that one piece is measured against.
+/// A piece near a mesh is measured against few of the mesh's triangles.
 #[test]
 fn a_solid_against_many_triangles_costs_as_much_as_triangles() {
     let ball = icosphere(1.0, 4).mesh;

@@ -5,7 +5,7 @@ use super::solver::{Claim, Reply, TimedReply};
 use super::wire::{READY, REFUSED, format_query, parse_reply};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -165,7 +165,7 @@ impl Guarded {
     ///
     /// # Errors
     /// Those of [`Guarded::start`].
-    pub fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Asked> {
+    pub fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<Asked> {
         let asked = self.running()?.ask(query, patience);
         if !matches!(asked, Asked::Answered { .. }) {
             self.process = None;
@@ -239,7 +239,7 @@ impl Process {
         }
     }
 
-    fn ask(&mut self, query: &Query, patience: Duration) -> Asked {
+    fn ask(&mut self, query: &Motions, patience: Duration) -> Asked {
         let Some(input) = &mut self.input else {
             return Asked::Died;
         };

@@ -2,13 +2,13 @@
 
 use ccd_core::order::greater;
 use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::time::{Duration, Instant};
 
 /// A solver that answers queries about two bodies, one after another, with the same tolerance.
 pub trait Solver {
     /// Returns the first contact that the solver finds.
-    fn answer(&mut self, query: &Query) -> Reply;
+    fn answer(&mut self, query: &Motions) -> Reply;
 }
 
 /// A reply and its time.
@@ -27,7 +27,7 @@ const REPEATS: usize = 4;
 const REPEATED_WITHIN: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
-pub fn timed(solver: &mut dyn Solver, query: &Query) -> TimedReply {
+pub fn timed(solver: &mut dyn Solver, query: &Motions) -> TimedReply {
     let mut micros = Vec::with_capacity(REPEATS);
     let first = Instant::now();
     loop {

@@ -3,7 +3,7 @@
 use super::solver::{Claim, Reply, Solver, TimedReply, timed};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::io::{self, BufRead, Write};
 use std::time::Duration;
 
@@ -36,7 +36,7 @@ pub fn serve(
 }
 
 /// Formats a query as one line without its name; parsing gives the same bits.
-pub fn format_query(query: &Query) -> String {
+pub fn format_query(query: &Motions) -> String {
     let motion = |motion: &Motion| {
         let start = motion.start();
         [
@@ -57,7 +57,7 @@ pub fn format_query(query: &Query) -> String {
 const OF_MOTION: usize = 16;
 
 /// Parses a line as a query; returns `None` if it is invalid.
-pub fn parse_query(line: &str) -> Option<Query> {
+pub fn parse_query(line: &str) -> Option<Motions> {
     let numbers: Vec<f64> = line
         .split(' ')
         .map(|text| text.parse().ok())
@@ -67,7 +67,7 @@ pub fn parse_query(line: &str) -> Option<Query> {
     let &[duration] = rest else {
         return None;
     };
-    Some(Query {
+    Some(Motions {
         id: String::new(),
         a: motion(a)?,
         b: motion(b)?,
@@ -132,7 +132,7 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
 pub struct Hanging;
 
 impl Solver for Hanging {
-    fn answer(&mut self, _: &Query) -> Reply {
+    fn answer(&mut self, _: &Motions) -> Reply {
         loop {
             std::thread::sleep(Duration::from_secs(3600));
         }
@@ -144,7 +144,7 @@ impl Solver for Hanging {
 pub struct Dying;
 
 impl Solver for Dying {
-    fn answer(&mut self, _: &Query) -> Reply {
+    fn answer(&mut self, _: &Motions) -> Reply {
         std::process::exit(3)
     }
 }

@@ -21,7 +21,7 @@ use crate::truth::{Referee, Surface, Truth};
 use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use session::Answered;
 use std::io;
 use std::sync::Arc;
@@ -31,9 +31,9 @@ use std::time::{Duration, Instant};
 pub struct Contest<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
-    given: Vec<Query>,
+    given: Vec<Motions>,
     /// The same queries with screw motions.
-    screws: Vec<Query>,
+    screws: Vec<Motions>,
 }
 
 /// The limits of a measurement.
@@ -84,7 +84,7 @@ impl<'s> Contest<'s> {
         } else {
             Arc::new(Surface::new(scene.b.mesh()))
         };
-        let screws: Result<Vec<Query>, InputError> = scene.queries.iter().map(screw).collect();
+        let screws: Result<Vec<Motions>, InputError> = scene.queries.iter().map(screw).collect();
         Ok(Contest {
             scene,
             surfaces: [a, b],
@@ -94,7 +94,7 @@ impl<'s> Contest<'s> {
     }
 
     /// Returns the queries with motions of the given kind.
-    pub fn queries(&self, motion: MotionKind) -> &[Query] {
+    pub fn queries(&self, motion: MotionKind) -> &[Motions] {
         match motion {
             MotionKind::Given => &self.given,
             MotionKind::Screw => &self.screws,
@@ -196,7 +196,7 @@ impl<'s> Contest<'s> {
         Ok(Some((sum_up(&trials), trials)))
     }
 
-    fn judged(&self, query: &Query, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
+    fn judged(&self, query: &Motions, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
         match answered {
             Answered::InTime { reply, .. } => {
                 judge(&self.referee(), query, truth, reply.claim, tolerance)

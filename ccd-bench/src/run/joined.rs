@@ -8,7 +8,7 @@ use crate::run::measured::{Trial, read};
 use crate::scene::{Listing, Models, Scene};
 use anyhow::{Context, Result, bail, ensure};
 use ccd_decomp::{TriangleMesh, write_obj};
-use rigid_ccd::table::motions::{self, Query};
+use rigid_ccd::table::motions::{self, Motions};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -59,7 +59,7 @@ pub fn export(listings: &[Listing], models: Option<PathBuf>, folder: &Path) -> R
 pub(crate) fn write_inputs(
     folder: &Path,
     meshes: [&TriangleMesh; 2],
-    queries: &[Query],
+    queries: &[Motions],
 ) -> io::Result<()> {
     for (mesh, name) in meshes.into_iter().zip(["a.obj", "b.obj"]) {
         ccd_file::write(folder.join(name), |out| write_obj(mesh, out))?;

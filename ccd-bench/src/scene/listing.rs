@@ -2,7 +2,7 @@
 
 use super::{Models, Scene, SceneError};
 use crate::scene::model::Model;
-use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::table::motions::{MotionTable, Motions};
 use serde::Deserialize;
 
 /// The description of a scene.
@@ -84,7 +84,7 @@ impl Listing {
         found.ok_or_else(|| self.unfit(format!("there is no model {name}")))
     }
 
-    fn queries(&self) -> Result<Vec<Query>, SceneError> {
+    fn queries(&self) -> Result<Vec<Motions>, SceneError> {
         let unfit = |problem: String| self.unfit(format!("{}: {problem}", self.motions));
         let text = MOTIONS
             .iter()

@@ -3,7 +3,7 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use ccd_decomp::{MeshError, TriangleMesh};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// Scenes of one kind, with a parameter that makes them harder.
 #[derive(Clone, Debug)]
@@ -37,7 +37,7 @@ pub struct Step {
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The query.
-    pub query: Query,
+    pub query: Motions,
     /// The exact answer.
     pub expected: Expected,
 }
@@ -202,7 +202,7 @@ impl Step {
         [a, b]: [Course; 2],
         expected: Expected,
     ) -> Result<Self, InputError> {
-        let query = Query {
+        let query = Motions {
             id: self.cases.len().to_string(),
             a: a.motion(world, self.duration)?,
             b: b.motion(world, self.duration)?,

@@ -8,7 +8,7 @@ use super::track::Track;
 use super::triangle::{gap, nearest, normals};
 use super::{Referee, Truth};
 use ccd_core::order::{greater, lesser};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
@@ -55,7 +55,7 @@ enum Sifted {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(referee: &Referee<'a>, query: &Query) -> Self {
+    pub(super) fn new(referee: &Referee<'a>, query: &Motions) -> Self {
         let surfaces = [referee.a, referee.b];
         Search {
             surfaces,

@@ -8,7 +8,7 @@ use ccd_bench::scene::model::Board;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
 
@@ -21,9 +21,9 @@ fn cube() -> TriangleMesh {
 }
 
 /// Returns a query in which one cube falls onto another, 2 below it, at speed 4.
-fn drop() -> Query {
+fn drop() -> Motions {
     let above = Pose::at(3.0 * DVec3::Z).unwrap();
-    Query {
+    Motions {
         id: "drop".into(),
         a: Motion::new(above, -4.0 * DVec3::Z, DVec3::ZERO).unwrap(),
         b: Motion::still(Pose::IDENTITY),

@@ -32,7 +32,7 @@ impl Question {
     ) -> Result<Self, CastError> {
         let [a, b] = motions.map(motion);
         Ok(Question {
-            motions: [of(1, a)?, of(2, b)?],
+            motions: [named_error(1, a)?, named_error(2, b)?],
             interval: Interval::new(f64::from(start_time), f64::from(end_time))?,
             target: 0.0,
             start: policy(stop_at_penetration),
@@ -48,7 +48,7 @@ impl Question {
             |(at, velocity): (&Pose, Vector)| Motion::new(pose(at)?, point(velocity), [0.0; 3]);
         let [a, b] = bodies.map(slides);
         Ok(Question {
-            motions: [of(1, a)?, of(2, b)?],
+            motions: [named_error(1, a)?, named_error(2, b)?],
             interval: Interval::new(0.0, f64::from(options.max_time_of_impact))?,
             target: f64::from(options.target_distance),
             start: policy(options.stop_at_penetration),
@@ -94,7 +94,7 @@ impl Question {
     }
 }
 
-fn of(which: u8, motion: Result<Motion, InputError>) -> Result<Motion, CastError> {
+fn named_error(which: u8, motion: Result<Motion, InputError>) -> Result<Motion, CastError> {
     motion.map_err(|error| CastError::Motion { which, error })
 }
 

@@ -120,27 +120,27 @@ pub fn try_cast_shapes(
 
 /// The solver and the bodies that a thread reuses from call to call.
 #[derive(Default)]
-struct Kept {
+struct ThreadMemory {
     shelf: Shelf,
     solver: Solver,
 }
 
 thread_local! {
     /// The thread's memory, taken out while a call uses it.
-    static KEPT: Cell<Option<Box<Kept>>> = const { Cell::new(None) };
+    static MEMORY: Cell<Option<Box<ThreadMemory>>> = const { Cell::new(None) };
 }
 
 fn answer(question: &Question, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
     let options = Options::default();
     // A thread that ends keeps nothing any more.
-    let kept = KEPT.try_with(Cell::take).ok().flatten();
-    let mut kept = kept.unwrap_or_default();
-    let found = kept.answer(question, shapes, &options);
-    let _ = KEPT.try_with(|place| place.set(Some(kept)));
+    let memory = MEMORY.try_with(Cell::take).ok().flatten();
+    let mut memory = memory.unwrap_or_default();
+    let found = memory.answer(question, shapes, &options);
+    let _ = MEMORY.try_with(|place| place.set(Some(memory)));
     found
 }
 
-impl Kept {
+impl ThreadMemory {
     fn answer(
         &mut self,
         question: &Question,

@@ -2,10 +2,10 @@
 
 use super::convert::{time, vector};
 use super::library::query::{ShapeCastHit, ShapeCastStatus};
-use crate::scene::{Ending, Found};
+use crate::scene::{CastHit, Ending};
 
 /// Converts a hit to parry's type, with the time rounded down.
-pub(super) fn hit(found: &Found) -> ShapeCastHit {
+pub(super) fn hit(found: &CastHit) -> ShapeCastHit {
     let [witness1, witness2] = found.witnesses.map(vector);
     let [normal1, normal2] = found.normals.map(vector);
     let [subshape1, subshape2] = found.numbers;

@@ -7,7 +7,7 @@ use crate::batch::{Bodies, SolverKind};
 use crate::command::files::same_file;
 use crate::command::progress::Progress;
 use crate::command::size::Size;
-use crate::command::{complain, tell};
+use crate::command::{complain, print_line};
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
@@ -136,7 +136,7 @@ fn load(
     if !quiet {
         let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
         let unit = unit.unwrap_or_default();
-        tell(&format!("{option} {text}: {report}, size {size}{unit}"));
+        print_line(&format!("{option} {text}: {report}, size {size}{unit}"));
     } else if !remarks.is_empty() {
         complain(&format!("{option} {text}: {remarks}"));
     }

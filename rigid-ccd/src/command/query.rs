@@ -111,13 +111,13 @@ fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> 
     let subject = Drawn {
         title: &title(&args.bodies),
         pair,
-        asked: asked(args),
+        asked: page_context(args),
     };
     write_rows(subject, chosen, html, args.quiet)
 }
 
 /// Returns the context in which a page interprets the answers.
-fn asked(args: &QueryArgs) -> Asked {
+fn page_context(args: &QueryArgs) -> Asked {
     let claim = match (args.bound, args.ask) {
         (Some(BoundKind::Published), _) => Claim::Published,
         (_, Question::IsFree) => Claim::Any,

@@ -2,9 +2,9 @@
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
-use super::{complain, complain_of, tell};
+use super::{complain, complain_of, print_line};
 use crate::picture::Shown;
-use crate::table::motions::{MotionTable, Query, RowPosition, TableError};
+use crate::table::motions::{MotionTable, Motions, RowPosition, TableError};
 use crate::text::Number;
 use crate::{Impact, PairError, Remark, Scene};
 use anyhow::{Context, Result, bail};
@@ -63,7 +63,7 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     if table.rows.is_empty() {
         bail!("{}: has no bodies", name());
     }
-    if let Some(problem) = twice(&table.rows) {
+    if let Some(problem) = duplicate_ids(&table.rows) {
         bail!("{}: {problem}", name());
     }
     let mut scene = SceneTable {
@@ -94,7 +94,7 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
 }
 
 /// Names the rows with the same id, which contacts could not distinguish.
-fn twice(rows: &[(RowPosition, Query)]) -> Option<String> {
+fn duplicate_ids(rows: &[(RowPosition, Motions)]) -> Option<String> {
     let mut known: HashMap<&str, RowPosition> = HashMap::new();
     rows.iter().find_map(|(position, query)| {
         let first = known.insert(&query.id, *position)?;
@@ -155,10 +155,10 @@ fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)
     }
     let table = match MotionTable::read(motions.into_inner()?.as_slice()) {
         Ok(table) => table,
-        Err(error) => bail!("{}: {}", name(), worded(&error)),
+        Err(error) => bail!("{}: {}", name(), reworded(&error)),
     };
     if let Some(error) = table.errors.first() {
-        bail!("{}: {}", name(), plain(&error.to_string()));
+        bail!("{}: {}", name(), without_prefix(&error.to_string()));
     }
     Ok((described, table))
 }
@@ -167,22 +167,22 @@ fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)
 const TIMES: [&str; 3] = ["duration", "t", "time"];
 
 /// Rewords an error of a table of motions for the table of a scene.
-fn worded(error: &TableError) -> String {
+fn reworded(error: &TableError) -> String {
     match error {
         TableError::UnknownColumn {
             column,
             nearest: None,
             ..
-        } => plain(&format!(
+        } => without_prefix(&format!(
             "header: unknown column `{column}`; known columns of a scene are body, id, px py pz, qw qx qy qz, vx vy vz, \
              wx wy wz, end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
         )),
-        error => plain(&error.to_string()),
+        error => without_prefix(&error.to_string()),
     }
 }
 
 /// Removes the prefix of body A from column names in a message, because a scene has none.
-fn plain(error: &str) -> String {
+fn without_prefix(error: &str) -> String {
     let error = error.replace("column duration", "--duration");
     let words = error.split_inclusive([' ', '`']);
     words
@@ -213,7 +213,7 @@ impl SceneTable {
     /// Prints the messages about the bodies, the duration and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
         for report in &self.reports {
-            tell(report);
+            print_line(report);
         }
         if self.is_usual {
             complain(&format!(

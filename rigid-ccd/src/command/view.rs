@@ -25,7 +25,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 /// The maximum number of rows read to choose some for the page.
-const LOOKED_AT: usize = 10_000;
+const MOST_READ: usize = 10_000;
 
 /// Runs `ccd view`.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
@@ -65,7 +65,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         clearance: None,
     };
     let mut solver = timing.method.solver(Instructions::Best);
-    for row in rows.by_ref().take(LOOKED_AT) {
+    for row in rows.by_ref().take(MOST_READ) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {

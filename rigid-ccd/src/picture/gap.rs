@@ -15,7 +15,7 @@ const TIMES: usize = 96;
 /// The maximum number of steps of conservative advancement.
 const STEPS: usize = 48;
 /// The time limit for measuring one query, checked after each measurement.
-const PATIENCE: Duration = Duration::from_secs(1);
+const TIME_LIMIT: Duration = Duration::from_secs(1);
 /// The budget of one measurement.
 const BUDGET: u64 = 100_000;
 /// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
@@ -92,7 +92,7 @@ pub fn gap(
         bodies,
         course,
         floor,
-        patience: Instant::now() + PATIENCE,
+        time_limit: Instant::now() + TIME_LIMIT,
     };
     let (mut points, steps) = survey.advance()?;
     survey.refine(&mut points)?;
@@ -110,14 +110,14 @@ struct Survey<'a> {
     bodies: Bodies<'a>,
     course: &'a Course,
     floor: f64,
-    patience: Instant,
+    time_limit: Instant,
 }
 
 /// The maximum closing speed between two times, and the bodies' deviation from their motions.
 #[derive(Clone, Copy, Debug)]
 struct Shrinking {
     speed: f64,
-    off: f64,
+    deviation: f64,
 }
 
 impl Survey<'_> {
@@ -125,14 +125,14 @@ impl Survey<'_> {
     fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
         let end = self.course.duration();
         let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
-        while points.len() < STEPS && Instant::now() < self.patience {
+        while points.len() < STEPS && Instant::now() < self.time_limit {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let Shrinking { speed, off } = self.shrinking(time, end)?;
-            let next = time + (point.lower - off) / speed;
+            let Shrinking { speed, deviation } = self.shrinking(time, end)?;
+            let next = time + (point.lower - deviation) / speed;
             // At the bodies' contact steps become shorter than rounding.
-            if !(point.lower > off && next > time && next < end) {
+            if !(point.lower > deviation && next > time && next < end) {
                 break;
             }
             time = next;
@@ -149,7 +149,7 @@ impl Survey<'_> {
         for k in 1..points.len() {
             worths.push(self.worth(points[k - 1], points[k])?);
         }
-        while points.len() < TIMES && Instant::now() < self.patience {
+        while points.len() < TIMES && Instant::now() < self.time_limit {
             let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
             let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
                 return Ok(());
@@ -169,8 +169,8 @@ impl Survey<'_> {
         if !(time > 1e-6 * self.course.duration()) {
             return Ok(0.0);
         }
-        let Shrinking { speed, off } = self.shrinking(before.time, after.time)?;
-        let least = 0.5 * (before.lower + after.lower - speed * time) - off;
+        let Shrinking { speed, deviation } = self.shrinking(before.time, after.time)?;
+        let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
     }
@@ -190,14 +190,14 @@ impl Survey<'_> {
             Course::Motions(query) => (query.a.stretch(from, to)?, query.b.stretch(from, to)?),
             Course::Path(path) => (path.a.stretch(from, to)?, path.b.stretch(from, to)?),
         };
-        let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(reach);
+        let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(Shrinking {
             speed: (shift + turns + gains) * ROUNDED_UP,
             // Both where it is measured, and in between.
-            off: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
+            deviation: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
         })
     }
 
@@ -208,8 +208,8 @@ impl Survey<'_> {
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let Shrinking { speed, off } = self.shrinking(one.time, two.time)?;
-            let height = |point: GapPoint| greater(point.lower - off, floor);
+            let Shrinking { speed, deviation } = self.shrinking(one.time, two.time)?;
+            let height = |point: GapPoint| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);
             // Where both lines meet, or where each meets the floor.
@@ -232,6 +232,6 @@ impl Survey<'_> {
 }
 
 /// Bounds the distance of a body's points from the centre of a segment's motion.
-fn reach((stretch, body): (&Stretch, &Body)) -> f64 {
+fn extent((stretch, body): (&Stretch, &Body)) -> f64 {
     body.span() + stretch.motion.centre().length()
 }

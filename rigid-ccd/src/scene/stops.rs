@@ -4,7 +4,7 @@ use super::clock::Clock;
 use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::ordered;
-use super::rest::Rest;
+use super::shifted::Shifted;
 use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
@@ -127,7 +127,7 @@ struct Stopping<'s, 'a> {
 }
 
 /// A future contact of two bodies, of which at most one has stopped.
-struct Coming {
+struct FutureContact {
     event: Event,
     /// Which of both bodies move until then.
     moving: [bool; 2],
@@ -164,10 +164,10 @@ impl<'s, 'a> Stopping<'s, 'a> {
                 self.others[a].retain(|&other| other != b);
                 self.others[b].retain(|&other| other != a);
             } else {
-                coming.push(Reverse(self.coming(event, 0.0)));
+                coming.push(Reverse(self.future_contact(event, 0.0)));
             }
         }
-        while let Some(Reverse(Coming { event, moving })) = coming.pop() {
+        while let Some(Reverse(FutureContact { event, moving })) = coming.pop() {
             // Bodies that have stopped meanwhile were looked at again.
             if event.bodies.map(|index| self.moves(index)) != moving {
                 continue;
@@ -188,54 +188,56 @@ impl<'s, 'a> Stopping<'s, 'a> {
             }
             let stopped = event.bodies.into_iter().zip(moving);
             for (index, _) in stopped.filter(|&(_, moved)| moved) {
-                coming.extend(self.about(index).into_iter().map(Reverse));
+                coming.extend(self.contacts_of(index).into_iter().map(Reverse));
             }
         }
         Ok(self.stops)
     }
 
     /// Returns the future contacts of a body that has just stopped.
-    fn about(&mut self, index: usize) -> Vec<Coming> {
+    fn contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
         let others = std::mem::take(&mut self.others[index]);
         let moving = others.iter().filter(|&&other| self.moves(other));
         let pairs: Vec<[usize; 2]> = moving.map(|&other| ordered(index, other)).collect();
         self.others[index] = others;
-        let found = pairs.into_iter().filter_map(|pair| self.from(time, pair));
+        let found = pairs
+            .into_iter()
+            .filter_map(|pair| self.contact_after(time, pair));
         found.collect()
     }
 
     /// Returns the contact of two bodies after a time at which one of them stopped.
-    fn from(&mut self, time: f64, bodies: [usize; 2]) -> Option<Coming> {
+    fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::answered(bodies, &answer)?,
             // Where a body has got to is out of range: it goes no farther.
             Err(_) => Event::unresolved(bodies),
         };
-        Some(self.coming(event, time))
+        Some(self.future_contact(event, time))
     }
 
     /// Returns the future contact for an event that was found from a time on. Bodies that rest on each other, and are
     /// nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
-    fn coming(&self, event: Event, from: f64) -> Coming {
+    fn future_contact(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
             event.at_once()
         } else {
             event
         };
-        Coming {
+        FutureContact {
             moving: event.bodies.map(|index| self.moves(index)),
             event: event.later(from),
         }
     }
 
     fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
-        let rests = bodies.map(|index| Rest {
-            of: self.scene.members[index].movement,
+        let shifted = bodies.map(|index| Shifted {
+            inner: self.scene.members[index].movement,
             from: time,
         });
-        let [a, b] = [0, 1].map(|k| self.going_on(&rests[k], bodies[k]));
+        let [a, b] = [0, 1].map(|k| self.movement_from(&shifted[k], bodies[k]));
         let (a, b) = (a?, b?);
         let duration = self.clock.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
@@ -250,15 +252,19 @@ impl<'s, 'a> Stopping<'s, 'a> {
     }
 
     /// Returns the motion or trajectory of a body from a time on.
-    fn going_on<'r>(&self, rest: &'r Rest<'a>, index: usize) -> Result<Movement<'r>, InputError> {
+    fn movement_from<'r>(
+        &self,
+        shifted: &'r Shifted<'a>,
+        index: usize,
+    ) -> Result<Movement<'r>, InputError> {
         if !self.moves(index) {
-            return Ok(Motion::still(rest.of.pose(self.stops[index].time)?).into());
+            return Ok(Motion::still(shifted.inner.pose(self.stops[index].time)?).into());
         }
-        let Movement::Motion(motion) = rest.of else {
-            return Ok(rest.into());
+        let Movement::Motion(motion) = shifted.inner else {
+            return Ok(shifted.into());
         };
         let [velocity, spin] = [motion.velocity(), motion.spin()];
-        Ok(Motion::about(motion.pose(rest.from), velocity, spin, motion.centre())?.into())
+        Ok(Motion::about(motion.pose(shifted.from), velocity, spin, motion.centre())?.into())
     }
 
     fn moves(&self, index: usize) -> bool {
@@ -277,21 +283,21 @@ fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, 
     Ok(stray + STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }
 
-impl Ord for Coming {
+impl Ord for FutureContact {
     fn cmp(&self, other: &Self) -> Ordering {
         self.event.order(&other.event)
     }
 }
 
-impl PartialOrd for Coming {
+impl PartialOrd for FutureContact {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Eq for Coming {}
+impl Eq for FutureContact {}
 
-impl PartialEq for Coming {
+impl PartialEq for FutureContact {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }

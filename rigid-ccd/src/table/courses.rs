@@ -3,7 +3,7 @@
 use super::columns::{Columns, Form};
 use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
-use super::motions::{MotionRows, Query};
+use super::motions::{MotionRows, Motions};
 use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;
@@ -16,7 +16,7 @@ use std::io;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
     /// Motions at constant velocities.
-    Motions(Query),
+    Motions(Motions),
     /// Paths from pose to pose.
     Path(Path),
 }
@@ -25,14 +25,14 @@ impl Course {
     /// Returns the id of the row in the results.
     pub fn id(&self) -> &str {
         match self {
-            Course::Motions(Query { id, .. }) | Course::Path(Path { id, .. }) => id,
+            Course::Motions(Motions { id, .. }) | Course::Path(Path { id, .. }) => id,
         }
     }
 
     /// Returns the duration.
     pub fn duration(&self) -> f64 {
         match *self {
-            Course::Motions(Query { duration, .. }) | Course::Path(Path { duration, .. }) => {
+            Course::Motions(Motions { duration, .. }) | Course::Path(Path { duration, .. }) => {
                 duration
             }
         }

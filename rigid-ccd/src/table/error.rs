@@ -53,7 +53,7 @@ pub enum TableError {
         header: String,
     },
     /// A column is unknown. To ignore it could silently drop a motion.
-    #[error("header: unknown column `{column}`; {}", Known(.nearest.as_deref(), .known))]
+    #[error("header: unknown column `{column}`; {}", Suggestion(.nearest.as_deref(), .known))]
     UnknownColumn {
         /// The name of the column.
         column: String,
@@ -119,9 +119,9 @@ impl fmt::Display for RowOrHeader<'_> {
 }
 
 /// The most similar column, or a list of all columns.
-struct Known<'a>(Option<&'a str>, &'a str);
+struct Suggestion<'a>(Option<&'a str>, &'a str);
 
-impl fmt::Display for Known<'_> {
+impl fmt::Display for Suggestion<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(nearest) => write!(f, "did you mean `{nearest}`?"),

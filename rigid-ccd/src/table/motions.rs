@@ -19,7 +19,7 @@ use std::io;
 
 /// One row of a table of motions: the motions of two bodies over one duration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Query {
+pub struct Motions {
     /// The id of the row in the results.
     pub id: String,
     /// The motion of body A.
@@ -34,7 +34,7 @@ pub struct Query {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionTable {
     /// The valid rows.
-    pub rows: Vec<(RowPosition, Query)>,
+    pub rows: Vec<(RowPosition, Motions)>,
     /// The errors of the other rows.
     pub errors: Vec<RowError>,
     /// The remarks about the rows, one of each kind.
@@ -73,7 +73,7 @@ pub struct MotionRows<S> {
 }
 
 /// A valid row, or the error of a bad one.
-pub type MotionRow = Result<(RowPosition, Query), RowError>;
+pub type MotionRow = Result<(RowPosition, Motions), RowError>;
 
 impl<R: io::Read> MotionRows<CsvRecords<R>> {
     /// Reads the header of a CSV table.

@@ -5,12 +5,12 @@ mod tests;
 
 use super::columns::Columns;
 use super::error::{RowError, RowProblem, TableError};
-use super::motions::row::{self, Posed, Poses};
+use super::motions::row::{self, BodyPose, Poses};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
 use crate::trajectory;
-use crate::trajectory::poses::{MOST_LEFT, left_over};
+use crate::trajectory::poses::{MOST_LEFT, leftover};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Pose, Trajectory};
@@ -225,11 +225,11 @@ fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
 }
 
 /// Refuses a row whose orientation the angular velocity of the row before does not lead to.
-fn follows(body: char, [before, row]: [Posed; 2], duration: f64) -> Result<(), RowProblem> {
+fn follows(body: char, [before, row]: [BodyPose; 2], duration: f64) -> Result<(), RowProblem> {
     if before.centre != row.centre {
         return Err(RowProblem::CentreMoves { body });
     }
-    let left = length(left_over([&before.pose, &row.pose], before.spin, duration));
+    let left = length(leftover([&before.pose, &row.pose], before.spin, duration));
     // Written so that NaN is refused.
     if before.spin == DVec3::ZERO || left <= MOST_LEFT {
         Ok(())
@@ -242,7 +242,7 @@ impl Path {
     /// Creates a path through `rows`, which is not empty.
     fn new(id: &str, rows: &[Poses]) -> Result<Self, RowProblem> {
         let start = rows[0].time;
-        let of = |body: fn(&Poses) -> Posed| {
+        let of = |body: fn(&Poses) -> BodyPose| {
             let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
             let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);

@@ -1,15 +1,15 @@
 //! A path through given poses.
 
-mod leg;
+mod segment;
 
-pub(crate) use leg::{MOST_LEFT, left_over};
+pub(crate) use segment::{MOST_LEFT, leftover};
 
 use super::U;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose, Stray, Stretch, Trajectory};
-use leg::Leg;
+use segment::Segment;
 
 /// A path through poses at given times, for example from a planner or a simulator's log.
 ///
@@ -125,7 +125,7 @@ impl Poses {
                     what: "angular velocity",
                 });
             }
-            let left = length(left_over([&from, &to], spin, end - begin));
+            let left = length(leftover([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
             if spin != DVec3::ZERO && !(left <= MOST_LEFT) {
                 return Err(InputError::OutOfRange {
@@ -159,8 +159,8 @@ impl Poses {
         match (next.checked_sub(1), self.poses.get(next)) {
             (Some(k), Some(&(end, pose))) => {
                 let (begin, from) = self.poses[k];
-                let leg = Leg::new([from, pose], self.centre, end - begin, self.spin(k))?;
-                Ok((leg.at(time - begin)?, leg.bend()))
+                let segment = Segment::new([from, pose], self.centre, end - begin, self.spin(k))?;
+                Ok((segment.at(time - begin)?, segment.angular_acceleration()))
             }
             // The body rests before the first pose and after the last.
             (None, Some(&(_, pose))) => Ok((self.still(pose)?, 0.0)),
@@ -188,8 +188,8 @@ impl Poses {
     pub(crate) fn turns(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
         let turns = ends.enumerate().map(|(k, [(begin, from), (end, to)])| {
-            let leg = Leg::new([from, to], self.centre, end - begin, self.spin(k))?;
-            Ok(leg.at(0.0)?.spin() * (end - begin))
+            let segment = Segment::new([from, to], self.centre, end - begin, self.spin(k))?;
+            Ok(segment.at(0.0)?.spin() * (end - begin))
         });
         turns.chain([Ok(DVec3::ZERO)])
     }
@@ -207,17 +207,17 @@ impl Poses {
         let motion = Motion::between(begin, end, self.centre, to - from)?;
         let mut stray = Stray::NONE;
         // The turn by which the chord is off at a pose, and that pose's time.
-        let mut last = (from, Off::default());
+        let mut last = (from, Deviation::default());
         for &(time, pose) in self.between(from, to).iter().chain(&[(to, end)]) {
-            let off = Off::new(&motion, &pose, self.centre, time - from);
+            let deviation = Deviation::new(&motion, &pose, self.centre, time - from);
             // The motion that ends at this pose.
-            let (before, bend) = self.at(time, time)?;
+            let (before, acceleration) = self.at(time, time)?;
             let since = time - last.0;
-            let change = before.spin().distance(motion.spin()) + bend * since;
-            let between = 0.5 * (off.turn + last.1.turn + change * since);
-            stray.shift = greater(stray.shift, off.shift);
+            let change = before.spin().distance(motion.spin()) + acceleration * since;
+            let between = 0.5 * (deviation.turn + last.1.turn + change * since);
+            stray.shift = greater(stray.shift, deviation.shift);
             stray.turn = greater(stray.turn, between);
-            last = (time, off);
+            last = (time, deviation);
         }
         Ok(Stretch {
             stray,
@@ -247,11 +247,11 @@ impl Poses {
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let stretch = if self.between(from, to).is_empty() {
-            let (motion, bend) = self.at(from, to)?;
+            let (motion, acceleration) = self.at(from, to)?;
             let mut stretch = Stretch::exact(motion);
             // Twice the integral of what the angular velocity is off by is a square.
-            if bend > 0.0 {
-                stretch.stray.turn = 0.5 * bend * (to - from) * (to - from);
+            if acceleration > 0.0 {
+                stretch.stray.turn = 0.5 * acceleration * (to - from) * (to - from);
             }
             stretch
         } else {
@@ -271,17 +271,17 @@ impl Trajectory for Poses {
 
 /// The deviation of a motion from a pose.
 #[derive(Clone, Copy, Debug, Default)]
-struct Off {
+struct Deviation {
     shift: f64,
     turn: f64,
 }
 
-impl Off {
+impl Deviation {
     fn new(motion: &Motion, pose: &Pose, centre: DVec3, time: f64) -> Self {
         let near = motion.pose(time);
         let [at, true_at] = [&near, pose].map(|pose| pose.transform_point(centre));
         let turned: DQuat = near.rotation().conjugate() * pose.rotation();
-        Off {
+        Deviation {
             shift: at.distance(true_at),
             // The double of the angle of a quaternion, whose sine is the length of its vector.
             turn: 2.0 * turned.xyz().length().atan2(turned.w.abs()),

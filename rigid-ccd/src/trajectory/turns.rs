@@ -61,7 +61,7 @@ impl Turns {
     /// do not increase.
     pub fn slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
         let keys = checked(keys)?;
-        Ok(Turns::of(&keys, |k| {
+        Ok(Turns::from_keys(&keys, |k| {
             let [(from, start), (to, end)] = [keys[k], keys[k + 1]];
             Turn::Slerp {
                 start,
@@ -93,10 +93,10 @@ impl Turns {
                 allowed: "small enough for a spherical quadrangle: give more orientations",
             })?);
         }
-        Ok(Turns::of(&keys, |k| Turn::Squad(squads[k].clone())))
+        Ok(Turns::from_keys(&keys, |k| Turn::Squad(squads[k].clone())))
     }
 
-    fn of(keys: &[(f64, DQuat)], turn: impl Fn(usize) -> Turn) -> Self {
+    fn from_keys(keys: &[(f64, DQuat)], turn: impl Fn(usize) -> Turn) -> Self {
         let piece = |k: usize| Piece {
             from: keys[k].0,
             to: keys[k + 1].0,

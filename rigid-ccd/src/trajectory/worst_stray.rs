@@ -55,14 +55,14 @@ pub fn worst_stray(
         reach,
         state: seed,
     };
-    let mut worst: Option<(Draw, Worst)> = None;
+    let mut worst: Option<(Sample, Worst)> = None;
     for number in 0..draws {
         let draw = match &worst {
             // Climbs after every fresh draw.
             Some((draw, _)) if number % 4 != 0 => search.near(draw),
             _ => search.fresh(),
         };
-        let found = search.look(&draw)?;
+        let found = search.sample(&draw)?;
         if worst.is_none_or(|(_, worst)| found.ratio > worst.ratio) {
             worst = Some((draw, found));
         }
@@ -78,7 +78,7 @@ pub fn worst_stray(
 }
 
 /// Numbers from 0 to 1 that determine a segment, a time and a point.
-type Draw = [f64; 6];
+type Sample = [f64; 6];
 
 struct Search<'t> {
     trajectory: &'t dyn Trajectory,
@@ -97,18 +97,18 @@ impl Search<'_> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn fresh(&mut self) -> Draw {
+    fn fresh(&mut self) -> Sample {
         [(); 6].map(|()| self.number())
     }
 
-    fn near(&mut self, draw: &Draw) -> Draw {
+    fn near(&mut self, draw: &Sample) -> Sample {
         let step = 10f64.powf(-6.0 * self.number());
         draw.map(|x| (x + step * (self.number() - 0.5)).clamp(0.0, 1.0))
     }
 
-    fn look(
+    fn sample(
         &self,
-        &[length, from, time, arm, azimuth, height]: &Draw,
+        &[length, from, time, arm, azimuth, height]: &Sample,
     ) -> Result<Worst, InputError> {
         // Lengths of all orders, down to a millionth.
         let length = self.duration * 10f64.powf(-6.0 * length);
@@ -123,14 +123,14 @@ impl Search<'_> {
         let arm = reach * DVec3::new(across * cos, across * sin, z);
         let point = stretch.motion.centre() + arm;
         let [pose, near] = [self.trajectory.pose(time)?, stretch.pose(time - from)];
-        let off = pose
+        let deviation = pose
             .transform_point(point)
             .distance(near.transform_point(point));
         // The poses that are compared are rounded themselves, by a unit or two in the last place.
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
         Ok(Worst {
-            ratio: (off - rounding) / stretch.stray.at(reach),
+            ratio: (deviation - rounding) / stretch.stray.at(reach),
             from,
             to,
             time,

@@ -25,8 +25,8 @@ pub mod targets;
 pub mod trial;
 pub mod vector;
 
-/// Keeps libFuzzer's hook, which aborts at every panic, from panics that the product catches, for example those of
-/// libraries. It still aborts at those that no one catches.
+/// Removes libFuzzer's panic hook, which aborts also at panics that the product catches, for example those of libraries.
+/// Panics that are not caught still abort.
 pub fn let_caught_panics_pass() {
     drop(std::panic::take_hook());
 }

@@ -10,7 +10,7 @@ use rapier3d_f64::prelude::{
     ColliderBuilder, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
     SharedShape, Vector,
 };
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// Simulates A as a free body and B as a fixed one in one step; the contact is the pose at which the step stops A.
 ///
@@ -59,7 +59,7 @@ impl Simulated {
     }
 
     /// Sets the start poses and velocities of both bodies.
-    fn pose(&mut self, query: &Query) {
+    fn pose(&mut self, query: &Motions) {
         self.world.integration_parameters.dt = query.duration;
         if let Some(b) = self.world.bodies.get_mut(self.b) {
             b.set_position(pose(&query.b, 0.0), true);
@@ -78,7 +78,7 @@ impl Simulated {
 }
 
 impl Solver for Simulated {
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         let turns = query.b.spin() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
             let claim = Claim::Refused;
@@ -98,7 +98,7 @@ impl Solver for Simulated {
 }
 
 /// Returns the fraction of its motion that a body has covered, or NaN or 1 if there is no motion.
-fn share(query: &Query, end: &Pose) -> f64 {
+fn share(query: &Motions, end: &Pose) -> f64 {
     let motion = &query.a;
     let way = query.duration * (motion.velocity() - query.b.velocity());
     if way == DVec3::ZERO {

@@ -8,7 +8,7 @@ use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use rstest::rstest;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
@@ -19,7 +19,7 @@ const TOLERANCE: f64 = 1e-3;
 struct Exact {
     a: TriangleMesh,
     b: TriangleMesh,
-    query: Query,
+    query: Motions,
     time: f64,
     /// The closing speed at the contact.
     speed: f64,
@@ -64,10 +64,10 @@ fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
     Board { half_extents }.mesh().unwrap()
 }
 
-fn query(a: Motion, b: Motion) -> Query {
+fn query(a: Motion, b: Motion) -> Motions {
     let id = String::new();
     let duration = 1.0;
-    Query { id, a, b, duration }
+    Motions { id, a, b, duration }
 }
 
 fn motion(at: DVec3, turned: DQuat, velocity: DVec3, spin: DVec3) -> Motion {

@@ -7,7 +7,7 @@ use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
 use closing::Closing;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 mod closing;
 #[cfg(test)]
@@ -102,7 +102,7 @@ impl Adjustable for C2a {
 }
 
 impl Solver for C2a {
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         let (a, b) = (Course::new(&query.a), Course::new(&query.b));
         self.closing.begin(&a, &b);
         let mut pairs_left = self.patience.pairs;

@@ -20,7 +20,7 @@ use clock::{Clock, Slice};
 use elementary::{Facet, Triangles};
 use leaf::{Touch, first_touch};
 use relative::Relative;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// The ratio above which time is halved: the radius of the enclosure of a box's placement over the half length of the
 /// longer box. Otherwise the boxes are opened.
@@ -88,7 +88,7 @@ impl Contact {
     }
 
     /// Returns the first contact for the given motions, which need not be screws.
-    fn first_contact(&mut self, query: &Query) -> Reply {
+    fn first_contact(&mut self, query: &Motions) -> Reply {
         let courses = [Course::new(&query.a), Course::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, self.tolerance);
         let [a, b] = &self.trees;
@@ -125,7 +125,7 @@ impl Adjustable for Contact {
 
 impl Solver for Contact {
     /// Answers a query; steps are halvings of time.
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         match screw(query) {
             Ok(query) => self.first_contact(&query),
             Err(_) => Reply::new(Claim::Unresolved { safe_until: 0.0 }, 0),

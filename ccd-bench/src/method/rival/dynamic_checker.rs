@@ -7,7 +7,7 @@ use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 #[cfg(test)]
 mod tests;
@@ -111,7 +111,7 @@ impl Adjustable for DynamicChecker {
 }
 
 impl Solver for DynamicChecker {
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         let (a, b) = (Course::new(&query.a), Course::new(&query.b));
         let speed = |course: &Course, reach: f64| course.velocity.length() + course.rate * reach;
         let mut task = Task {

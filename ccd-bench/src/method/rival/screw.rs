@@ -2,7 +2,7 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// The least |sin(angle / 2)| for which the screw axis is computed; rotations near a multiple of 2π have no stable
 /// axis.
@@ -23,8 +23,8 @@ const SAME: f64 = 1e-9;
 ///
 /// # Errors
 /// If a screw's parameters overflow.
-pub fn screw(query: &Query) -> Result<Query, InputError> {
-    Ok(Query {
+pub fn screw(query: &Motions) -> Result<Motions, InputError> {
+    Ok(Motions {
         id: query.id.clone(),
         a: screw_motion(&query.a, query.duration)?,
         b: screw_motion(&query.b, query.duration)?,
@@ -33,7 +33,7 @@ pub fn screw(query: &Query) -> Result<Query, InputError> {
 }
 
 /// Returns whether both motions of a query are already screws, up to rounding.
-pub fn is_screw(query: &Query) -> bool {
+pub fn is_screw(query: &Motions) -> bool {
     let same = |motion: &Motion| {
         let Ok(screw) = screw_motion(motion, query.duration) else {
             return false;

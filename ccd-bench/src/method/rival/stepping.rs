@@ -5,7 +5,7 @@ use super::obb_tree::{Crossing, ObbTree, crossing};
 use super::resolution::resolution;
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// The maximum number of samples of one query, some seconds of work.
 const MAX_SAMPLES: u64 = 1 << 20;
@@ -51,7 +51,7 @@ impl Adjustable for Stepping {
 
 impl Solver for Stepping {
     /// Answers a query; steps are samples, the last one at the end of the duration.
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         let courses = [Course::new(&query.a), Course::new(&query.b)];
         let step = resolution(&courses, &self.trees, self.tolerance);
         // Bodies at rest are tested twice. The cast saturates, and turns NaN into zero.

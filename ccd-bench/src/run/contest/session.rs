@@ -7,7 +7,7 @@ use crate::method::{Method, Ours};
 use crate::scene::Scene;
 use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::io;
 use std::time::{Duration, Instant};
 
@@ -107,7 +107,7 @@ impl<'s> Session<'s> {
     /// prepared queries.
     pub(super) fn prepare<'q>(
         &mut self,
-        queries: impl ExactSizeIterator<Item = &'q Query>,
+        queries: impl ExactSizeIterator<Item = &'q Motions>,
         time: Duration,
     ) -> usize {
         let start = Instant::now();
@@ -126,7 +126,7 @@ impl<'s> Session<'s> {
     ///
     /// # Errors
     /// If a peer's process does not restart.
-    pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Answered> {
+    pub(super) fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<Answered> {
         Ok(match &mut self.runner {
             Runner::InProcess(solver) => {
                 let TimedReply { reply, micros } = timed(solver.as_mut(), query);

@@ -4,7 +4,7 @@ use crate::method::guarded::Asked;
 use crate::method::solver::{Claim, Reply};
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
 /// The judgement of a claim.
@@ -77,7 +77,7 @@ pub fn judge_asked(asked: &Asked, judge: impl FnOnce(&Reply) -> Judged) -> Judge
 /// Judges a claim made with a tolerance.
 pub fn judge(
     referee: &Referee<'_>,
-    query: &Query,
+    query: &Motions,
     truth: Truth,
     claim: Claim,
     tolerance: f64,
@@ -98,7 +98,7 @@ pub fn judge(
 }
 
 /// Returns whether the bodies are within a tolerance at a time.
-pub fn is_near(referee: &Referee<'_>, query: &Query, time: f64, tolerance: f64) -> bool {
+pub fn is_near(referee: &Referee<'_>, query: &Motions, time: f64, tolerance: f64) -> bool {
     referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING)
 }
 

@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::limits::Reached;
+use super::limits::LimitCounts;
 use crate::batch::Timed;
 use crate::table::results::Status;
 use ccd_core::order::greater;
@@ -28,7 +28,7 @@ pub(super) struct Summary {
     pub(super) oracle_steps: u64,
     /// The tolerance of the queries.
     tolerance: f64,
-    limits: Reached,
+    limits: LimitCounts,
     /// The number of answers whose tolerance was raised.
     pub(super) raised: usize,
     /// The largest tolerance of an answer.
@@ -47,7 +47,7 @@ impl Summary {
             advancements: 0,
             oracle_steps: 0,
             tolerance,
-            limits: Reached::default(),
+            limits: LimitCounts::default(),
             raised: 0,
             largest_tolerance: tolerance,
         }

@@ -1,6 +1,6 @@
 //! One row of the table, parsed as the motions of two bodies.
 
-use super::Query;
+use super::Motions;
 use crate::table::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
 use crate::table::error::RowProblem;
 use crate::table::records::{Cells, Record};
@@ -16,7 +16,7 @@ pub fn query<R: Record + ?Sized>(
     columns: &Columns,
     record: &R,
     index: usize,
-) -> Result<Query, RowProblem> {
+) -> Result<Motions, RowProblem> {
     let row = Row {
         columns,
         cells: record.cells(columns)?,
@@ -36,7 +36,7 @@ pub fn query<R: Record + ?Sized>(
     for motion in [&a, &b] {
         columns.oddities().note_motion(motion, duration);
     }
-    Ok(Query {
+    Ok(Motions {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
         a,
         b,
@@ -47,13 +47,13 @@ pub fn query<R: Record + ?Sized>(
 /// The poses of both bodies at a time.
 pub(in crate::table) struct Poses {
     pub(in crate::table) time: f64,
-    pub(in crate::table) a: Posed,
-    pub(in crate::table) b: Posed,
+    pub(in crate::table) a: BodyPose,
+    pub(in crate::table) b: BodyPose,
 }
 
 /// The pose of a body in a row of a path.
 #[derive(Clone, Copy)]
-pub(in crate::table) struct Posed {
+pub(in crate::table) struct BodyPose {
     pub(in crate::table) pose: Pose,
     /// The angular velocity to the next row; zero for the shortest rotation.
     pub(in crate::table) spin: DVec3,
@@ -74,8 +74,8 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
     }
     Ok(Poses {
         time: row.number(TIME)?.ok_or_else(|| row.empty(TIME))?,
-        a: row.posed(Side::A)?,
-        b: row.posed(Side::B)?,
+        a: row.body_pose(Side::A)?,
+        b: row.body_pose(Side::B)?,
     })
 }
 
@@ -90,7 +90,7 @@ struct Row<'a, C> {
 }
 
 /// The two ways in which a row specifies a motion.
-enum Given {
+enum MotionKind {
     EndPose,
     Velocities,
 }
@@ -106,8 +106,8 @@ impl<C: Cells> Row<'_, C> {
         )?)
     }
 
-    fn posed(&self, side: Side) -> Result<Posed, RowProblem> {
-        Ok(Posed {
+    fn body_pose(&self, side: Side) -> Result<BodyPose, RowProblem> {
+        Ok(BodyPose {
             pose: self.start(side)?,
             spin: self.vector(side, Quantity::Spin)?.unwrap_or_default(),
             centre: self.vector(side, Quantity::Centre)?.unwrap_or_default(),
@@ -117,13 +117,13 @@ impl<C: Cells> Row<'_, C> {
     fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
         let start = self.start(side)?;
         let centre = self.vector(side, Quantity::Centre)?.unwrap_or(DVec3::ZERO);
-        match self.given(side)? {
-            Given::Velocities => {
+        match self.motion_kind(side)? {
+            MotionKind::Velocities => {
                 let velocity = self.vector(side, Quantity::Velocity)?.unwrap_or_default();
                 let spin = self.vector(side, Quantity::Spin)?.unwrap_or_default();
                 Ok(Motion::about(start, velocity, spin, centre)?)
             }
-            Given::EndPose => {
+            MotionKind::EndPose => {
                 let position = self.vector(side, Quantity::EndPosition)?;
                 let orientation = self.quaternion(side, Quantity::EndOrientation)?;
                 let end = Pose::new(
@@ -136,7 +136,7 @@ impl<C: Cells> Row<'_, C> {
     }
 
     /// Returns how the row specifies the motion; the cells of the other way must be empty.
-    fn given(&self, side: Side) -> Result<Given, RowProblem> {
+    fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::Spin];
         let is_given = |cell| self.cells.is_given(cell);
@@ -148,12 +148,12 @@ impl<C: Cells> Row<'_, C> {
                 end: self.columns.name(end).to_owned(),
                 velocity: self.columns.name(velocity).to_owned(),
             }),
-            (Some(_), None) => Ok(Given::EndPose),
-            (None, Some(_)) => Ok(Given::Velocities),
+            (Some(_), None) => Ok(MotionKind::EndPose),
+            (None, Some(_)) => Ok(MotionKind::Velocities),
             // In a table that has the columns, an empty cell is told when it is read.
             (None, None) => match self.slot_where(side, end, |_| true) {
-                Some(_) => Ok(Given::EndPose),
-                None => Ok(Given::Velocities),
+                Some(_) => Ok(MotionKind::EndPose),
+                None => Ok(MotionKind::Velocities),
             },
         }
     }

@@ -9,7 +9,7 @@ fn read(text: &str) -> MotionTable {
     MotionTable::read(text.as_bytes()).expect("a header that can be used")
 }
 
-fn only_query(text: &str) -> Query {
+fn only_query(text: &str) -> Motions {
     let table = read(text);
     assert_eq!(table.errors, []);
     assert_eq!(table.rows.len(), 1);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::table::motions::Query;
+use crate::table::motions::Motions;
 use ccd_core::{Effort, Feature, Hit, Limit, Motion, Separation, Unresolved};
 
 fn answer(outcome: Outcome) -> Answer {
@@ -32,7 +32,7 @@ fn contact() -> Contact {
 
 /// A query of the given duration.
 fn course(duration: f64) -> Course {
-    Course::Motions(Query {
+    Course::Motions(Motions {
         id: "a,b".into(),
         a: Motion::STILL,
         b: Motion::STILL,

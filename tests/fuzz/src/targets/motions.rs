@@ -1,7 +1,7 @@
 //! Tables of motions.
 
 use crate::memory;
-use rigid_ccd::table::motions::{MotionRows, MotionTable, Query, RowPosition, write};
+use rigid_ccd::table::motions::{MotionRows, MotionTable, Motions, RowPosition, write};
 use std::io::{self, Read};
 
 /// The maximum size of the input, in bytes.
@@ -78,7 +78,7 @@ fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
 
 /// Checks that written rows read back to the same numbers, orientations up to rounding.
 fn written(table: &MotionTable) {
-    let queries: Vec<Query> = table.rows.iter().map(|(_, query)| query.clone()).collect();
+    let queries: Vec<Motions> = table.rows.iter().map(|(_, query)| query.clone()).collect();
     let mut bytes = Vec::new();
     write(&mut bytes, &queries).expect("memory takes all bytes");
     let again = MotionTable::read(&bytes[..]).expect("a table that was written");
@@ -94,7 +94,7 @@ fn written(table: &MotionTable) {
 }
 
 /// Returns the parts of a row that are written without loss.
-fn exact(query: &Query) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
+fn exact(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
     let numbers = [query.a, query.b].map(|motion| {
         [
             motion.start().translation(),

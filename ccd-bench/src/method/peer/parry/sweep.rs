@@ -31,7 +31,7 @@ use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::f64::consts::FRAC_PI_4;
 
 /// Two meshes to sweep. Steps are the stretches examined.
@@ -67,7 +67,7 @@ impl SweptPairs {
     }
 
     /// Returns the number of segments of a query, or `None` if there are too many.
-    fn stretches(&self, query: &Query) -> Option<u64> {
+    fn stretches(&self, query: &Motions) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
@@ -89,7 +89,7 @@ impl SweptPairs {
     }
 
     /// Returns the time in a segment at which triangles first meet, as a fraction of it.
-    fn first_hit(&self, query: &Query, from: f64, to: f64) -> Option<Real> {
+    fn first_hit(&self, query: &Motions, from: f64, to: f64) -> Option<Real> {
         let a = self.a.stretch(&query.a, from, to);
         let b = self.b.stretch(&query.b, from, to);
         // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
@@ -127,7 +127,7 @@ impl SweptPairs {
 }
 
 impl Solver for SweptPairs {
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         let Some(count) = self.stretches(query) else {
             let claim = Claim::Unresolved { safe_until: 0.0 };
             return Reply::new(claim, 0);

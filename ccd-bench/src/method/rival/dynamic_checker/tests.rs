@@ -6,7 +6,7 @@ use crate::method::solver::{Claim, Solver};
 use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 #[test]
 fn exact_times_are_met() {
@@ -51,7 +51,7 @@ fn a_touch_at_a_halving_is_a_contact() {
     for k in 0..20 {
         let world = DQuat::from_rotation_x(0.1 * f64::from(k)) * DQuat::from_rotation_y(0.7);
         let pose = |z: f64| Pose::new(world * (z * DVec3::Z), world).unwrap();
-        let query = Query {
+        let query = Motions {
             id: String::new(),
             a: Motion::new(pose(2.5), world * (-4.0 * DVec3::Z), DVec3::ZERO).unwrap(),
             b: Motion::still(pose(-1.0)),

@@ -7,7 +7,7 @@ use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// A source of random inputs.
 pub(in crate::method::rival) struct Samples(Pcg64);
@@ -41,14 +41,14 @@ impl Samples {
         Motion::about(start, velocity, spin, self.vector(1.0)).unwrap()
     }
 
-    pub(in crate::method::rival) fn query(&mut self, speed: f64, spin: f64) -> Query {
+    pub(in crate::method::rival) fn query(&mut self, speed: f64, spin: f64) -> Motions {
         query(self.motion(speed, spin), self.motion(speed, spin))
     }
 }
 
 /// Returns a query of duration 1.
-pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Query {
-    Query {
+pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Motions {
+    Motions {
         id: String::new(),
         a,
         b,

@@ -10,7 +10,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, SQRT_2};
 
 /// Two bodies, their motions, and the first contact.
@@ -18,7 +18,7 @@ struct Exact {
     name: &'static str,
     a: TriangleMesh,
     b: TriangleMesh,
-    query: Query,
+    query: Motions,
     time: f64,
     /// The closing speed at the contact point.
     closing_speed: f64,
@@ -62,8 +62,8 @@ fn still(at: DVec3) -> Motion {
     Motion::still(Pose::at(at).unwrap())
 }
 
-fn query(a: Motion, b: Motion) -> Query {
-    Query {
+fn query(a: Motion, b: Motion) -> Motions {
+    Motions {
         id: String::new(),
         a,
         b,
@@ -338,7 +338,7 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
 }
 
 /// Returns two boxes that rotate past each other without contact, so close that the decision takes many steps.
-pub(in crate::method::rival) fn hovering() -> (TriangleMesh, TriangleMesh, Query) {
+pub(in crate::method::rival) fn hovering() -> (TriangleMesh, TriangleMesh, Motions) {
     // Its upright edges are at a distance of 1 from its axis.
     let turning = boxed(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(

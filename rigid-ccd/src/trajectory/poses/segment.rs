@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 ///
 /// With a rotation vector `w` of the motion and a shortest one `e` that leads from its end to the next pose, the
 /// orientation after a share `s` is `exp(s e) exp(s w)` times the first one.
-pub(super) struct Leg {
+pub(super) struct Segment {
     motion: Motion,
     /// The rotation vector `e` left over, per unit of time.
     leftover: DVec3,
@@ -19,7 +19,7 @@ pub(super) struct Leg {
 /// The largest leftover rotation: half a turn would leave the number of turns ambiguous.
 pub(crate) const MOST_LEFT: f64 = FRAC_PI_2;
 
-impl Leg {
+impl Segment {
     /// Creates the segment with the shortest rotation, or with the number of turns nearest to a given angular velocity.
     pub(super) fn new(
         [from, to]: [Pose; 2],
@@ -28,21 +28,21 @@ impl Leg {
         spin: DVec3,
     ) -> Result<Self, InputError> {
         if spin == DVec3::ZERO {
-            return Ok(Leg {
+            return Ok(Segment {
                 motion: Motion::between(from, to, centre, duration)?,
                 leftover: DVec3::ZERO,
             });
         }
         let way = to.transform_point(centre) - from.transform_point(centre);
-        Ok(Leg {
+        Ok(Segment {
             motion: Motion::about(from, way / duration, spin, centre)?,
-            leftover: left_over([&from, &to], spin, duration) / duration,
+            leftover: leftover([&from, &to], spin, duration) / duration,
         })
     }
 
     /// Returns the motion at a time after the first pose, with the velocities of that time.
     pub(super) fn at(&self, time: f64) -> Result<Motion, InputError> {
-        let Leg { motion, leftover } = self;
+        let Segment { motion, leftover } = self;
         if time == 0.0 && *leftover == DVec3::ZERO {
             return Ok(*motion);
         }
@@ -62,14 +62,14 @@ impl Leg {
     }
 
     /// Bounds the angular acceleration: the angular velocity is `e + exp(s e) w`, per unit of time.
-    pub(super) fn bend(&self) -> f64 {
+    pub(super) fn angular_acceleration(&self) -> f64 {
         length(self.leftover) * length(self.motion.spin())
     }
 }
 
 /// Returns the shortest rotation vector from the orientation that an angular velocity leads to, to that of the next
 /// pose.
-pub(crate) fn left_over([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
+pub(crate) fn leftover([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
     let led = DQuat::from_scaled_axis(spin * duration) * from.rotation();
     let way = to.rotation() * led.conjugate();
     let way = if way.w < 0.0 { -way } else { way };
