@@ -24,7 +24,7 @@ use std::hint::black_box;
 const POSES: usize = 256;
 
 /// Two pieces of one shape, and the sequence of their poses.
-struct Course {
+struct PoseSequence {
     a: Pieces,
     b: Pieces,
     poses: Vec<Frame>,
@@ -55,7 +55,7 @@ fn distances(criterion: &mut Criterion) {
     for (shape, a, b) in shapes(&mut rng) {
         for (separation, clearance) in SEPARATIONS {
             for (coherence, turn, start) in COHERENCE {
-                let course = Course {
+                let course = PoseSequence {
                     a: a.clone(),
                     b: b.clone(),
                     poses: poses(&mut rng, clearance, turn),
@@ -104,7 +104,7 @@ fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
 }
 
 /// Returns the sum of the axes of a whole sequence, so that the compiler cannot drop a call.
-fn run<O: DistanceOracle + Default>(course: &Course) -> f64 {
+fn run<O: DistanceOracle + Default>(course: &PoseSequence) -> f64 {
     let mut oracle = O::default();
     let mut cache = O::Cache::default();
     let mut sum = 0.0;
@@ -118,7 +118,7 @@ fn run<O: DistanceOracle + Default>(course: &Course) -> f64 {
     sum
 }
 
-impl Course {
+impl PoseSequence {
     fn pair(&self, b_to_a: Frame) -> PiecePair<'_> {
         PiecePair {
             a: self.a.get(0),

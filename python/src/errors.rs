@@ -56,19 +56,19 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// A panic would be an exception that `except Exception` does not catch.
 pub(crate) fn guarded<T>(what: &str, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     let done = catch_unwind(AssertUnwindSafe(work));
-    done.unwrap_or_else(|panic| Err(input(format!("{what}: {}", said(panic.as_ref())))))
+    done.unwrap_or_else(|panic| Err(input(format!("{what}: {}", panic_message(panic.as_ref())))))
 }
 
 /// Converts a panic with no known input as its cause to a `RuntimeError`.
 pub(crate) fn fault(panic: &(dyn Any + Send)) -> PyErr {
     PyRuntimeError::new_err(format!(
         "a fault of rigid_ccd, please report it: {}",
-        said(panic)
+        panic_message(panic)
     ))
 }
 
 /// Returns the message of a panic.
-fn said(panic: &(dyn Any + Send)) -> &str {
+fn panic_message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     text.unwrap_or("it is not supported")

@@ -4,7 +4,7 @@ use crate::body::body_of;
 use crate::errors::{input as refuse, of_file};
 use crate::polled::polled;
 use crate::settings::{OF_CONTACTS, read};
-use crate::table::answering::{Asked, Micros, each};
+use crate::table::answering::{Micros, TableQuestion, each};
 use crate::table::input::{self, Reader};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -29,7 +29,7 @@ pub(crate) fn write_pages(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<PathBuf>> {
     let settings = read(settings, OF_CONTACTS)?;
-    let asked = Asked {
+    let asked = TableQuestion {
         bodies: Bodies {
             a: body_of(a, "a")?,
             b: body_of(b, "b")?,
@@ -55,7 +55,7 @@ enum Fault {
 
 /// Writes a page for each of some rows of a table into a folder; returns the pages' paths, in the order of the rows.
 fn write(
-    asked: Asked<'_>,
+    asked: TableQuestion<'_>,
     reader: Reader,
     rows: &HashSet<usize>,
     folder: &Path,

@@ -10,7 +10,7 @@ use std::thread::{self, Builder};
 use std::time::Duration;
 
 /// The interval between two checks for signals.
-const LOOK: Duration = Duration::from_millis(20);
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Runs work on its own thread, without the GIL, and returns the result.
 ///
@@ -37,7 +37,7 @@ pub(crate) fn polled<T: Send>(
                 PyRuntimeError::new_err(format!("no thread can be started: {error}"))
             })?;
             let mut seen = Ok(());
-            while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(LOOK) {
+            while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(POLL_INTERVAL) {
                 if seen.is_ok() {
                     seen = Python::attach(|py| py.check_signals().and_then(|()| look(py)));
                     stop.store(seen.is_err(), Ordering::Relaxed);

@@ -2,9 +2,9 @@
 
 use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
-use crate::course::{Course, Pair};
 use crate::errors::{fault, input, unresolved, unresolved_distance, warn};
 use crate::motion::pose_of;
+use crate::movement::{GivenMovement, Pair};
 use crate::polled::polled;
 use crate::settings::{OF_APPROACHES, OF_CONTACTS, OF_DISTANCES, read};
 use pyo3::prelude::*;
@@ -30,7 +30,7 @@ thread_local! {
 /// Runs a query, without the GIL. Ctrl-C ends it.
 ///
 /// `farther` compares what two answers without a result prove: the larger number is the better bound.
-fn ask(
+fn run(
     py: Python<'_>,
     settings: Settings,
     farther: impl Fn(&Unresolved) -> f64,
@@ -92,7 +92,7 @@ fn contact(
     settings: Settings,
     question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
 ) -> PyResult<Option<Hit>> {
-    let answer = ask(py, settings, |known| known.safe_until, question)?;
+    let answer = run(py, settings, |known| known.safe_until, question)?;
     answer.hit().map_err(|known| unresolved(py, &known))
 }
 
@@ -101,8 +101,14 @@ fn pair<'c>(
     (b, motion_b): (&'c Bound<'_, PyAny>, Option<&'c Bound<'_, PyAny>>),
 ) -> PyResult<Pair<'c>> {
     Ok(Pair {
-        a: (body_of(a, "a")?, Course::of(motion_a, "motion_a")?),
-        b: (body_of(b, "b")?, Course::of(motion_b, "motion_b")?),
+        a: (
+            body_of(a, "a")?,
+            GivenMovement::extract(motion_a, "motion_a")?,
+        ),
+        b: (
+            body_of(b, "b")?,
+            GivenMovement::extract(motion_b, "motion_b")?,
+        ),
     })
 }
 
@@ -287,7 +293,7 @@ fn measure<'py>(
     question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
     let clearance = settings.clearance;
-    match ask(py, settings, farther, question)?.outcome {
+    match run(py, settings, farther, question)?.outcome {
         Outcome::Unresolved(known) => Err(unresolved_distance(py, &known)),
         outcome => answers::distance(py, &outcome, clearance),
     }

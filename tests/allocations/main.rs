@@ -17,9 +17,9 @@ const QUERIES: u64 = 3_000;
 fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
     let mut at_start = 0;
     for number in 0..QUERIES {
-        let posed = mixed.posed(number);
-        let [a, b] = [0, 1].map(|k| mixed.moving(&posed, k));
-        solver.set_settings(posed.config);
+        let query = mixed.query(number);
+        let [a, b] = [0, 1].map(|k| mixed.moving(&query, k));
+        solver.set_settings(query.config);
         let answer = solver.first_contact(a, b, 1.0).expect("a well-posed query");
         if let Outcome::Touching { .. } | Outcome::Overlapping { .. } = answer.outcome {
             at_start += 1;

@@ -15,7 +15,7 @@ pub struct Mixed {
 
 /// A query that refers to its bodies by index.
 #[derive(Clone, Debug)]
-pub struct Posed {
+pub struct MixedQuery {
     /// The indices of bodies A and B.
     pub bodies: [usize; 2],
     /// Their motions.
@@ -49,7 +49,7 @@ impl Mixed {
     }
 
     /// Returns the query with a number.
-    pub fn posed(&self, number: u64) -> Posed {
+    pub fn query(&self, number: u64) -> MixedQuery {
         let mut rng = Pcg64::seed_from_u64(number);
         let mut body = || rng.random_range(0..self.bodies.len());
         let bodies = [body(), body()];
@@ -64,7 +64,7 @@ impl Mixed {
             },
             ..Settings::DEFAULT
         };
-        Posed {
+        MixedQuery {
             bodies,
             motions,
             config,
@@ -72,8 +72,8 @@ impl Mixed {
     }
 
     /// Returns a body of a query and its motion.
-    pub fn moving(&self, posed: &Posed, which: usize) -> Moving<'_> {
-        (&self.bodies[posed.bodies[which]], posed.motions[which]).into()
+    pub fn moving(&self, query: &MixedQuery, which: usize) -> Moving<'_> {
+        (&self.bodies[query.bodies[which]], query.motions[which]).into()
     }
 }
 

@@ -28,7 +28,7 @@ impl Smooth for Own {
 
 /// The backend and the pieces of answers, to print if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct OracleSetup {
     /// The oracle.
     pub oracle: Oracle,
     /// The kinds of pieces of the bodies.
@@ -77,7 +77,7 @@ impl Oracle {
 pub fn for_each_answers(
     query: &Query,
     config: &Settings,
-    mut check: impl FnMut(&Bodies, Asked, Answers),
+    mut check: impl FnMut(&Bodies, OracleSetup, Answers),
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
@@ -94,7 +94,7 @@ pub fn for_each_answers(
 pub fn for_each_answers_along(
     query: &Query,
     config: &Settings,
-    mut check: impl FnMut(&Bodies, Asked, AnswersAlong),
+    mut check: impl FnMut(&Bodies, OracleSetup, AnswersAlong),
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
@@ -107,14 +107,14 @@ pub fn for_each_answers_along(
     });
 }
 
-fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, Asked)) {
+fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
     for bodies in query.all_bodies() {
         for oracle in Oracle::ALL
             .into_iter()
             .filter(|oracle| oracle.suits(&bodies))
         {
             let kinds = bodies.kinds;
-            call(&bodies, Asked { oracle, kinds });
+            call(&bodies, OracleSetup { oracle, kinds });
         }
     }
 }

@@ -15,7 +15,7 @@ pub use triangles::{contains, point_segment, point_triangle};
 use crate::query::Query;
 use crate::tolerance::{CLOSE, KEPT};
 use ccd_core::glam::DVec3;
-use triangles::Posed;
+use triangles::PosedMesh;
 
 /// The referee's finding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ impl<'a> Referee<'a> {
     pub fn nested(&self, time: f64) -> bool {
         let [a, b] = self.posed(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
-        let inside = |outer: &Posed<'_>, inner: &Posed<'_>| {
+        let inside = |outer: &PosedMesh<'_>, inner: &PosedMesh<'_>| {
             inner
                 .first_vertex()
                 .is_some_and(|p| contains(outer.mesh(), outer.points(), p))
@@ -159,10 +159,10 @@ impl<'a> Referee<'a> {
             .fold(0.0, greater)
     }
 
-    fn posed(&self, time: f64) -> [Posed<'a>; 2] {
+    fn posed(&self, time: f64) -> [PosedMesh<'a>; 2] {
         let posed = |k: usize, actor: &'a crate::query::Actor| {
             let mesh = &actor.shape.mesh;
-            Posed::new(
+            PosedMesh::new(
                 mesh,
                 mesh.vertices
                     .iter()

@@ -66,7 +66,7 @@ impl Solid {
     }
 
     /// Returns the solid at a pose.
-    pub fn placed(&self, pose: &Pose) -> Placed {
+    pub fn placed(&self, pose: &Pose) -> PlacedSolid {
         let at = |p: DVec3| pose.rotation() * p + pose.translation();
         let hull = |corners: &[DVec3], faces: &[[u32; 3]]| {
             let face = |face: &[u32; 3]| Face::new(face.map(|k| at(corners[k as usize])));
@@ -85,20 +85,20 @@ impl Solid {
             }
             Solid::Tetrahedron(corners) => hull(&corners, &SIDES),
         };
-        Placed { faces, radius }
+        PlacedSolid { faces, radius }
     }
 }
 
 /// A solid at a pose: the faces of a hull, counterclockwise from outside, or of a point or a segment, grown by a
 /// radius.
-pub struct Placed {
+pub struct PlacedSolid {
     faces: Vec<Face>,
     radius: f64,
 }
 
-impl Placed {
+impl PlacedSolid {
     /// Returns the distance of two solids; 0 if they overlap.
-    pub fn distance(&self, other: &Placed) -> f64 {
+    pub fn distance(&self, other: &PlacedSolid) -> f64 {
         if self.contains(other) || other.contains(self) {
             return 0.0;
         }
@@ -111,7 +111,7 @@ impl Placed {
     }
 
     /// Returns true if the hull contains a corner of the other solid.
-    fn contains(&self, other: &Placed) -> bool {
+    fn contains(&self, other: &PlacedSolid) -> bool {
         let [p, ..] = other.faces[0].corners;
         let below = |Face {
                          corners: [a, b, c], ..

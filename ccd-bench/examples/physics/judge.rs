@@ -9,7 +9,7 @@ use rigid_ccd::{Motion, Moving};
 
 /// The measurements so far.
 #[derive(Default)]
-pub(crate) struct Seen {
+pub(crate) struct Tally {
     /// The pairs that were apart before and after a step, and overlapped between.
     pub(crate) passed: usize,
     /// The deepest penetration after each step.
@@ -22,7 +22,7 @@ pub(crate) struct Seen {
 /// A body's motion in a step, and the time at which it stops.
 pub(crate) type Moved = (Motion, f64);
 
-impl Seen {
+impl Tally {
     /// Measures one step of all bodies of a world.
     pub(crate) fn step(&mut self, world: &World, moved: &[Moved], duration: f64) -> Result<()> {
         let mut deepest = 0.0;

@@ -14,7 +14,7 @@ mod worlds;
 use anyhow::Result;
 use chart::{Depths, draw};
 use glue::pose;
-use judge::{Moved, Seen};
+use judge::{Moved, Tally};
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Motion, Pose, Scene};
 use std::io::Write;
@@ -71,17 +71,17 @@ fn main() -> Result<()> {
         let mut name = "";
         for method in METHODS {
             let mut world = World::new(number, method.detection())?;
-            let (seen, time) = run(&mut world, method, steps)?;
+            let (tally, time) = run(&mut world, method, steps)?;
             let millis = 1e3 * time.as_secs_f64() / f64::from(steps);
-            let (deepest, stopped) = (seen.deepest(), seen.stopped());
+            let (deepest, stopped) = (tally.deepest(), tally.stopped());
             name = world.name;
             writeln!(
                 out,
                 "{name},{},{steps},{},{deepest:.2e},{stopped:.4},{millis:.3}",
                 method.name(),
-                seen.passed
+                tally.passed
             )?;
-            methods.push(seen.depths);
+            methods.push(tally.depths);
         }
         drawn.push(Depths {
             world: name,
@@ -94,7 +94,7 @@ fn main() -> Result<()> {
 }
 
 /// Steps a world; returns the measurements and the duration of the steps.
-fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)> {
+fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration)> {
     let duration = world.physics.integration_parameters.dt;
     let bodies: Vec<_> = world.bodies.iter().map(|body| body.body.clone()).collect();
     let joined = world.joined.clone();
@@ -111,7 +111,7 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
             index
         };
     }
-    let (mut seen, mut time) = (Seen::default(), Duration::ZERO);
+    let (mut tally, mut time) = (Tally::default(), Duration::ZERO);
     for step in 0..steps {
         world.act(step);
         let starts = poses(world)?;
@@ -134,9 +134,9 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
                 .collect(),
             None => moved(world, &starts, duration)?,
         };
-        seen.step(world, &moved, duration)?;
+        tally.step(world, &moved, duration)?;
     }
-    Ok((seen, time))
+    Ok((tally, time))
 }
 
 fn poses(world: &World) -> Result<Vec<Pose>> {

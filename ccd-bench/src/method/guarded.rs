@@ -52,7 +52,7 @@ impl Setting {
 
 /// The outcome of a query.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Asked {
+pub enum QueryOutcome {
     /// The method answered.
     Answered {
         /// Its reply.
@@ -106,12 +106,12 @@ impl Programs {
     }
 }
 
-impl Asked {
+impl QueryOutcome {
     /// Returns the claim, if the method answered.
     pub fn claim(&self) -> Option<Claim> {
         match self {
-            Asked::Answered { reply, .. } => Some(reply.claim),
-            Asked::CutOff | Asked::Died => None,
+            QueryOutcome::Answered { reply, .. } => Some(reply.claim),
+            QueryOutcome::CutOff | QueryOutcome::Died => None,
         }
     }
 }
@@ -165,12 +165,12 @@ impl Guarded {
     ///
     /// # Errors
     /// Those of [`Guarded::start`].
-    pub fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<Asked> {
-        let asked = self.running()?.ask(query, patience);
-        if !matches!(asked, Asked::Answered { .. }) {
+    pub fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
+        let outcome = self.running()?.ask(query, patience);
+        if !matches!(outcome, QueryOutcome::Answered { .. }) {
             self.process = None;
         }
-        Ok(asked)
+        Ok(outcome)
     }
 
     fn running(&mut self) -> io::Result<&mut Process> {
@@ -239,20 +239,20 @@ impl Process {
         }
     }
 
-    fn ask(&mut self, query: &Motions, patience: Duration) -> Asked {
+    fn ask(&mut self, query: &Motions, patience: Duration) -> QueryOutcome {
         let Some(input) = &mut self.input else {
-            return Asked::Died;
+            return QueryOutcome::Died;
         };
         if writeln!(input, "{}", format_query(query)).is_err() {
-            return Asked::Died;
+            return QueryOutcome::Died;
         }
         match self.lines.recv_timeout(patience) {
             Ok(line) => match parse_reply(&line) {
-                Some(TimedReply { reply, micros }) => Asked::Answered { reply, micros },
-                None => Asked::Died,
+                Some(TimedReply { reply, micros }) => QueryOutcome::Answered { reply, micros },
+                None => QueryOutcome::Died,
             },
-            Err(RecvTimeoutError::Timeout) => Asked::CutOff,
-            Err(RecvTimeoutError::Disconnected) => Asked::Died,
+            Err(RecvTimeoutError::Timeout) => QueryOutcome::CutOff,
+            Err(RecvTimeoutError::Disconnected) => QueryOutcome::Died,
         }
     }
 }

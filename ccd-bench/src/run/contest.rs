@@ -11,7 +11,7 @@ use ccd_core::order::greater;
 pub use journal::{Journal, JournalError, program_stamp};
 pub use session::Session;
 pub use truths::{Truths, TruthsError};
-pub use verdict::{Judged, Verdict, is_near, judge, judge_asked, judge_contact};
+pub use verdict::{Judged, Verdict, is_near, judge, judge_contact, judge_outcome};
 
 use crate::method::rival::screw;
 use crate::method::{Method, MotionKind};

@@ -13,10 +13,10 @@ mod axis;
 mod grid;
 mod heat_map;
 mod legend;
-mod look;
 mod panel;
 mod pareto;
 mod sheet;
+mod style;
 #[cfg(test)]
 mod tests;
 mod triangles;
@@ -24,9 +24,9 @@ mod triangles;
 pub use heat_map::{HeatCell, HeatKind, HeatMap, HeatRow};
 
 use crate::run::measured::Cell;
-use look::{Fill, Look};
 use std::io;
 use std::path::{Path, PathBuf};
+use style::{Fill, MethodStyle};
 
 /// The paper's tolerance `[FAST06 §6.2]`, used by charts of one tolerance.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
@@ -184,7 +184,7 @@ impl Charts<'_> {
     }
 
     /// Returns the methods of some families that have cells, each with its style.
-    fn shown(&self, families: &[Family]) -> Vec<(&MethodFacts<'_>, Look)> {
+    fn shown(&self, families: &[Family]) -> Vec<(&MethodFacts<'_>, MethodStyle)> {
         let measured = |name: &str| {
             let known = |cell: &&Cell| self.scenes.iter().any(|s| s.name == cell.scene);
             self.cells
@@ -201,7 +201,7 @@ impl Charts<'_> {
         };
         self.methods
             .iter()
-            .zip(look::looks(self.methods, fill))
+            .zip(style::styles(self.methods, fill))
             .filter(|(method, _)| families.contains(&method.family) && measured(method.name))
             .collect()
     }

@@ -11,7 +11,7 @@ use crate::run::measured::Cell;
 use crate::scene::Scene;
 use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;
-use crate::show::sentences::Seen;
+use crate::show::sentences::Measurements;
 use crate::show::tables::{self, TextTable};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
@@ -138,14 +138,14 @@ fn sentences(
     let triangles: Vec<usize> = (evaluated.scenes.iter())
         .map(|scene| scene.a.triangles())
         .collect();
-    let seen = Seen {
+    let measurements = Measurements {
         triangles: &triangles,
         methods,
         cells: evaluated.journal.cells(),
         reference,
         tolerance: USUAL_TOLERANCE,
     };
-    seen.sentences()
+    measurements.sentences()
 }
 
 /// Returns the family of each method; an unknown method was measured elsewhere.

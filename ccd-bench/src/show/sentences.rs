@@ -10,7 +10,7 @@ use ccd_core::order::{greater, lesser};
 
 /// The measurements.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<'a> {
+pub struct Measurements<'a> {
     /// The number of triangles of each scene's moving body.
     pub triangles: &'a [usize],
     /// The methods that give answers, in their usual order.
@@ -31,7 +31,7 @@ const FAMILIES: [(Family, &str); 4] = [
     (Family::Peer, "Libraries"),
 ];
 
-impl Seen<'_> {
+impl Measurements<'_> {
     /// Returns sentences on the queries, on the answers of each family, and on their times.
     pub fn sentences(&self) -> Vec<String> {
         let mut told = vec![self.asked()];

@@ -72,7 +72,7 @@ pub enum StepError {
 
 /// The motion of one body, with its displacement and its rotation over the whole duration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Course {
+pub(super) struct BodyMotion {
     pub(super) at: DVec3,
     pub(super) turned: DQuat,
     pub(super) velocity: DVec3,
@@ -113,8 +113,8 @@ impl Expected {
     }
 }
 
-impl Course {
-    pub(super) const STILL: Course = Course {
+impl BodyMotion {
+    pub(super) const STILL: BodyMotion = BodyMotion {
         at: DVec3::ZERO,
         turned: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
@@ -123,32 +123,32 @@ impl Course {
     };
 
     /// A fall from z = 3 by 4.
-    pub(super) const FALLING: Course = Course {
+    pub(super) const FALLING: BodyMotion = BodyMotion {
         at: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
 
     /// Rest at z = −1, so that the top of a slab is at 0.
-    pub(super) const UNDER: Course = Course {
+    pub(super) const UNDER: BodyMotion = BodyMotion {
         at: DVec3::NEG_Z,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
 
     /// Returns the motion of a body at rest.
     pub(super) fn rest(at: DVec3) -> Self {
-        Course {
+        BodyMotion {
             at,
-            ..Course::STILL
+            ..BodyMotion::STILL
         }
     }
 
     /// Returns a motion in a straight line.
     pub(super) fn straight(at: DVec3, velocity: DVec3) -> Self {
-        Course {
+        BodyMotion {
             at,
             velocity,
-            ..Course::STILL
+            ..BodyMotion::STILL
         }
     }
 
@@ -175,8 +175,8 @@ impl Step {
     /// Adds a query with exactly these numbers; the answer is for a duration of 1.
     pub(super) fn exactly(
         self,
-        a: Course,
-        b: Course,
+        a: BodyMotion,
+        b: BodyMotion,
         expected: Expected,
     ) -> Result<Self, InputError> {
         self.in_world(DQuat::IDENTITY, [a, b], expected)
@@ -185,8 +185,8 @@ impl Step {
     /// Adds the query, and the same one in rotated worlds. The answer has to bear their rounding.
     pub(super) fn turned_too(
         mut self,
-        a: Course,
-        b: Course,
+        a: BodyMotion,
+        b: BodyMotion,
         expected: Expected,
     ) -> Result<Self, InputError> {
         self = self.exactly(a, b, expected)?;
@@ -199,7 +199,7 @@ impl Step {
     fn in_world(
         mut self,
         world: DQuat,
-        [a, b]: [Course; 2],
+        [a, b]: [BodyMotion; 2],
         expected: Expected,
     ) -> Result<Self, InputError> {
         let query = Motions {

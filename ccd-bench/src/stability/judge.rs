@@ -1,7 +1,7 @@
 //! Judges the outcome of a query against its exact answer.
 
 use super::family::{Case, Expected, Step};
-use crate::method::guarded::Asked;
+use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
 use crate::run::contest::{self, Judged, Verdict, is_near, judge_contact};
 use crate::truth::{Referee, Truth};
@@ -11,8 +11,8 @@ const AT_START: f64 = 1e-12;
 
 /// Judges the outcome of a case of a step by the tolerance of the step, or by a higher one that the method states for
 /// its answer. The referee measures distances; it is not asked for the answer.
-pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: &Asked) -> Judged {
-    contest::judge_asked(asked, |reply| judge_reply(step, case, referee, reply))
+pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, outcome: &QueryOutcome) -> Judged {
+    contest::judge_outcome(outcome, |reply| judge_reply(step, case, referee, reply))
 }
 
 fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judged {
@@ -82,12 +82,12 @@ mod tests {
         let family = families().into_iter().find(|f| f.name == family).unwrap();
         let step = (family.make)(family.values[1]).unwrap();
         let [a, b] = step.meshes.each_ref().map(Surface::new);
-        let asked = Asked::Answered {
+        let outcome = QueryOutcome::Answered {
             reply: Reply::new(claim, 1),
             micros: 1.0,
         };
         for case in &step.cases {
-            let judged = judge(&step, case, &Referee::new(&a, &b), &asked);
+            let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
             assert_eq!(judged.verdict, verdict, "{claim:?}");
         }
     }
@@ -114,8 +114,8 @@ mod tests {
             tolerance,
             ..Reply::new(contact(lo - 0.01), 1)
         };
-        let asked = Asked::Answered { reply, micros: 1.0 };
-        let judged = judge(&step, case, &Referee::new(&a, &b), &asked);
+        let outcome = QueryOutcome::Answered { reply, micros: 1.0 };
+        let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
         assert_eq!(judged.verdict, verdict);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::family::{Family, Step, StepError};
 use super::judge::judge;
-use crate::method::guarded::{Asked, Guarded, Programs, Setting};
+use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::rival::is_screw;
 use crate::method::solver::{Claim, Reply};
 use crate::method::{Method, MotionKind};
@@ -198,7 +198,7 @@ impl<'s> Ready<'s> {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
-                let trial = self.trial(method, 0, &Asked::Died, not_started(error)?);
+                let trial = self.trial(method, 0, &QueryOutcome::Died, not_started(error)?);
                 return Ok(vec![Trial { note, ..trial }]);
             }
         };
@@ -206,27 +206,32 @@ impl<'s> Ready<'s> {
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
             if method.motion_kind() == MotionKind::Screw && !is_screw(&case.query) {
-                let trial = self.trial(method, row, &Asked::Died, Judged::plain(Verdict::Refused));
+                let trial = self.trial(
+                    method,
+                    row,
+                    &QueryOutcome::Died,
+                    Judged::plain(Verdict::Refused),
+                );
                 let note = "bodies move along screws only".to_owned();
                 trials.push(Trial { note, ..trial });
                 continue;
             }
-            let asked = guarded.ask(&case.query, PATIENCE)?;
-            let judged = judge(step, case, &Referee::new(a, b), &asked);
-            trials.push(self.trial(method, row, &asked, judged));
-            if asked == Asked::CutOff {
+            let outcome = guarded.ask(&case.query, PATIENCE)?;
+            let judged = judge(step, case, &Referee::new(a, b), &outcome);
+            trials.push(self.trial(method, row, &outcome, judged));
+            if outcome == QueryOutcome::CutOff {
                 break;
             }
         }
         Ok(trials)
     }
 
-    fn trial(&self, method: Method, row: usize, asked: &Asked, judged: Judged) -> Trial {
+    fn trial(&self, method: Method, row: usize, outcome: &QueryOutcome, judged: Judged) -> Trial {
         let silent = Reply::new(Claim::Refused, 0);
-        let (reply, micros) = match asked {
-            Asked::Answered { reply, micros } => (reply, *micros),
-            Asked::CutOff => (&silent, PATIENCE.as_secs_f64() * 1e6),
-            Asked::Died => (&silent, f64::NAN),
+        let (reply, micros) = match outcome {
+            QueryOutcome::Answered { reply, micros } => (reply, *micros),
+            QueryOutcome::CutOff => (&silent, PATIENCE.as_secs_f64() * 1e6),
+            QueryOutcome::Died => (&silent, f64::NAN),
         };
         Trial {
             scene: self.name.to_owned(),

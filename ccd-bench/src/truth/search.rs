@@ -97,9 +97,9 @@ impl<'a> Search<'a> {
         };
         let shortest = SHORTEST * self.duration;
         let mut pending = vec![(whole, Rc::new(vec![roots]))];
-        let mut doubt = Doubt::default();
+        let mut undecided = UndecidedTimes::default();
         while let Some((span, pairs)) = pending.pop() {
-            let Some(span) = span.from(doubt.over) else {
+            let Some(span) = span.from(undecided.over) else {
                 continue;
             };
             let snapshot = self.snapshot(span);
@@ -108,7 +108,7 @@ impl<'a> Search<'a> {
                 Sifted::Left(left) => left,
                 Sifted::Spent => {
                     return Truth::Undecided {
-                        lo: doubt.first.unwrap_or(span.start),
+                        lo: undecided.first.unwrap_or(span.start),
                     };
                 }
             };
@@ -120,13 +120,13 @@ impl<'a> Search<'a> {
                 pending.push((early, left));
                 continue;
             }
-            let lo = *doubt.first.get_or_insert(span.start);
-            if let Some(hi) = self.proof_after(span.start, roots, &left, doubt.met) {
+            let lo = *undecided.first.get_or_insert(span.start);
+            if let Some(hi) = self.proof_after(span.start, roots, &left, undecided.met) {
                 return Truth::Hit { lo, hi };
             }
-            doubt.pass(span, shortest);
+            undecided.pass(span, shortest);
         }
-        match doubt.first {
+        match undecided.first {
             None => Truth::Free,
             Some(lo) => Truth::Graze { lo },
         }
@@ -329,7 +329,7 @@ enum Touch {
 
 /// Times that could neither be excluded nor proven to follow the first contact.
 #[derive(Debug, Default)]
-struct Doubt {
+struct UndecidedTimes {
     /// The first of these times.
     first: Option<f64>,
     /// The end of the time that is skipped.
@@ -338,7 +338,7 @@ struct Doubt {
     met: u32,
 }
 
-impl Doubt {
+impl UndecidedTimes {
     /// Skips time after one of them, with the length doubled each time. Surfaces that slide on each other all the time
     /// are left after about as many steps as the duration has halvings.
     fn pass(&mut self, span: Span, shortest: f64) {

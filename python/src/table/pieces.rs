@@ -24,7 +24,7 @@ pub(crate) enum Piece {
 /// The pieces of a table, in order, until the flag is set.
 pub(crate) struct Pieces<'p> {
     source: Source,
-    pace: &'p Pace,
+    size: &'p PieceSize,
     stop: &'p AtomicBool,
     /// The error of the table after the last piece.
     pub(crate) fault: Option<TableError>,
@@ -43,7 +43,7 @@ enum Source {
 ///
 /// Many rows in one go keep caches warm: with a quarter of them, a table of bunnies takes 1.5 % more time. Towards the
 /// end of a batch pieces get smaller, so that no thread waits long for the others.
-pub(crate) struct Pace {
+pub(crate) struct PieceSize {
     rows: AtomicUsize,
     threads: usize,
 }
@@ -54,15 +54,15 @@ const PIECE: Duration = Duration::from_millis(20);
 /// The maximum number of rows of a piece.
 const MOST_ROWS: usize = 512;
 
-impl Pace {
+impl PieceSize {
     /// Starts with one row.
     pub(crate) fn new(threads: usize) -> Self {
         let rows = AtomicUsize::new(1);
-        Pace { rows, threads }
+        PieceSize { rows, threads }
     }
 
     /// Returns the number of rows of the next piece, out of `left` remaining ones.
-    fn take_of(&self, left: usize) -> usize {
+    fn next_rows(&self, left: usize) -> usize {
         let share = left.div_ceil(2 * self.threads);
         self.rows.load(Ordering::Relaxed).min(share)
     }
@@ -93,7 +93,7 @@ impl<'p> Pieces<'p> {
         (reader, form): (Reader, Form),
         question: Question,
         names: Names,
-        pace: &'p Pace,
+        size: &'p PieceSize,
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
         let source = match form {
@@ -111,7 +111,7 @@ impl<'p> Pieces<'p> {
         };
         Ok(Pieces {
             source,
-            pace,
+            size,
             stop,
             fault: None,
         })
@@ -135,7 +135,7 @@ impl Iterator for Pieces<'_> {
         if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
             return None;
         }
-        let piece = self.source.next(self.pace);
+        let piece = self.source.next(self.size);
         piece.unwrap_or_else(|fault| {
             self.fault = Some(fault);
             None
@@ -145,7 +145,7 @@ impl Iterator for Pieces<'_> {
 
 impl Source {
     /// Returns the next piece, which is empty only for an empty batch.
-    fn next(&mut self, pace: &Pace) -> Result<Option<Piece>, TableError> {
+    fn next(&mut self, size: &PieceSize) -> Result<Option<Piece>, TableError> {
         match self {
             Source::Motions { batches, rest } => {
                 let (batch, rows) = match rest.take() {
@@ -158,7 +158,7 @@ impl Source {
                         None => return Ok(None),
                     },
                 };
-                let end = rows.start + pace.take_of(rows.len());
+                let end = rows.start + size.next_rows(rows.len());
                 *rest = Some((Arc::clone(&batch), end..rows.end));
                 Ok(Some(Piece::Motions(batch, rows.start..end)))
             }

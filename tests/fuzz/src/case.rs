@@ -1,7 +1,7 @@
 //! A query in plain numbers, and its text form.
 
-use crate::course::{Course, Goal, RawPose};
 use crate::nearest::Triangle;
+use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use std::fmt::Write;
 #[derive(Clone, Debug)]
 pub struct Case {
     pub shapes: [Shape; 2],
-    pub courses: [Course; 2],
+    pub courses: [RawMotion; 2],
     pub duration: f64,
     pub config: Settings,
     /// The part of the answer that the generator knows.

@@ -13,12 +13,12 @@
 )]
 
 pub mod case;
-pub mod course;
 pub mod double;
 pub mod engine;
 pub mod judge;
 mod memory;
 pub mod nearest;
+pub mod raw_motion;
 pub mod referee;
 pub mod solid;
 pub mod targets;

@@ -7,9 +7,9 @@
 mod search;
 
 use crate::case::Case;
-use crate::course::{Snapshot, Track};
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
+use crate::raw_motion::{Snapshot, Track};
 use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 

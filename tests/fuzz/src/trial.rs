@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Form, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
-use crate::judge::{Fault, Given, Judge};
+use crate::judge::{Fault, GivenAnswer, Judge};
 use ccd_core::{Outcome, Settings};
 use std::collections::HashMap;
 use std::fmt;
@@ -98,7 +98,7 @@ fn answers<'b>(
     trial: &mut Trial,
     built: &'b [((Kind, Trees), Bodies)],
     asked: Vec<(Kind, Method)>,
-) -> Vec<Given<'b>> {
+) -> Vec<GivenAnswer<'b>> {
     let mut given = Vec::new();
     for (kind, method) in asked {
         let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
@@ -112,7 +112,7 @@ fn answers<'b>(
             }
         };
         match catch_unwind(AssertUnwindSafe(|| method.solve(&problem))) {
-            Ok(answer) => given.push(Given {
+            Ok(answer) => given.push(GivenAnswer {
                 bodies,
                 method,
                 answer,
@@ -124,7 +124,7 @@ fn answers<'b>(
 }
 
 /// Records the faults of the answers.
-fn judge(trial: &mut Trial, given: &[Given<'_>]) {
+fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
     let Some(first) = given.first() else { return };
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
     let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));

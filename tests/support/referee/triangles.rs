@@ -6,7 +6,7 @@ use ccd_core::order::lesser;
 use std::f64::consts::PI;
 
 /// A mesh with its vertices at a time.
-pub(super) struct Posed<'a> {
+pub(super) struct PosedMesh<'a> {
     mesh: &'a Mesh,
     points: Vec<DVec3>,
     faces: Vec<Face>,
@@ -17,7 +17,7 @@ pub(super) struct Posed<'a> {
 /// The number of faces that share a box in the coarser of two levels.
 const GROUP: usize = 8;
 
-impl<'a> Posed<'a> {
+impl<'a> PosedMesh<'a> {
     pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
         let of_face = |face: &[u32; 3]| {
             face.iter()
@@ -26,7 +26,7 @@ impl<'a> Posed<'a> {
         let boxes: Vec<Bounds> = mesh.faces.iter().map(of_face).collect();
         let face = |face: &[u32; 3]| Face::new(face.map(|v| points[v as usize]));
         let group = |some: &[Bounds]| some.iter().fold(Bounds::EMPTY, |all, b| all.union(*b));
-        Posed {
+        PosedMesh {
             mesh,
             faces: mesh.faces.iter().map(face).collect(),
             group_boxes: boxes.chunks(GROUP).map(group).collect(),
@@ -48,7 +48,7 @@ impl<'a> Posed<'a> {
     }
 
     /// Returns the least distance over all pairs of faces; 0 if two intersect.
-    pub(super) fn distance(&self, other: &Posed<'_>) -> f64 {
+    pub(super) fn distance(&self, other: &PosedMesh<'_>) -> f64 {
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (i, a) in self.group_boxes.iter().enumerate() {
             for (j, b) in other.group_boxes.iter().enumerate() {
@@ -66,7 +66,7 @@ impl<'a> Posed<'a> {
         best.sqrt()
     }
 
-    fn group_distance_squared(&self, other: &Posed<'_>, groups: [usize; 2], limit: f64) -> f64 {
+    fn group_distance_squared(&self, other: &PosedMesh<'_>, groups: [usize; 2], limit: f64) -> f64 {
         let mut best = limit;
         for i in members(groups[0], self.boxes.len()) {
             for j in members(groups[1], other.boxes.len()) {

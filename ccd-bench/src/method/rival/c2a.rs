@@ -2,7 +2,7 @@
 
 use super::patience::Patience;
 use super::swept_spheres::{Gap, Leaves, Pair, SphereTree, Trees, Under};
-use super::{Course, Placement};
+use super::{Placement, RivalMotion};
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
@@ -49,7 +49,7 @@ struct Candidate {
 
 /// The results of a descent so far.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct DescentResult {
     /// The distance of the nearest triangles.
     distance: f64,
     /// The nearest triangles.
@@ -59,7 +59,7 @@ struct Found {
 }
 
 /// The placement of the bodies and the limits of a descent.
-struct Look<'a> {
+struct DescentSetup<'a> {
     /// Body B as seen from body A.
     placement: &'a Placement,
     /// The time until the end of the duration.
@@ -71,7 +71,7 @@ struct Look<'a> {
 /// The result of a descent.
 enum Descent {
     /// The descent stopped at pairs that need not be opened.
-    Done(Found),
+    Done(DescentResult),
     /// The descent found triangles within the tolerance.
     Within,
     /// The work limit was reached, or numbers are not finite.
@@ -103,27 +103,27 @@ impl Adjustable for C2a {
 
 impl Solver for C2a {
     fn answer(&mut self, query: &Motions) -> Reply {
-        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+        let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         self.closing.begin(&a, &b);
         let mut pairs_left = self.patience.pairs;
         let mut time = 0.0;
         let mut last = None;
         for steps in 1..=self.patience.steps {
             let frame = a.at(time);
-            let look = Look {
+            let setup = DescentSetup {
                 placement: &b.at(time).seen_from(&frame),
                 remaining: query.duration - time,
                 excess: self.excess(steps, last.as_ref(), query.duration),
             };
             self.closing.look_from(&frame);
-            let found = match self.descend(&look, last.as_ref(), &mut pairs_left) {
+            let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 Descent::Done(found) => found,
                 Descent::Within => return Reply::new(Claim::Contact { time }, steps),
                 Descent::GaveUp => {
                     return Reply::new(Claim::Unresolved { safe_until: time }, steps);
                 }
             };
-            if found.step >= look.remaining {
+            if found.step >= setup.remaining {
                 return Reply::new(Claim::Free, steps);
             }
             let next = time + found.step;
@@ -141,7 +141,7 @@ impl Solver for C2a {
 impl C2a {
     /// Returns the excess allowed in a step, from the number of steps so far and the distance to
     /// contact.
-    fn excess(&self, step: u64, last: Option<&Found>, duration: f64) -> f64 {
+    fn excess(&self, step: u64, last: Option<&DescentResult>, duration: f64) -> f64 {
         /// The number of coarse steps at the start, and their excess.
         const FIRST: (u64, f64) = (3, 3.0);
         /// The number of steps after those, and their excess.
@@ -163,16 +163,21 @@ impl C2a {
     }
 
     /// Descends both trees once, nearest pairs first.
-    fn descend(&mut self, look: &Look<'_>, last: Option<&Found>, pairs_left: &mut u64) -> Descent {
-        let mut found = Found {
+    fn descend(
+        &mut self,
+        setup: &DescentSetup<'_>,
+        last: Option<&DescentResult>,
+        pairs_left: &mut u64,
+    ) -> Descent {
+        let mut found = DescentResult {
             distance: f64::INFINITY,
             nearest: None,
             step: f64::INFINITY,
         };
         if let Some((leaves, pair)) = last.and_then(|last| last.nearest) {
-            self.measure(&mut found, look, leaves, pair);
+            self.measure(&mut found, setup, leaves, pair);
         }
-        let Some(roots) = self.trees.roots(look.placement) else {
+        let Some(roots) = self.trees.roots(setup.placement) else {
             return Descent::Done(found);
         };
         self.pairs.clear();
@@ -185,7 +190,7 @@ impl C2a {
             let Some(candidate) = self.pairs.pop() else {
                 return Descent::Done(found);
             };
-            if candidate.may_stop(&mut found, look) {
+            if candidate.may_stop(&mut found, setup) {
                 continue;
             }
             if *pairs_left == 0 || found.distance.is_nan() {
@@ -194,7 +199,7 @@ impl C2a {
             *pairs_left -= 1;
             match self.trees.under(&candidate.pair) {
                 Under::Triangles(leaves) => {
-                    self.measure(&mut found, look, leaves, candidate.pair);
+                    self.measure(&mut found, setup, leaves, candidate.pair);
                 }
                 Under::Pairs([first, second]) => {
                     let (first, second) = (self.candidate(first), self.candidate(second));
@@ -220,8 +225,14 @@ impl C2a {
     }
 
     /// Measures the distance of two triangles, and the time until they may touch.
-    fn measure(&mut self, found: &mut Found, look: &Look<'_>, leaves: Leaves, pair: Pair) {
-        let between = self.trees.nearest(leaves, look.placement).between();
+    fn measure(
+        &mut self,
+        found: &mut DescentResult,
+        setup: &DescentSetup<'_>,
+        leaves: Leaves,
+        pair: Pair,
+    ) {
+        let between = self.trees.nearest(leaves, setup.placement).between();
         let distance = between.length();
         let gap = Gap {
             distance,
@@ -242,11 +253,11 @@ impl C2a {
 impl Candidate {
     /// Returns true if a pair need not be opened; then its step counts.
     #[inline]
-    fn may_stop(&self, found: &mut Found, look: &Look<'_>) -> bool {
-        if self.step >= lesser(found.step, look.remaining) {
+    fn may_stop(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
+        if self.step >= lesser(found.step, setup.remaining) {
             return true;
         }
-        let far = self.distance * (1.0 + look.excess) >= found.distance;
+        let far = self.distance * (1.0 + setup.excess) >= found.distance;
         if far {
             found.step = self.step;
         }

@@ -8,7 +8,7 @@ mod relative;
 #[cfg(test)]
 mod tests;
 
-use super::Course;
+use super::RivalMotion;
 use super::obb_tree::{Content, Crossing, ObbTree, crossing};
 use super::resolution::resolution;
 use super::screw::screw;
@@ -89,7 +89,7 @@ impl Contact {
 
     /// Returns the first contact for the given motions, which need not be screws.
     fn first_contact(&mut self, query: &Motions) -> Reply {
-        let courses = [Course::new(&query.a), Course::new(&query.b)];
+        let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, self.tolerance);
         let [a, b] = &self.trees;
         let start = courses[0].at(0.0).seen_from(&courses[1].at(0.0));

@@ -1,6 +1,6 @@
 //! A rival that halves time until undirected bounds on the distances at both ends prove each segment free.
 
-use super::Course;
+use super::RivalMotion;
 use super::patience::Patience;
 use super::swept_spheres::{Pair, SphereTree, Trees, Under};
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
@@ -76,8 +76,8 @@ enum LowerBound {
 
 /// The motions of one query, their bounds, and the remaining work.
 struct Task {
-    a: Course,
-    b: Course,
+    a: RivalMotion,
+    b: RivalMotion,
     /// A bound on the relative speed of any two points of the bodies.
     speed: f64,
     /// The earliest time at which the bodies were found to touch.
@@ -112,13 +112,14 @@ impl Adjustable for DynamicChecker {
 
 impl Solver for DynamicChecker {
     fn answer(&mut self, query: &Motions) -> Reply {
-        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
-        let speed = |course: &Course, reach: f64| course.velocity.length() + course.rate * reach;
+        let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
+        let speed =
+            |course: &RivalMotion, reach: f64| course.velocity.length() + course.rate * reach;
         let mut task = Task {
             a,
             b,
-            speed: speed(&a, self.reach_a.about(a.centre, &self.trees.a))
-                + speed(&b, self.reach_b.about(b.centre, &self.trees.b)),
+            speed: speed(&a, self.reach_a.radius_about(a.centre, &self.trees.a))
+                + speed(&b, self.reach_b.radius_about(b.centre, &self.trees.b)),
             met: None,
             steps: 0,
             pairs_left: self.patience.pairs,
@@ -154,7 +155,7 @@ impl DynamicChecker {
         });
         while let Some(segment) = self.segments.pop() {
             task.steps += 1;
-            if let Some(claim) = self.look_at(segment, task) {
+            if let Some(claim) = self.examine(segment, task) {
                 return claim;
             }
         }
@@ -166,7 +167,7 @@ impl DynamicChecker {
     }
 
     /// Drops a free segment, and halves one that may not be free. Returns a claim if the search ends.
-    fn look_at(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
+    fn examine(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
         let Segment {
             from,
             to,
@@ -299,7 +300,7 @@ impl Wanted {
 }
 
 impl Reach {
-    fn about(&mut self, centre: DVec3, tree: &SphereTree) -> f64 {
+    fn radius_about(&mut self, centre: DVec3, tree: &SphereTree) -> f64 {
         match self.0 {
             Some((last, reach)) if last == centre => reach,
             _ => {

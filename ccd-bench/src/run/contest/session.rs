@@ -1,7 +1,7 @@
 //! A method that is ready for queries about a scene.
 
 use super::MOST_PAIRS_FOR_NAIVE;
-use crate::method::guarded::{Asked, Guarded, Programs, Setting};
+use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
 use crate::method::{Method, Ours};
 use crate::scene::Scene;
@@ -133,9 +133,9 @@ impl<'s> Session<'s> {
                 Answered::InTime { reply, micros }
             }
             Runner::Guarded(guarded) => match guarded.ask(query, patience)? {
-                Asked::Answered { reply, micros } => Answered::InTime { reply, micros },
-                Asked::CutOff => Answered::CutOff { patience },
-                Asked::Died => Answered::Died,
+                QueryOutcome::Answered { reply, micros } => Answered::InTime { reply, micros },
+                QueryOutcome::CutOff => Answered::CutOff { patience },
+                QueryOutcome::Died => Answered::Died,
             },
         })
     }

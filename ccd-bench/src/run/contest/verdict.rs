@@ -1,6 +1,6 @@
 //! Judges a claim against the truth.
 
-use crate::method::guarded::Asked;
+use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
@@ -66,11 +66,11 @@ impl Judged {
 }
 
 /// Judges the outcome of a query, with a function for replies.
-pub fn judge_asked(asked: &Asked, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
-    match asked {
-        Asked::Answered { reply, .. } => judge(reply),
-        Asked::CutOff => Judged::plain(Verdict::CutOff),
-        Asked::Died => Judged::plain(Verdict::Died),
+pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
+    match outcome {
+        QueryOutcome::Answered { reply, .. } => judge(reply),
+        QueryOutcome::CutOff => Judged::plain(Verdict::CutOff),
+        QueryOutcome::Died => Judged::plain(Verdict::Died),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Maps of stability, with families as rows and methods as columns: the reach of each method, and the growth of its
 //! cost.
 
-use super::look::COLOURS;
 use super::sheet::{DrawError, INK, MARGIN, Rect, Sheet, TextFormat, Turn, WIDTH, text_width};
+use super::style::COLOURS;
 use super::{ChartError, Drawing, failed};
 use crate::run::contest::Verdict;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -123,7 +123,7 @@ const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
 /// The style of a cell.
-struct Look {
+struct CellStyle {
     fill: RGBColor,
     ink: RGBColor,
     /// Two lines of text.
@@ -142,7 +142,7 @@ impl HeatKind {
 }
 
 impl HeatCell {
-    fn look(&self) -> Look {
+    fn style(&self) -> CellStyle {
         match self {
             HeatCell::Reach {
                 worst,
@@ -150,7 +150,7 @@ impl HeatCell {
                 limit,
             } => {
                 let (fill, word, ink) = look_of(*worst);
-                Look {
+                CellStyle {
                     fill,
                     ink,
                     lines: [word.to_owned(), limit.clone()],
@@ -167,7 +167,7 @@ impl HeatCell {
                     false if factor < 99_999.0 => format!("{factor:.0}"),
                     false => format!("{factor:.0e}"),
                 };
-                Look {
+                CellStyle {
                     fill: GROWN[darkness],
                     ink: if darkness < 2 { INK } else { WHITE },
                     lines: [String::new(), number],
@@ -240,7 +240,7 @@ impl HeatMap {
                 width: self.column() - 1.0,
                 height: ROW - 1.0,
             };
-            draw_cell(sheet, place, &cell.look())?;
+            draw_cell(sheet, place, &cell.style())?;
         }
         Ok(())
     }
@@ -296,23 +296,23 @@ fn wrapped(text: &str, width: f64) -> Vec<String> {
     lines
 }
 
-fn draw_cell(sheet: &Sheet<'_>, place: Rect, look: &Look) -> Result<(), DrawError> {
-    sheet.rect(place, look.fill.filled())?;
+fn draw_cell(sheet: &Sheet<'_>, place: Rect, style: &CellStyle) -> Result<(), DrawError> {
+    sheet.rect(place, style.fill.filled())?;
     let bar = Rect {
         top: place.bottom() - BAR,
-        width: place.width * look.bar,
+        width: place.width * style.bar,
         height: BAR,
         ..place
     };
     sheet.rect(bar, RIGHT.filled())?;
     let format = TextFormat {
         size: SMALLEST,
-        colour: look.ink,
+        colour: style.ink,
         across: HPos::Center,
         ..TextFormat::default()
     };
     let middle = place.left + 0.5 * place.width;
-    for (line, down) in look.lines.iter().zip([5.0, 13.5]) {
+    for (line, down) in style.lines.iter().zip([5.0, 13.5]) {
         sheet.text(line, (middle, place.top + down), format)?;
     }
     Ok(())

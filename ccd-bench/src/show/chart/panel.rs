@@ -1,8 +1,8 @@
 //! A pair of axes with data.
 
 use super::axis::Axis;
-use super::look::{Look, MARKER};
 use super::sheet::{DrawError, FRAME, Pen, RULE, Rect, Sheet, Spot, TEXT, TextFormat, Turn};
+use super::style::{MARKER, MethodStyle};
 use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -83,13 +83,13 @@ impl Panel<'_> {
         &self,
         sheet: &Sheet<'_>,
         points: &[Point],
-        look: &Look,
+        style: &MethodStyle,
     ) -> Result<(), DrawError> {
         let spots: Vec<_> = points.iter().filter_map(|p| self.spot(p.x, p.y)).collect();
         if spots.len() > 1 {
-            sheet.line(&spots, look.pen(1.4))?;
+            sheet.line(&spots, style.pen(1.4))?;
         }
-        self.markers(sheet, points, look)
+        self.markers(sheet, points, style)
     }
 
     /// Draws the markers alone.
@@ -97,13 +97,13 @@ impl Panel<'_> {
         &self,
         sheet: &Sheet<'_>,
         points: &[Point],
-        look: &Look,
+        style: &MethodStyle,
     ) -> Result<(), DrawError> {
         for point in points {
             let Some(spot) = self.spot(point.x, point.y) else {
                 continue;
             };
-            mark(sheet, spot, point.kind, look)?;
+            mark(sheet, spot, point.kind, style)?;
         }
         Ok(())
     }
@@ -193,16 +193,16 @@ pub(super) fn mark(
     sheet: &Sheet<'_>,
     (x, y): Spot,
     kind: Kind,
-    look: &Look,
+    style: &MethodStyle,
 ) -> Result<(), DrawError> {
     if kind == Kind::AtLeast {
         let tip = y - ARROW;
-        let pen = Pen::solid(look.colour, 1.3);
+        let pen = Pen::solid(style.colour, 1.3);
         let head = [(x - 3.0, tip + 4.0), (x, tip), (x + 3.0, tip + 4.0)];
         sheet.line(&[(x, y - MARKER), (x, tip)], pen)?;
         sheet.line(&head, pen)?;
     }
-    sheet.marker((x, y), look)
+    sheet.marker((x, y), style)
 }
 
 /// Returns the style of a panel's remarks.

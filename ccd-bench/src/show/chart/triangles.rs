@@ -60,10 +60,10 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
     };
     let svg = grid.draw(&[""], |sheet, _, panel| {
         name_sizes(sheet, panel, &sizes)?;
-        for (method, look) in &shown {
+        for (method, style) in &shown {
             for shape in shapes(&sizes) {
                 let points = points(charts, method, &sizes, shape);
-                panel.series(sheet, &points, look)?;
+                panel.series(sheet, &points, style)?;
             }
         }
         Ok(())

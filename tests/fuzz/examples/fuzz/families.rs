@@ -12,8 +12,8 @@ mod shells;
 mod turns;
 
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::{RawMotion, RawPose};
 use ccd_core::Settings;
 use clap::ValueEnum;
 
@@ -71,7 +71,7 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Cas
     let course = |draw: &mut Draw, side: f64, at: [f64; 3]| {
         let start = draw.pose(plus(times(half, -side), at));
         let moved = plus(times(half, 2.0 * side), common);
-        Course::velocities(start, moved, spin(draw))
+        RawMotion::velocities(start, moved, spin(draw))
     };
     let courses = [course(draw, 1.0, miss), course(draw, -1.0, [0.0; 3])];
     Case {
@@ -84,8 +84,8 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Cas
 }
 
 /// Returns a body at rest at the origin.
-fn still() -> Course {
-    Course::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
+fn still() -> RawMotion {
+    RawMotion::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
 fn tolerance(draw: &mut Draw) -> Settings {

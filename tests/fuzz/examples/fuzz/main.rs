@@ -21,7 +21,7 @@ mod tally;
 mod trial;
 
 use ccd_fuzz::targets::encode;
-use ccd_fuzz::{case, course, engine, judge, vector};
+use ccd_fuzz::{case, engine, judge, raw_motion, vector};
 use clap::{Parser, ValueEnum};
 use families::Family;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};

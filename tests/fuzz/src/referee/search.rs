@@ -1,9 +1,9 @@
 //! Conservative advancement over all pairs of triangles, in f64, judged in [`Double`].
 
 use super::{Ball, Evidence, Limit, NOISE, Scene};
-use crate::course::Snapshot;
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
+use crate::raw_motion::Snapshot;
 use crate::vector::{Number, larger, smaller};
 
 /// The largest number of steps of one pair, and of all pairs, before the rest is sampled.

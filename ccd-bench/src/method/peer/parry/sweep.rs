@@ -7,7 +7,7 @@
 //! its status is `Hit` or `Failed`, as in the library and in the physics engine on top of it.
 //!
 //! Its sweeps interpolate two quaternions by a normalised mix, the shorter way, which does not turn
-//! at a constant rate. A motion is therefore cut into stretches of equal length. A stretch is short
+//! at a constant rate. A motion is therefore cut into segments of equal length. A segment is short
 //! enough for the mix to stay within a quarter of the tolerance of the motion, and for no body to
 //! travel far beyond the size of the smaller one, which keeps swept boxes small. Unlike in the
 //! library's own composition, boxes are widened by the bulge of the arcs.
@@ -34,7 +34,7 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 use std::f64::consts::FRAC_PI_4;
 
-/// Two meshes to sweep. Steps are the stretches examined.
+/// Two meshes to sweep. Steps are the segments examined.
 #[derive(Clone, Debug)]
 pub struct SweptPairs {
     a: Swept,
@@ -51,7 +51,7 @@ const LARGEST_TURN: f64 = FRAC_PI_4;
 /// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
 const LONGEST_TRAVEL: f64 = 0.5;
 /// The maximum number of segments; longer motions are refused.
-const MOST_STRETCHES: f64 = 65_536.0;
+const MOST_SEGMENTS: f64 = 65_536.0;
 
 impl SweptPairs {
     /// Prepares two meshes.
@@ -67,7 +67,7 @@ impl SweptPairs {
     }
 
     /// Returns the number of segments of a query, or `None` if there are too many.
-    fn stretches(&self, query: &Motions) -> Option<u64> {
+    fn segments(&self, query: &Motions) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
@@ -77,7 +77,7 @@ impl SweptPairs {
         let travel =
             speed * query.duration / (LONGEST_TRAVEL * lesser(self.a.radius, self.b.radius));
         let count = greater(1.0, turns.into_iter().fold(travel, greater).ceil());
-        (count <= MOST_STRETCHES).then_some(count as u64)
+        (count <= MOST_SEGMENTS).then_some(count as u64)
     }
 
     /// Returns the largest rotation of a body in a segment.
@@ -90,8 +90,8 @@ impl SweptPairs {
 
     /// Returns the time in a segment at which triangles first meet, as a fraction of it.
     fn first_hit(&self, query: &Motions, from: f64, to: f64) -> Option<Real> {
-        let a = self.a.stretch(&query.a, from, to);
-        let b = self.b.stretch(&query.b, from, to);
+        let a = self.a.segment(&query.a, from, to);
+        let b = self.b.segment(&query.b, from, to);
         // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
@@ -128,7 +128,7 @@ impl SweptPairs {
 
 impl Solver for SweptPairs {
     fn answer(&mut self, query: &Motions) -> Reply {
-        let Some(count) = self.stretches(query) else {
+        let Some(count) = self.segments(query) else {
             let claim = Claim::Unresolved { safe_until: 0.0 };
             return Reply::new(claim, 0);
         };
@@ -155,7 +155,7 @@ struct Swept {
 }
 
 /// The motion of a body over a segment.
-struct Stretch {
+struct Segment {
     poses: [Pose; 2],
     sweep: Sweep,
     /// The largest distance of the body's points from the straight line between start and end.
@@ -183,10 +183,10 @@ impl Swept {
         low.max(high).length()
     }
 
-    fn stretch(&self, motion: &Motion, from: f64, to: f64) -> Stretch {
+    fn segment(&self, motion: &Motion, from: f64, to: f64) -> Segment {
         let poses = [pose(motion, from), pose(motion, to)];
         let turn = motion.spin().length() * (to - from);
-        Stretch {
+        Segment {
             sweep: Sweep::from_poses(&poses[0], &poses[1], vector(motion.centre())),
             poses,
             // Half of the bound of the second derivative, ρ θ²/8, is for a constant rate. The mix

@@ -1,7 +1,7 @@
 //! Bounds the closing speed of nodes of two moving bodies along a direction.
 
 use crate::method::rival::swept_spheres::{Gap, Pair, SphereTree, Trees};
-use crate::method::rival::{Course, Placement};
+use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
 /// Both motions of a query in the frame of body A at one time, with bounds on the speeds of nodes.
@@ -44,7 +44,7 @@ impl Closing {
     }
 
     /// Sets the motions of a query.
-    pub(super) fn begin(&mut self, a: &Course, b: &Course) {
+    pub(super) fn begin(&mut self, a: &RivalMotion, b: &RivalMotion) {
         self.a.begin(a);
         self.b.begin(b);
         self.velocity_w = a.velocity - b.velocity;
@@ -93,7 +93,7 @@ impl Spin {
         }
     }
 
-    fn begin(&mut self, course: &Course) {
+    fn begin(&mut self, course: &RivalMotion) {
         let axis = course.orientation.transpose() * course.axis;
         self.rate = course.rate;
         if self.motion == 0 || axis != self.axis || course.centre != self.centre {

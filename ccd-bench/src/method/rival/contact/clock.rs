@@ -19,14 +19,14 @@ pub(super) struct Clock {
     relative: Relative,
     resolution: f64,
     most_halvings: u64,
-    placements: Vec<Kept>,
-    rates: Vec<Kept>,
+    placements: Vec<CachedEnclosure>,
+    rates: Vec<CachedEnclosure>,
     /// The number of halvings so far.
     pub(super) halvings: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct CachedEnclosure {
     span: Span,
     enclosure: Enclosure,
 }
@@ -54,7 +54,7 @@ impl Slice {
 impl Clock {
     /// Creates the clock of a motion, with the width and the number at which halving ends.
     pub(super) fn new(relative: Relative, resolution: f64, most_halvings: u64) -> Self {
-        let nothing = Kept {
+        let nothing = CachedEnclosure {
             span: Span {
                 start: f64::NAN,
                 end: f64::NAN,

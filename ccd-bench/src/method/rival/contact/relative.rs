@@ -1,7 +1,7 @@
 //! The relative motion of two bodies: at a time, and enclosed over an interval of time.
 
 use crate::method::rival::interval::{Arc, Interval, IntervalMat, IntervalVec};
-use crate::method::rival::{Course, Placement};
+use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
 /// The motion of the first body in the frame of the second, both about their reference points.
@@ -55,7 +55,7 @@ impl Span {
 
 impl Relative {
     /// Combines two motions; the reference points are given in each body's frame.
-    pub(super) fn new(first: (&Course, DVec3), second: (&Course, DVec3)) -> Self {
+    pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
         // The axes are those of the second body at the start: a body that does not turn then needs
         // no rotation back.
         let axes = second.0.orientation.transpose();
@@ -123,7 +123,7 @@ impl Relative {
 }
 
 impl BodyMotion {
-    fn new(course: &Course, reference: DVec3, axes: DMat3) -> Self {
+    fn new(course: &RivalMotion, reference: DVec3, axes: DMat3) -> Self {
         let axis = axes * course.axis;
         let orientation = axes * course.orientation;
         let still = course.rate == 0.0;

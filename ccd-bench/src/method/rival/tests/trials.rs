@@ -2,7 +2,7 @@
 
 use crate::method::rival::patience::Patience;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
-use crate::method::rival::{Course, Placement};
+use crate::method::rival::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Solver};
 use crate::scene::Shots;
 use crate::scene::model::Model;
@@ -275,7 +275,7 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
     let reach = corners.map(|p| p.length()).fold(0.0, greater);
     let (mut hits, mut free) = (0, 0);
     for query in shots.queries().unwrap() {
-        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+        let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let apart = |time: f64| brute_force.distance(&b.at(time).seen_from(&a.at(time)));
         let until = match rival.answer(&query).claim {
             Claim::Contact { time } => {

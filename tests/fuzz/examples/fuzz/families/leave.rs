@@ -2,8 +2,8 @@
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::StartPolicy;
 
@@ -41,7 +41,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         half_height + gap,
     ];
     let (velocity, spin, expect) = way(draw, gap, config.margin);
-    let mut courses = [still(), Course::velocities(RawPose::at(at), velocity, spin)];
+    let mut courses = [
+        still(),
+        RawMotion::velocities(RawPose::at(at), velocity, spin),
+    ];
     if draw.chance(0.3) {
         // The drift has no upward part, so that the gap is unchanged.
         let by = [draw.within(-1e3..1e3), draw.within(-1e3..1e3), 0.0];

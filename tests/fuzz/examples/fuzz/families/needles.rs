@@ -2,8 +2,8 @@
 
 use super::{pass, still, tolerance};
 use crate::case::{Case, Shape};
-use crate::course::Goal;
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::Goal;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {

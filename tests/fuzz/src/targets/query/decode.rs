@@ -3,8 +3,8 @@
 use super::Question;
 use super::source::Source;
 use crate::case::{Case, Expect, Form, Shape};
-use crate::course::{Course, Goal, RawPose};
 use crate::engine::{Kind, Method};
+use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
 
@@ -210,7 +210,7 @@ fn grid(source: &mut Source<'_>) -> Shape {
     shape
 }
 
-fn course(source: &mut Source<'_>) -> Course {
+fn course(source: &mut Source<'_>) -> RawMotion {
     let flags = source.byte();
     let has = |bit: u8| flags & bit > 0;
     let none = [0.0; 3];
@@ -230,14 +230,14 @@ fn course(source: &mut Source<'_>) -> Course {
             spin: source.numbers_if(has(SPINS), none),
         }
     };
-    Course {
+    RawMotion {
         start,
         goal,
         centre,
     }
 }
 
-fn limit_turn(course: &mut Course, duration: f64) {
+fn limit_turn(course: &mut RawMotion, duration: f64) {
     if let Goal::Velocities { spin, .. } = &mut course.goal {
         let turn = Vector(*spin).length() * duration;
         if turn > MOST_TURN {

@@ -5,7 +5,7 @@ use super::decode::{
 };
 use super::source::{RAW, SIXTEENTHS};
 use crate::case::{Case, Form, Shape};
-use crate::course::{Course, Goal};
+use crate::raw_motion::{Goal, RawMotion};
 use ccd_core::StartPolicy;
 
 /// Returns bytes that decode to the case and to the method with a number from 0 to 14. The budget is only kept if it is
@@ -72,7 +72,7 @@ impl Writer {
         Some(())
     }
 
-    fn course(&mut self, course: &Course) {
+    fn course(&mut self, course: &RawMotion) {
         let goal = match course.goal {
             Goal::Velocities { .. } => MOVES | SPINS,
             Goal::End(_) => ENDS | SPINS,

@@ -14,7 +14,7 @@ use ccd_core::order::lesser;
 const SAMPLES: u32 = 1000;
 
 fn placement(query: &Motions, time: f64) -> Placement {
-    let [a, b] = [query.a, query.b].map(|motion| Course::new(&motion).at(time));
+    let [a, b] = [query.a, query.b].map(|motion| RivalMotion::new(&motion).at(time));
     a.seen_from(&b)
 }
 

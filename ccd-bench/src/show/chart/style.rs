@@ -22,7 +22,7 @@ pub(super) const MARKER: f64 = 4.0;
 
 /// The colour, marker and dash of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Look {
+pub(super) struct MethodStyle {
     pub(super) colour: RGBColor,
     pub(super) marker: Marker,
     pub(super) dash: Option<(f64, f64)>,
@@ -62,10 +62,10 @@ const MARKERS: [Marker; 8] = [
     Marker::Bar,
 ];
 
-/// Returns a style for each method, in their order. Looks within a family differ; families differ by the dash.
-pub(super) fn looks(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) -> Vec<Look> {
+/// Returns a style for each method, in their order. Styles within a family differ; families differ by the dash.
+pub(super) fn styles(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) -> Vec<MethodStyle> {
     let mut taken = [0; 4];
-    let look = |method: &MethodFacts<'_>| {
+    let style = |method: &MethodFacts<'_>| {
         let (family, dash, shift) = match method.family {
             Family::Ours => (0, None, 0),
             Family::Rival => (1, Some((7.0, 4.0)), 1),
@@ -74,17 +74,17 @@ pub(super) fn looks(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) ->
         };
         let number = taken[family];
         taken[family] += 1;
-        Look {
+        MethodStyle {
             colour: COLOURS[(number + shift) % COLOURS.len()],
             marker: MARKERS[(number + 3 * shift) % MARKERS.len()],
             dash,
             fill: fill(method.name),
         }
     };
-    methods.iter().map(look).collect()
+    methods.iter().map(style).collect()
 }
 
-impl Look {
+impl MethodStyle {
     pub(super) fn pen(&self, width: f64) -> Pen {
         Pen {
             dash: self.dash,
@@ -95,19 +95,19 @@ impl Look {
 
 impl Sheet<'_> {
     /// Draws a marker centred at a position.
-    pub(super) fn marker(&self, at: Spot, look: &Look) -> Result<(), DrawError> {
-        let inside = match look.fill {
-            Fill::Solid => look.colour,
+    pub(super) fn marker(&self, at: Spot, style: &MethodStyle) -> Result<(), DrawError> {
+        let inside = match style.fill {
+            Fill::Solid => style.colour,
             Fill::Hollow => WHITE,
         };
-        if look.marker == Marker::Circle {
+        if style.marker == Marker::Circle {
             self.disc(at, MARKER, inside.filled())?;
-            return self.disc(at, MARKER, outline(look.colour));
+            return self.disc(at, MARKER, outline(style.colour));
         }
-        let mut corners = corners(look.marker, at);
+        let mut corners = corners(style.marker, at);
         self.polygon(&corners, inside.to_rgba())?;
         corners.push(corners[0]);
-        self.line(&corners, Pen::solid(look.colour, OUTLINE))
+        self.line(&corners, Pen::solid(style.colour, OUTLINE))
     }
 }
 

@@ -7,7 +7,7 @@ use ccd_core::{InputError, Motion, Pose};
 
 /// A motion in the numbers that the engine receives.
 #[derive(Clone, Copy, Debug)]
-pub struct Course {
+pub struct RawMotion {
     pub start: RawPose,
     pub goal: Goal,
     /// The point of the body that moves in a straight line.
@@ -55,9 +55,9 @@ impl RawPose {
     }
 }
 
-impl Course {
+impl RawMotion {
     pub fn velocities(start: RawPose, linear: [f64; 3], spin: [f64; 3]) -> Self {
-        Course {
+        RawMotion {
             start,
             goal: Goal::Velocities { linear, spin },
             centre: [0.0; 3],

@@ -5,7 +5,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 
 /// A body's motion in the form that the rivals use: its centre moves straight, and the body rotates about it.
 #[derive(Clone, Copy, Debug)]
-pub struct Course {
+pub struct RivalMotion {
     /// The centre of rotation in the body's frame.
     pub centre: DVec3,
     /// The centre at the start.
@@ -29,12 +29,12 @@ pub struct Placement {
     pub translation: DVec3,
 }
 
-impl Course {
+impl RivalMotion {
     /// Converts a motion. Its parameters are read, but no formula is shared.
     pub fn new(motion: &Motion) -> Self {
         let orientation = DMat3::from_quat(motion.start().rotation());
         let rate = motion.spin().length();
-        Course {
+        RivalMotion {
             centre: motion.centre(),
             from: motion.start().translation() + orientation * motion.centre(),
             velocity: motion.velocity(),
