@@ -1,5 +1,5 @@
-//! Times whole queries: schedules and backends on the first rows of each scene. Every answer is
-//! checked against the truth before it is timed.
+//! Benchmarks whole queries: schedules and backends on the first rows of each scene. Every answer is checked against
+//! the truth before it is timed.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench advancement
@@ -22,7 +22,7 @@ use rigid_ccd::command::Progress;
 use settings::settings;
 use std::time::Duration;
 
-/// The number of rows of a scene, spread over it.
+/// The number of rows of a scene, evenly spread.
 const ROWS: usize = 32;
 /// The scenes; each mesh occurs once.
 const SCENES: [&str; 7] = [

@@ -1,4 +1,4 @@
-//! Builds convex hulls with any number of corners.
+//! Builds convex hulls with any number of vertices.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{HullTree, Pieces, Polytope};

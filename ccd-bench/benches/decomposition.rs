@@ -1,5 +1,4 @@
-//! Times how long meshes take to become bodies: the decomposition alone, and everything up to the
-//! first query.
+//! Benchmarks the preparation of bodies: the decomposition of meshes alone, and everything up to the first query.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench decomposition

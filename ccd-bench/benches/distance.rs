@@ -1,5 +1,5 @@
-//! Times the distance of two convex pieces with every backend, over the kind of piece, the
-//! separation and the turn from call to call.
+//! Benchmarks the distance of two convex pieces with every backend, by kind of piece, separation, and rotation between
+//! calls.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench distance
@@ -24,14 +24,14 @@ use std::hint::black_box;
 const POSES: usize = 256;
 
 /// Two pieces of one shape, and the sequence of their poses.
-struct Course {
+struct PoseSequence {
     a: Pieces,
     b: Pieces,
     poses: Vec<Frame>,
     start: Start,
 }
 
-/// The state that a call starts from.
+/// The initial state of a distance call.
 #[derive(Clone, Copy)]
 enum Start {
     /// The result of the call for the previous pose.
@@ -40,14 +40,14 @@ enum Start {
     Cold,
 }
 
-/// The coherence of a sequence: its name, the radians from one pose to the next, the start of a call.
+/// The coherence of a sequence: its name, the radians between poses, and the initial state of a call.
 const COHERENCE: [(&str, f64, Start); 3] = [
     ("close", 0.01, Start::Warm),
     ("apart", 0.3, Start::Warm),
     ("cold", 0.01, Start::Cold),
 ];
 
-/// The distance of the centres beyond the one at which the pieces may touch, in radii.
+/// The distance of the centres beyond the least one at which the pieces cannot touch, in radii.
 const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
 
 fn distances(criterion: &mut Criterion) {
@@ -55,7 +55,7 @@ fn distances(criterion: &mut Criterion) {
     for (shape, a, b) in shapes(&mut rng) {
         for (separation, clearance) in SEPARATIONS {
             for (coherence, turn, start) in COHERENCE {
-                let course = Course {
+                let course = PoseSequence {
                     a: a.clone(),
                     b: b.clone(),
                     poses: poses(&mut rng, clearance, turn),
@@ -104,7 +104,7 @@ fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
 }
 
 /// Returns the sum of the axes of a whole sequence, so that the compiler cannot drop a call.
-fn run<O: DistanceOracle + Default>(course: &Course) -> f64 {
+fn run<O: DistanceOracle + Default>(course: &PoseSequence) -> f64 {
     let mut oracle = O::default();
     let mut cache = O::Cache::default();
     let mut sum = 0.0;
@@ -118,7 +118,7 @@ fn run<O: DistanceOracle + Default>(course: &Course) -> f64 {
     sum
 }
 
-impl Course {
+impl PoseSequence {
     fn pair(&self, b_to_a: Frame) -> PiecePair<'_> {
         PiecePair {
             a: self.a.get(0),
@@ -141,8 +141,8 @@ impl Course {
     }
 }
 
-/// The largest difference allowed between the distances of two backends. It is far above their
-/// rounding at the largest distance here.
+/// The largest allowed difference of two backends' distances. It is far above their rounding at the largest distance
+/// here.
 const ALIKE: f64 = 1e-9;
 
 fn assert_alike(one: &[f64], other: &[f64]) {
@@ -151,7 +151,7 @@ fn assert_alike(one: &[f64], other: &[f64]) {
     }
 }
 
-/// Returns poses that keep turning, with a constant distance of the centres.
+/// Returns poses with a steady rotation and a constant distance of the centres.
 fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     let (way, turn) = (direction(rng), turn * direction(rng));
     let pose = |k: usize| {

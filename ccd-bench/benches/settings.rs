@@ -3,7 +3,7 @@
 use criterion::Criterion;
 use std::time::Duration;
 
-/// Enough for a median. The default takes longer than the calls.
+/// The number of resamples, enough for a median. The default takes longer than the calls.
 const RESAMPLES: usize = 2_000;
 
 /// Returns settings with this number of samples and these times in milliseconds.

@@ -1,5 +1,5 @@
-//! Times the search for extremal corners: a scan of all corners against climbing, cold and warm,
-//! over the size of the piece. The result decides `ccd_core::tuning::CLIMBED_POINTS`.
+//! Benchmarks the search for extremal corners: a scan of all corners, and climbing from a cold and a warm start, by the
+//! size of the piece. The result decides `ccd_core::tuning::CLIMBED_POINTS`.
 //!
 //! `cargo bench -p ccd-bench --bench support`
 

@@ -1,4 +1,4 @@
-//! The cost of every question over that of the first contact, row by row.
+//! The cost of every question relative to that of the first contact, row by row.
 //!
 //! Asks each row for the first contact, for any contact and for the closest approach in turn, several times,
 //! and compares the least times of each row. The verdicts have to agree.
@@ -10,7 +10,7 @@
 use anyhow::{Context, bail, ensure};
 use rigid_ccd::batch::median;
 use rigid_ccd::schedule::{BestFirst, DepthFirst, Schedule};
-use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::table::motions::{MotionTable, Motions};
 use rigid_ccd::{Answer, Body, Direct, InputError, Outcome, Settings, load};
 use std::fs::File;
 use std::io::Write;
@@ -60,7 +60,7 @@ impl Solvers {
     fn row(
         &mut self,
         (a, b): (&Body, &Body),
-        query: &Query,
+        query: &Motions,
         config: &Settings,
         rounds: usize,
     ) -> anyhow::Result<Row> {
@@ -79,7 +79,7 @@ impl Solvers {
     }
 }
 
-/// Returns the outcome and the least time of some calls, after one that is not timed.
+/// Returns the outcome and the least time of several calls, after an untimed one.
 fn least(
     rounds: usize,
     mut call: impl FnMut() -> Result<Answer, InputError>,

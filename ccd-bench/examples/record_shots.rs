@@ -2,7 +2,7 @@
 //! --example record_shots -- ccd-bench/scenes`.
 
 use ccd_bench::scene::{Shots, drops_past_board};
-use rigid_ccd::table::motions::{Query, write};
+use rigid_ccd::table::motions::{Motions, write};
 use std::fs::File;
 use std::path::Path;
 
@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args()
         .nth(1)
         .ok_or("say which folder to write to")?;
-    let put = |name: &str, queries: &[Query]| {
+    let put = |name: &str, queries: &[Motions]| {
         write(File::create(Path::new(&folder).join(name))?, queries)
     };
     put("santa.csv", &drops_past_board(100, 1)?)?;
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let knots = knots().queries()?;
     put("knots.csv", &knots)?;
     // Every tenth row keeps the proportion of both kinds of motion.
-    let few: Vec<Query> = knots.into_iter().step_by(10).collect();
+    let few: Vec<Motions> = knots.into_iter().step_by(10).collect();
     put("small-knots.csv", &few)?;
     Ok(())
 }

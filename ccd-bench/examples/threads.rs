@@ -10,14 +10,14 @@
 
 use anyhow::{Context, bail, ensure};
 use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::table::motions::{MotionTable, Motions};
 use rigid_ccd::{Answer, Body, InputError, ParallelSolver, Solver, load};
 use std::fs::File;
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
-/// The least time of a call on one thread, nearly.
+/// The approximate duration of a call on one thread.
 const CALL: Duration = Duration::from_millis(500);
 
 fn main() -> anyhow::Result<()> {
@@ -33,7 +33,7 @@ fn main() -> anyhow::Result<()> {
     let bodies = (&load(a)?, &load(b)?);
     let table = MotionTable::read(File::open(motions).context("motions")?)?;
     ensure!(table.errors.is_empty(), "the table has bad rows");
-    let once: Vec<&Query> = table.rows.iter().map(|(_, query)| query).collect();
+    let once: Vec<&Motions> = table.rows.iter().map(|(_, query)| query).collect();
     let mut solvers: Vec<ParallelSolver> = (1..=threads)
         .filter_map(NonZeroUsize::new)
         .map(|threads| ParallelSolver::with_threads(threads, Solver::new))
@@ -52,11 +52,11 @@ fn main() -> anyhow::Result<()> {
     print(queries.len(), rates)
 }
 
-/// Answers all queries, and returns the time of that.
+/// Answers all queries, and returns the duration.
 fn answer(
     solver: &mut ParallelSolver,
     (a, b): (&Body, &Body),
-    queries: &[&Query],
+    queries: &[&Motions],
 ) -> Result<(Duration, Vec<Answer>), InputError> {
     let start = Instant::now();
     let answers = solver.map(queries, |solver, query| {
@@ -66,8 +66,8 @@ fn answer(
     Ok((taken, answers.into_iter().collect::<Result<_, _>>()?))
 }
 
-/// Prints the rates on each number of threads, the best and the median of all rounds, and their ratios to
-/// those on one thread.
+/// Prints the rates for each number of threads, the best and the median of all rounds, and their ratios to those of one
+/// thread.
 fn print(queries: usize, mut rates: Vec<Vec<f64>>) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "{queries} queries a call")?;

@@ -64,7 +64,7 @@ pub fn main() -> ExitCode {
     )
 }
 
-/// Prints a table that sums up what was found.
+/// Prints a summary table.
 fn print_summary(table: &TextTable) -> Result<(), CannotWrite> {
     let text = table.for_terminal();
     writeln!(io::stdout(), "{}\n{text}", table.title).map_err(|source| CannotWrite {

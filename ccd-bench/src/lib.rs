@@ -1,4 +1,4 @@
-//! Compares methods: scenes, exact answers, rivals, peers, measurements, charts.
+//! Comparison of methods: scenes, exact answers, rivals, peers, measurements and charts.
 //!
 //! | to … | see |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! The methods that are compared, by name: this project's, published rivals built here, peer libraries.
+//! The methods of the comparison, by name: this project's, published rivals built here, and peer libraries.
 
 pub mod guarded;
 pub mod peer;
@@ -17,7 +17,7 @@ use ccd_core::{InputError, Instructions, Outcome, Settings};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
 use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, Question, ScheduleKind, Solve, SolverKind};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
 /// A method that answers queries.
@@ -115,7 +115,7 @@ impl Method {
         all
     }
 
-    /// Returns FAST as published, whose bound does not hold over a step: its answers may be late.
+    /// Returns FAST as published, whose bound does not hold over a step, so that its answers may be late.
     pub fn published() -> Method {
         let kind = SolverKind {
             schedule: ScheduleKind::Fast,
@@ -125,7 +125,7 @@ impl Method {
         Method::Ours(kind, Pieces::Patches)
     }
 
-    /// Returns the method of a name.
+    /// Returns the method with a name.
     pub fn named(name: &str) -> Option<Method> {
         let hidden = [PeerKind::Hanging, PeerKind::Dying].map(Method::Peer);
         let more = hidden.into_iter().chain(Method::combinations());
@@ -144,7 +144,7 @@ impl Method {
         }
     }
 
-    /// Returns true for the default kind on pieces that it would not choose itself.
+    /// Returns true for the default method on pieces other than its own choice.
     pub fn is_model(self) -> bool {
         match self {
             Method::Ours(kind, pieces) => {
@@ -169,11 +169,11 @@ impl Method {
 }
 
 impl MotionKind {
-    /// Returns the query along this kind of motion.
+    /// Returns the query with motions of this kind.
     ///
     /// # Errors
     /// If a screw's parameters overflow.
-    pub fn of(self, query: Query) -> Result<Query, InputError> {
+    pub fn of(self, query: Motions) -> Result<Motions, InputError> {
         match self {
             MotionKind::Given => Ok(query),
             MotionKind::Screw => screw(&query),
@@ -193,13 +193,13 @@ impl RivalKind {
     }
 }
 
-/// Finds the first contact of two bodies on motions.
+/// Finds the first contact of two bodies with given motions.
 ///
 /// # Errors
 /// A motion or the duration is out of range.
 pub(crate) fn first_contact(
     bodies: Bodies<'_>,
-    query: &Query,
+    query: &Motions,
     settings: &Settings,
     solver: &mut dyn Solve,
 ) -> Result<Answer, InputError> {
@@ -236,8 +236,8 @@ impl Adjustable for Ours<'_> {
 }
 
 impl Solver for Ours<'_> {
-    /// Steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
-    fn answer(&mut self, query: &Query) -> Reply {
+    /// Answers a query; steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
+    fn answer(&mut self, query: &Motions) -> Reply {
         let answer = match first_contact(self.bodies, query, &self.config, self.solver.as_mut()) {
             Ok(answer) => answer,
             // An invalid query is not answered.

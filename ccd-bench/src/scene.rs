@@ -13,7 +13,7 @@ use crate::scene::model::{Model, Origin};
 use ccd_core::{Body, InputError};
 use ccd_decomp::{BodyError, Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::batch::Bodies;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -30,13 +30,13 @@ pub struct Scene {
     /// Body B.
     pub b: SceneBody,
     /// Their motions.
-    pub queries: Vec<Query>,
+    pub queries: Vec<Motions>,
 }
 
 /// A body of a scene, shared between scenes.
 #[derive(Clone, Debug)]
 pub struct SceneBody {
-    /// The body, of the fewest pieces that are exact.
+    /// The body, made of the fewest exact pieces.
     pub body: Arc<Body>,
     /// The origin of its mesh.
     pub origin: Origin,
@@ -44,7 +44,7 @@ pub struct SceneBody {
     others: Arc<Others>,
 }
 
-/// The same body of other pieces. Each is made on first use; `None` if it cannot be made.
+/// The same body made of other pieces. Each is made on first use; `None` if it cannot be made.
 #[derive(Debug, Default)]
 struct Others {
     triangles: OnceLock<Option<Body>>,
@@ -52,17 +52,17 @@ struct Others {
     hulls: OnceLock<Option<Body>>,
 }
 
-/// The kind of pieces that a body of a scene is made of.
+/// The kind of pieces of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pieces {
-    /// The fewest pieces that are exact.
+    /// The fewest exact pieces.
     #[default]
     Least,
     /// One piece per triangle.
     Triangles,
     /// Patches of the surface under a hull tree, as in the paper.
     Patches,
-    /// Convex hulls of parts, which extend beyond the body.
+    /// Convex hulls of parts, which may extend beyond the body.
     ApproximateHulls,
 }
 
@@ -173,7 +173,7 @@ impl Scene {
         })
     }
 
-    /// Returns the number of pairs of pieces, which a schedule without a tree has to process.
+    /// Returns the number of pairs of pieces, all of which a schedule without a tree processes.
     pub fn pairs(&self) -> u64 {
         self.a.body.pieces().len() as u64 * self.b.body.pieces().len() as u64
     }

@@ -1,4 +1,4 @@
-//! Stability: families of scenes that get harder step by step, and how far each method follows.
+//! Stability: families of scenes that get harder step by step, and the reach of each method.
 //!
 //! | to … | see |
 //! |---|---|

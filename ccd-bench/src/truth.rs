@@ -28,7 +28,7 @@ mod triangle;
 pub use surface::Surface;
 pub use table::{TRUTH_COLUMNS, TruthRow, read_truths, write_truths};
 
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use search::Search;
 
 /// The proven facts about a query; times are from 0 to the duration.
@@ -38,20 +38,20 @@ pub enum Truth {
     Hit {
         /// The time just before the first contact, usually by less than 1e-13 of the duration.
         lo: f64,
-        /// The time just after it.
+        /// The time just after the first contact.
         hi: f64,
     },
-    /// They share no point at any time.
+    /// The surfaces share no point at any time.
     Free,
-    /// They share a point at the start, or cannot be separated there in floating point.
+    /// The surfaces share a point at the start, or cannot be separated there in floating point.
     Start,
-    /// They share no point before `lo`, cannot be separated at `lo`, and no proof of contact was
-    /// found then or later: they touch without intersecting, or nearly touch.
+    /// The surfaces share no point before `lo`, cannot be separated at `lo`, and no proof of contact was found then or
+    /// later: they touch without intersecting, or nearly touch.
     Graze {
-        /// The time at which they first come that near.
+        /// The first time at which the surfaces come that near.
         lo: f64,
     },
-    /// They share no point before `lo`; the work limit of a query was reached.
+    /// The surfaces share no point before `lo`; the work limit of a query was reached.
     Undecided {
         /// The end of the proven time.
         lo: f64,
@@ -67,12 +67,12 @@ pub struct Bracket {
     pub upper: f64,
 }
 
-/// Judges queries about two surfaces.
+/// A referee that decides queries about two surfaces.
 #[derive(Clone, Copy, Debug)]
 pub struct Referee<'a> {
     a: &'a Surface,
     b: &'a Surface,
-    /// The most tests of pairs for a query.
+    /// The maximum number of tests of pairs for a query.
     tests: u64,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Referee<'a> {
         }
     }
 
-    /// Limits the tests of pairs for a query; one that needs more is [`Truth::Undecided`], or its distance is
+    /// Limits the tests of pairs for a query. A query that needs more is [`Truth::Undecided`], or its distance is
     /// bracketed less closely.
     #[must_use]
     pub fn within(self, tests: u64) -> Self {
@@ -109,7 +109,7 @@ impl<'a> Referee<'a> {
     /// # Complexity
     /// The pairs of triangles near each other before the first contact, times some 46 halvings, up
     /// to a fixed number of tests.
-    pub fn first_contact(&self, query: &Query) -> Truth {
+    pub fn first_contact(&self, query: &Motions) -> Truth {
         Search::new(self, query).run()
     }
 
@@ -119,7 +119,7 @@ impl<'a> Referee<'a> {
     /// The exact distance, for the motion of [`Referee::first_contact`], lies in the bracket. It is
     /// 0 if the surfaces intersect, within the width of the bracket, and infinite for a body
     /// without triangles.
-    pub fn distance(&self, query: &Query, time: f64) -> Bracket {
+    pub fn distance(&self, query: &Motions, time: f64) -> Bracket {
         gap::distance(Search::new(self, query), time)
     }
 }

@@ -1,4 +1,4 @@
-//! Answers, as what the package makes of them: `_answers.py` has their classes.
+//! Conversion of answers to the package's classes: `_answers.py` has their classes.
 
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -27,7 +27,7 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
     ))
 }
 
-/// Makes a `Distance`, which says how it compares to a clearance.
+/// Makes a `Distance`, including its comparison with a clearance.
 pub(crate) fn distance<'py>(
     py: Python<'py>,
     found: &Outcome,

@@ -1,10 +1,10 @@
-//! Arrays, by NumPy's own rules.
+//! Reading and making NumPy arrays, with NumPy's conversion rules.
 
 use crate::errors::{caused, input};
 use numpy::{PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-/// Reads rows of `N` numbers, from whatever NumPy makes an array of.
+/// Reads rows of `N` numbers from anything that NumPy can convert to an array.
 pub(crate) fn rows<const N: usize>(
     values: &Bound<'_, PyAny>,
     what: &str,
@@ -66,7 +66,7 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
         .map_err(|_| input(format!("{what}: {N} numbers are needed, not {length}")))
 }
 
-/// Reads any number of numbers.
+/// Reads a list of numbers of any length.
 pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
     let array = floats(values, what)?;
     array
@@ -75,7 +75,7 @@ pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec
         .extract()
 }
 
-/// Reads any number of whole numbers.
+/// Reads a list of whole numbers of any length.
 pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
     let given = plain(values, what)?;
     let (kind, size) = (kind(&given)?, given.getattr("size")?.extract::<usize>()?);
@@ -89,7 +89,7 @@ pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64
         .extract()
 }
 
-/// Reads numbers of rows, or an array of bool that has one for each.
+/// Reads row indices, or a boolean array with one element per row.
 pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
     let given = plain(rows, "rows")?;
     if kind(&given)? != 'b' {
@@ -111,12 +111,12 @@ pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
     usize::try_from(value).map_err(|_| input(format!("{what} is {value}, but must be at least 0")))
 }
 
-/// Returns the shape of what NumPy makes of some values.
+/// Returns the shape of the array that NumPy makes of some values.
 pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize>> {
     plain(values, what)?.getattr("shape")?.extract()
 }
 
-/// Makes an array of values, of the type that they have.
+/// Makes an array of values, with the values' own type.
 pub(crate) fn plain<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let py = values.py();
     let numpy = py.import("numpy")?;
@@ -130,12 +130,12 @@ pub(crate) fn plain<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bou
     array.map_err(|error| caused(py, what, error))
 }
 
-/// Returns the kind of an array's type, as NumPy abbreviates it.
+/// Returns NumPy's one-letter code for the kind of an array's type.
 pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Makes an array of float64 of numbers.
+/// Makes a float64 array.
 fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let given = plain(values, what)?;
     match kind(&given)? {

@@ -33,11 +33,11 @@ use std::path::{Path, PathBuf};
 #[pyclass(name = "Body", module = "rigid_ccd", frozen)]
 pub(crate) struct PyBody {
     pub(crate) body: Body,
-    /// The largest side of the box about it.
+    /// The largest side of the bounding box.
     size: f64,
     made: Made,
     #[pyo3(get)]
-    /// What was found about the mesh, in words.
+    /// The message about the mesh.
     report: String,
     #[pyo3(get)]
     /// How far the body may exceed what it was made of: contacts may be early by that, never late, and upper bounds of
@@ -45,15 +45,15 @@ pub(crate) struct PyBody {
     sticks_out: f64,
 }
 
-/// What a body can be made of again: by pickle, in another process.
+/// The data from which pickle makes the body again.
 enum Made {
     Shape(Shape),
-    /// By the name of the method.
+    /// A round shape, by the name of its constructor.
     Round(&'static str, RoundSizes),
     Mesh(Box<Model>),
 }
 
-/// A body that is no mesh.
+/// A body that is not a mesh.
 #[derive(Clone, Copy)]
 enum Shape {
     Box([f64; 3]),
@@ -64,7 +64,7 @@ enum Shape {
 /// Radius, half height and allowed excess of a cylinder or a cone.
 type RoundSizes = (f64, f64, Option<f64>);
 
-/// Takes a body that Python passes.
+/// Extracts a `Body` from a Python argument; `what` names it in errors.
 pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
     let needed = "a Body, as Body.from_file or Body.from_trimesh makes it,";
     match given.cast::<PyBody>() {
@@ -73,7 +73,7 @@ pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&
     }
 }
 
-/// Warns of a tolerance that is large against the smaller of two bodies.
+/// Warns if the tolerance is large relative to the smaller of two bodies.
 pub(crate) fn warn_of_tolerance(
     bodies: [&Bound<'_, PyAny>; 2],
     tolerance: f64,
@@ -182,7 +182,7 @@ impl PyBody {
         })
     }
 
-    /// Takes a mesh of trimesh, or whatever has `vertices` and `faces`.
+    /// Makes a body of a trimesh mesh, or of any object with `vertices` and `faces`.
     #[classmethod]
     #[pyo3(signature = (mesh, *, pieces = "auto", surface = false))]
     fn from_trimesh(
@@ -226,7 +226,7 @@ impl PyBody {
         PyBody::simple(Shape::Capsule(radius, half_height), report)
     }
 
-    /// Makes a cylinder along z, a polytope about it: `sticks_out` tells by how much it exceeds the cylinder.
+    /// Makes a cylinder along z, as a polytope around it: `sticks_out` tells by how much it exceeds the cylinder.
     ///
     /// Args:
     ///     radius: its radius.
@@ -244,7 +244,7 @@ impl PyBody {
         PyBody::round("cylinder", &round, (radius, half_height, excess))
     }
 
-    /// Makes a cone along z, whose apex is up: a polytope about it, as of `Body.cylinder`.
+    /// Makes a cone along z with its apex up, as a polytope around it, like `Body.cylinder`.
     ///
     /// Args:
     ///     radius: the radius of its base.
@@ -262,7 +262,7 @@ impl PyBody {
         PyBody::round("cone", &round, (radius, half_height, excess))
     }
 
-    /// Whether the body fills what it bounds.
+    /// Whether the inside of the body is solid.
     #[getter]
     fn is_solid(&self) -> bool {
         self.body.volume() == Volume::Solid
@@ -274,7 +274,7 @@ impl PyBody {
         self.body.pieces().len()
     }
 
-    /// Writes the body as it was prepared: `Body.from_file` reads it back much faster than a mesh.
+    /// Writes the prepared body: `Body.from_file` reads it back much faster than a mesh.
     ///
     /// Args:
     ///     path: by convention it ends in .ccd.
@@ -312,7 +312,7 @@ impl PyBody {
         })
     }
 
-    /// Makes a body of what pickle has kept of it.
+    /// Makes a body from its pickled form.
     #[classmethod]
     fn _from_bytes(class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
         class
@@ -380,7 +380,7 @@ impl PyBody {
     }
 }
 
-/// Returns whether a file holds a prepared body, by its extension.
+/// Returns whether a file is a prepared body, by its extension.
 fn is_stored(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_EXTENSION)

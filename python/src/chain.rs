@@ -1,4 +1,4 @@
-//! Serial chains: the links of an arm.
+//! Serial chains, such as robot arms.
 
 use crate::arrays::{any_numbers, finite, index, numbers};
 use crate::errors::{input, warn};
@@ -17,7 +17,7 @@ pub(crate) struct PyJoint {
     limits: Option<[f64; 2]>,
 }
 
-/// The freedom of a joint, with its axis.
+/// The degree of freedom of a joint, with its axis.
 #[derive(Clone, Copy)]
 enum Kind {
     Revolute([f64; 3]),
@@ -27,7 +27,7 @@ enum Kind {
 
 #[pymethods]
 impl PyJoint {
-    /// A joint that turns about an axis; its position is an angle in radians.
+    /// A joint that rotates about an axis; its position is an angle in radians.
     ///
     /// Args:
     ///     origin: the pose of the joint's frame in that of the link before it, as `Motion.between` takes poses.
@@ -56,7 +56,7 @@ impl PyJoint {
         PyJoint::of(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
     }
 
-    /// A joint without a freedom. It has a position all the same, which does not matter.
+    /// A joint without a degree of freedom. It has a position all the same, which does not matter.
     #[classmethod]
     fn fixed(_class: &Bound<'_, PyType>, origin: &Bound<'_, PyAny>) -> PyResult<Self> {
         PyJoint::of(Kind::Fixed, origin, None)
@@ -141,7 +141,7 @@ impl PyJoint {
     }
 }
 
-/// A serial chain of links, as of an arm: joint k connects link k to link k + 1, and link 0 is the base.
+/// A serial chain of links, such as an arm: joint k connects link k to link k + 1, and link 0 is the base.
 ///
 /// Args:
 ///     joints: in order from the base.
@@ -159,7 +159,7 @@ impl PyJoint {
 #[pyclass(name = "Chain", module = "rigid_ccd", frozen)]
 pub(crate) struct PyChain {
     chain: Chain,
-    /// What the chain is made of again.
+    /// The joints, kept for pickle.
     joints: Vec<Py<PyJoint>>,
     base: GivenPose,
 }
@@ -207,7 +207,7 @@ impl PyChain {
         self.chain.joints().len()
     }
 
-    /// The pose of a link at some positions of the joints, as a matrix of shape (4, 4).
+    /// The pose of a link for given positions of the joints, as a matrix of shape (4, 4).
     fn pose<'py>(
         &self,
         py: Python<'py>,
@@ -219,7 +219,8 @@ impl PyChain {
         Ok(matrix_of(py, &pose.map_err(input)?))
     }
 
-    /// A link while each joint goes from its position in start to that in end, at a constant rate: an edge of a planner.
+    /// A link while each joint goes from its position in start to that in end, at a constant rate: an edge of a
+    /// planner.
     ///
     /// It stands for a `Motion` in all queries: the proof is about the link's own curve, not about steps of it.
     ///
@@ -259,7 +260,7 @@ impl PyChain {
     }
 }
 
-/// The joints of a chain, and its base.
+/// The pickled form of a chain: its joints and its base.
 type ChainParts = (Vec<Py<PyJoint>>, GivenPose);
 
 /// A moving link of a `Chain`; `Chain.link` makes it.
@@ -278,7 +279,7 @@ pub(crate) struct PyLink {
 
 #[pymethods]
 impl PyLink {
-    /// The same link in the frame of another, nearer to the base: ask about it against that link's body at rest.
+    /// The same link in the frame of another one, nearer to the base: query it against that link's body at rest.
     ///
     /// Witnesses and normals are in that frame, too: `chain.pose(other, ...)` takes them to the world.
     fn seen_from(&self, py: Python<'_>, link: i64) -> PyResult<Self> {
@@ -315,7 +316,7 @@ impl PyLink {
         Ok((make, parts.into_pyobject(slf.py())?))
     }
 
-    /// Makes a link of what pickle has kept of it.
+    /// Makes a link from its pickled form.
     #[classmethod]
     fn _of(
         _class: &Bound<'_, PyType>,
@@ -348,7 +349,7 @@ impl PyLink {
 }
 
 impl PyLink {
-    /// Refuses positions that the chain cannot have.
+    /// Refuses positions outside the joints' limits.
     fn checked(self) -> PyResult<Self> {
         let joints = self.chain.get().chain.joints().len();
         for (what, positions) in [("start", &self.start), ("end", &self.end)] {

@@ -30,7 +30,7 @@ pyo3::create_exception!(
     "Ctrl-C ended a table. Attribute `results`: the rows answered by then, from the first on."
 );
 
-/// Adds the exceptions to the module, with the attributes that some of them lack.
+/// Adds the exceptions to the module, with the missing attributes of some.
 pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     let classes = [
@@ -51,35 +51,35 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     Ok(())
 }
 
-/// Does work of libraries that panic on what some table or array holds: that is an `InputError`.
+/// Runs code of libraries that panic on some tables or arrays, and converts a panic to an `InputError`.
 ///
 /// A panic would be an exception that `except Exception` does not catch.
 pub(crate) fn guarded<T>(what: &str, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     let done = catch_unwind(AssertUnwindSafe(work));
-    done.unwrap_or_else(|panic| Err(input(format!("{what}: {}", said(panic.as_ref())))))
+    done.unwrap_or_else(|panic| Err(input(format!("{what}: {}", panic_message(panic.as_ref())))))
 }
 
-/// Makes a `RuntimeError` of a panic that no input is known to cause.
+/// Converts a panic with no known input as its cause to a `RuntimeError`.
 pub(crate) fn fault(panic: &(dyn Any + Send)) -> PyErr {
     PyRuntimeError::new_err(format!(
         "a fault of rigid_ccd, please report it: {}",
-        said(panic)
+        panic_message(panic)
     ))
 }
 
 /// Returns the message of a panic.
-fn said(panic: &(dyn Any + Send)) -> &str {
+fn panic_message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
     text.unwrap_or("it is not supported")
 }
 
-/// Turns an error of the library into an `InputError`.
+/// Converts an error of the library to an `InputError`.
 pub(crate) fn input(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
 }
 
-/// Turns what is wrong with a table into an exception.
+/// Converts an error of a table to an exception.
 ///
 /// A stream hands over the text of an exception, not the exception: that of Ctrl-C stays what it is.
 pub(crate) fn of_table(error: impl Display) -> PyErr {
@@ -93,7 +93,7 @@ pub(crate) fn of_table(error: impl Display) -> PyErr {
     }
 }
 
-/// Turns an exception of somebody else into an `InputError`, with it as the cause. Those that are to end the program,
+/// Converts another exception to an `InputError`, with the exception as its cause. Those that are to end the program,
 /// such as that of Ctrl-C, stay what they are.
 pub(crate) fn caused(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) {
@@ -104,7 +104,7 @@ pub(crate) fn caused(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
     error
 }
 
-/// Turns an error of a file into an `OSError` of its kind, with its number and the file.
+/// Converts an error of a file to an `OSError` of the same kind, with its number and the file.
 pub(crate) fn of_file(error: &std::io::Error, path: &std::path::Path) -> PyErr {
     match error.raw_os_error() {
         // OSError chooses the class by the number.
@@ -121,14 +121,14 @@ pub(crate) fn of_file(error: &std::io::Error, path: &std::path::Path) -> PyErr {
     }
 }
 
-/// Makes an `Unresolved` of a question about contacts.
+/// Makes an `Unresolved` for a question about contacts.
 pub(crate) fn unresolved(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
     let (advice, safe_until) = (known.limit.advice(), known.safe_until);
     let error = Unresolved::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
-/// Makes an `Unresolved` of a question about a distance.
+/// Makes an `Unresolved` for a question about a distance.
 pub(crate) fn unresolved_distance(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
     let error = Unresolved::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
@@ -136,8 +136,8 @@ pub(crate) fn unresolved_distance(py: Python<'_>, known: &rigid_ccd::Unresolved)
     with_attribute(py, error, "upper", upper)
 }
 
-/// Makes an `Interrupted` of Ctrl-C; other exceptions of a signal, or of a callback, stay what they are. Either has
-/// what is done.
+/// Converts a Ctrl-C to an `Interrupted`; other exceptions of a signal or a callback are unchanged. Either has what is
+/// done.
 pub(crate) fn interrupted<'py>(
     py: Python<'py>,
     cause: PyErr,
@@ -153,8 +153,8 @@ pub(crate) fn interrupted<'py>(
     with_attribute(py, error, "results", results)
 }
 
-/// Warns of what is valid, and hardly what is meant. The warning is about the line of Python that is so many calls up;
-/// Python shows one of each text for a line, so that numbers would make it many.
+/// Warns of input that is valid, but probably a mistake. The warning is about the line of Python that is so many calls
+/// up; Python shows one of each text for a line, so that numbers would make it many.
 pub(crate) fn warn(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = Remark>,
@@ -167,7 +167,7 @@ pub(crate) fn warn(
     Ok(())
 }
 
-/// Says that an object is of the wrong type.
+/// Makes the error of an object with the wrong type.
 pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type();
     let name = kind

@@ -1,4 +1,4 @@
-//! Motions, and the forms that poses and rotations come in.
+//! Motions, and the accepted forms of poses and rotations.
 
 use crate::arrays::{finite, shape};
 use crate::errors::{input, warn};
@@ -7,8 +7,8 @@ use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose, Remark};
 
-/// How far a rotation matrix may be from orthonormal: matrices of float32 that come from a few products are this far
-/// off. The rotation is that of the quaternion that fits it.
+/// The allowed deviation of a rotation matrix from orthonormal: a few products in float32 reach it. The rotation is
+/// that of the quaternion that fits it.
 const ORTHONORMAL: f64 = 1e-5;
 
 /// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
@@ -29,7 +29,7 @@ pub(crate) struct PyMotion {
     made: Made,
 }
 
-/// What a motion is made of again, to the same bits: by pickle, in another process.
+/// The data from which pickle makes the motion again, to the same bits.
 enum Made {
     Moving {
         start: GivenPose,
@@ -69,7 +69,7 @@ impl PyMotion {
         })
     }
 
-    /// Makes the motion of a body that rests at a pose, which `Motion.between` describes.
+    /// Makes the motion of a body at rest; the pose has the forms of `Motion.between`.
     #[classmethod]
     fn still(_class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
         PyMotion::of(Made::Moving {
@@ -80,7 +80,8 @@ impl PyMotion {
         })
     }
 
-    /// Makes the motion from one pose to another: the centre moves in a straight line, the body turns the shortest way.
+    /// Makes the motion from one pose to another: the centre moves in a straight line, and the body rotates the
+    /// shortest way.
     ///
     /// A pose is a matrix of shape (4, 4), or a pair of a position and a rotation as `Motion` takes them.
     #[classmethod]
@@ -165,7 +166,7 @@ impl PyMotion {
     }
 }
 
-/// A position and an orientation that is not normalised yet: a normalised one might change when it is normalised again.
+/// A position and an orientation before normalisation, which may change even a normalised quaternion.
 #[derive(Clone, Copy)]
 pub(crate) struct GivenPose([f64; 3], DQuat);
 
@@ -178,7 +179,7 @@ impl GivenPose {
     }
 }
 
-/// A position and a quaternion, as Python takes them.
+/// Converts a pose to a position and a quaternion in Python.
 impl<'py> IntoPyObject<'py> for GivenPose {
     type Target = PyTuple;
     type Output = Bound<'py, PyTuple>;
@@ -194,7 +195,7 @@ fn wxyz(rotation: DQuat) -> [f64; 4] {
     [w, x, y, z]
 }
 
-/// Makes a matrix of shape (4, 4) of a pose.
+/// Converts a pose to a matrix of shape (4, 4).
 pub(crate) fn matrix_of<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::PyArray2<f64>> {
     let (turned, place) = (DMat3::from_quat(pose.rotation()), pose.translation());
     let row = |k: usize| {
@@ -256,7 +257,7 @@ pub(crate) fn pose_of(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
     given_pose(value, what)?.pose(what)
 }
 
-/// Reads a pose as it is given.
+/// Reads a pose without normalising it.
 pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(finite(&place, what)?, rotation_of(&turned)?));

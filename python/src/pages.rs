@@ -1,10 +1,10 @@
-//! Pages of rows: what `ccd view` shows.
+//! Pages of rows, as `ccd view` writes them.
 
 use crate::body::body_of;
 use crate::errors::{input as refuse, of_file};
 use crate::polled::polled;
 use crate::settings::{OF_CONTACTS, read};
-use crate::table::answering::{Asked, Micros, each};
+use crate::table::answering::{Micros, TableQuestion, each};
 use crate::table::input::{self, Reader};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Writes a page for each of some rows of a table of motions, by their numbers; `rigid_ccd.audit` calls it.
+/// Writes a page for each of some rows of a table of motions, by their indices; called by `rigid_ccd.audit`.
 #[pyfunction]
 #[pyo3(signature = (a, b, motions, rows, folder, **settings))]
 pub(crate) fn write_pages(
@@ -29,7 +29,7 @@ pub(crate) fn write_pages(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<PathBuf>> {
     let settings = read(settings, OF_CONTACTS)?;
-    let asked = Asked {
+    let asked = TableQuestion {
         bodies: Bodies {
             a: body_of(a, "a")?,
             b: body_of(b, "b")?,
@@ -53,9 +53,9 @@ enum Fault {
     Page(PagesError),
 }
 
-/// Writes a page for each of some rows of a table into a folder; returns their paths, in the order of the rows.
+/// Writes a page for each of some rows of a table into a folder; returns the pages' paths, in the order of the rows.
 fn write(
-    asked: Asked<'_>,
+    asked: TableQuestion<'_>,
     reader: Reader,
     rows: &HashSet<usize>,
     folder: &Path,

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 use rigid_ccd::trajectory::{Poses, Trajectory};
 
-/// A path through poses at given times: of a planner, or of a simulator's log.
+/// A path through poses at given times, for example from a planner or a simulator's log.
 ///
 /// From one pose to the next, the center moves in a straight line, and the body turns about it the shortest way. It rests
 /// before the first time and after the last. With spins, it turns by any number of turns.
@@ -30,7 +30,7 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 #[pyclass(name = "Path", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
     pub(crate) poses: Poses,
-    /// What a path is made of again.
+    /// The arguments, kept for pickle.
     made: Parts,
 }
 

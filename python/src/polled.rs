@@ -1,4 +1,4 @@
-//! Long work without the GIL, which Ctrl-C ends.
+//! Long work without the GIL, which Ctrl-C can interrupt.
 
 use crate::errors::fault;
 use pyo3::exceptions::PyRuntimeError;
@@ -9,10 +9,10 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// The time between two looks at signals: a tenth of what a person notices.
-const LOOK: Duration = Duration::from_millis(20);
+/// The interval between two checks for signals.
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Does work on a thread of its own, without the GIL, and returns its result.
+/// Runs work on its own thread, without the GIL, and returns the result.
 ///
 /// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
 /// soon; it comes back beside the result. Without a thread to spare, or after a panic, there is an exception alone.
@@ -37,7 +37,7 @@ pub(crate) fn polled<T: Send>(
                 PyRuntimeError::new_err(format!("no thread can be started: {error}"))
             })?;
             let mut seen = Ok(());
-            while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(LOOK) {
+            while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(POLL_INTERVAL) {
                 if seen.is_ok() {
                     seen = Python::attach(|py| py.check_signals().and_then(|()| look(py)));
                     stop.store(seen.is_err(), Ordering::Relaxed);

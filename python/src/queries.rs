@@ -1,10 +1,10 @@
-//! One query at a time.
+//! Single queries.
 
 use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
-use crate::course::{Course, Pair};
 use crate::errors::{fault, input, unresolved, unresolved_distance, warn};
 use crate::motion::pose_of;
+use crate::movement::{GivenMovement, Pair};
 use crate::polled::polled;
 use crate::settings::{OF_APPROACHES, OF_CONTACTS, OF_DISTANCES, read};
 use pyo3::prelude::*;
@@ -15,22 +15,22 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The work of about a tenth of a second. A query with more to do is asked again on a thread of its own, while this one
-/// looks for Ctrl-C.
+/// The budget of about a tenth of a second of work. A query with more to do is asked again on a thread of its own,
+/// while this one looks for Ctrl-C.
 const SHORT: u64 = 100_000;
 
-/// The time of that, as a path has a budget for each of its parts.
+/// The deadline of a first attempt, since a path has a budget for each of its segments.
 const MOMENT: Duration = Duration::from_millis(200);
 
 thread_local! {
-    /// The solver of this thread, which keeps its memory from query to query. A panic leaves a new one.
+    /// The solver of this thread, whose memory is reused from query to query. A panic leaves a new one.
     static SOLVER: Cell<Solver> = Cell::new(Solver::new());
 }
 
-/// Asks a solver, without the GIL. Ctrl-C ends it.
+/// Runs a query, without the GIL. Ctrl-C ends it.
 ///
 /// `farther` compares what two answers without a result prove: the larger number is the better bound.
-fn ask(
+fn run(
     py: Python<'_>,
     settings: Settings,
     farther: impl Fn(&Unresolved) -> f64,
@@ -86,13 +86,13 @@ fn ask(
     })
 }
 
-/// Asks a question about contacts.
+/// Runs a query about contacts.
 fn contact(
     py: Python<'_>,
     settings: Settings,
     question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
 ) -> PyResult<Option<Hit>> {
-    let answer = ask(py, settings, |known| known.safe_until, question)?;
+    let answer = run(py, settings, |known| known.safe_until, question)?;
     answer.hit().map_err(|known| unresolved(py, &known))
 }
 
@@ -101,12 +101,18 @@ fn pair<'c>(
     (b, motion_b): (&'c Bound<'_, PyAny>, Option<&'c Bound<'_, PyAny>>),
 ) -> PyResult<Pair<'c>> {
     Ok(Pair {
-        a: (body_of(a, "a")?, Course::of(motion_a, "motion_a")?),
-        b: (body_of(b, "b")?, Course::of(motion_b, "motion_b")?),
+        a: (
+            body_of(a, "a")?,
+            GivenMovement::extract(motion_a, "motion_a")?,
+        ),
+        b: (
+            body_of(b, "b")?,
+            GivenMovement::extract(motion_b, "motion_b")?,
+        ),
     })
 }
 
-/// Finds the first contact of two moving bodies, from time 0 to `duration`; None when they stay apart.
+/// Finds the first contact of two moving bodies, from time 0 to `duration`; None if they stay apart.
 ///
 /// Nothing touches before its time, and without a contact nothing touches at all: that is proven, in floating point.
 ///
@@ -215,7 +221,7 @@ pub(crate) fn closest_approach<'py>(
     )
 }
 
-/// Brackets the greatest distance of two moving bodies, to within the tolerance: that of their nearest points at each time.
+/// Brackets the greatest distance over time of two moving bodies, to within the tolerance.
 ///
 /// At the `time` of the answer it is at least `lower`, and it is never more than `upper`. Arguments and exceptions are those
 /// of `first_contact`, without a margin. What the bodies exceed their shapes by, their `sticks_out`, is in `upper`.
@@ -247,7 +253,7 @@ pub(crate) fn greatest_distance<'py>(
     )
 }
 
-/// Brackets the distance of two bodies at rest, each at a pose as of `Motion.between`; None is the world's origin.
+/// Brackets the distance of two bodies at rest, each at a pose as in `Motion.between`; None is the world's origin.
 ///
 /// >>> from rigid_ccd import Body, distance
 /// >>> ball = Body.sphere(0.5)
@@ -279,7 +285,7 @@ pub(crate) fn distance<'py>(
     )
 }
 
-/// Asks for bounds of a distance.
+/// Runs a query about a distance.
 fn measure<'py>(
     py: Python<'py>,
     settings: Settings,
@@ -287,7 +293,7 @@ fn measure<'py>(
     question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
     let clearance = settings.clearance;
-    match ask(py, settings, farther, question)?.outcome {
+    match run(py, settings, farther, question)?.outcome {
         Outcome::Unresolved(known) => Err(unresolved_distance(py, &known)),
         outcome => answers::distance(py, &outcome, clearance),
     }

@@ -1,4 +1,4 @@
-//! Settings of queries, as keyword arguments.
+//! The settings of queries, given as keyword arguments.
 
 use crate::errors::{caused, input};
 use pyo3::exceptions::PyTypeError;
@@ -7,16 +7,16 @@ use pyo3::types::PyDict;
 use rigid_ccd::Settings;
 use std::time::Duration;
 
-/// The settings of a query that looks for contacts.
+/// The settings of a query about contacts.
 pub(crate) const OF_CONTACTS: &[&str] = &["tolerance", "margin", "budget", "deadline"];
 
-/// The settings of a query that measures distances.
+/// The settings of a query about distances.
 pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
 
-/// The settings of a query for the least distance.
+/// The settings of a query about the least distance.
 pub(crate) const OF_APPROACHES: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
 
-/// The settings of a question about contacts in a table, those of its signature included.
+/// The settings of a table query about contacts, including those in its signature.
 pub(crate) const CONTACTS_OF_TABLES: &[&str] = &[
     "tolerance",
     "margin",
@@ -27,7 +27,7 @@ pub(crate) const CONTACTS_OF_TABLES: &[&str] = &[
     "micros",
 ];
 
-/// The settings of a question about distances in a table, those of its signature included.
+/// The settings of a table query about distances, including those in its signature.
 pub(crate) const DISTANCES_OF_TABLES: &[&str] = &[
     "clearance",
     "tolerance",
@@ -38,10 +38,10 @@ pub(crate) const DISTANCES_OF_TABLES: &[&str] = &[
     "micros",
 ];
 
-/// The most threads: as many as the command takes.
+/// The maximum number of threads, as in the command.
 const MOST_THREADS: u16 = 1024;
 
-/// Reads the settings of a query, which may have those that are `known`.
+/// Reads the settings of a query; only the names in `known` are accepted.
 pub(crate) fn read(
     given: Option<&Bound<'_, PyDict>>,
     known: &[&'static str],
@@ -65,7 +65,7 @@ pub(crate) fn read(
     Ok(settings)
 }
 
-/// Reads a number of threads; none for one on each core.
+/// Reads a number of threads; `None` is one for each core.
 pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<u16>> {
     let in_range = |&threads: &u16| (1..=MOST_THREADS).contains(&threads);
     let threads = |given: i64| {
@@ -89,7 +89,7 @@ where
     })
 }
 
-/// Reads seconds; infinitely many are none.
+/// Reads a time in seconds; infinity gives `None`.
 fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let finite = seconds.filter(|&seconds| seconds != f64::INFINITY);
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();

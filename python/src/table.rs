@@ -36,7 +36,7 @@ pub(crate) struct PyTable {
 
 #[pymethods]
 impl PyTable {
-    /// Takes any Arrow table, or a dict of arrays.
+    /// Makes a table of any Arrow table, or of a dict of arrays.
     #[new]
     fn new(py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Self> {
         let reader = input::open(table)?;
@@ -55,12 +55,12 @@ impl PyTable {
         batch::header(&self.batch.schema())
     }
 
-    /// The names of the columns, as of a dict.
+    /// The names of the columns, like the keys of a dict.
     fn keys(&self) -> Vec<String> {
         self.column_names()
     }
 
-    /// The rows with these numbers, in that order, as a table; or those where an array of bool is true.
+    /// The rows with these indices, in that order, as a table; or those for which a boolean array is true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
         let rows = row_numbers(rows, all)?;
@@ -74,7 +74,7 @@ impl PyTable {
         Ok(PyTable { batch })
     }
 
-    /// Makes a table of what pickle has kept of it.
+    /// Makes a table from its pickled form.
     #[classmethod]
     fn _from_bytes(
         class: &Bound<'_, PyType>,
@@ -119,7 +119,7 @@ impl PyTable {
         }
     }
 
-    /// NumPy would make an array of the names, and `pandas.DataFrame` a frame of them.
+    /// Refuses the conversion to an array: NumPy and pandas would take the column names as values.
     #[pyo3(signature = (*_args, **_how))]
     fn __array__(
         &self,
@@ -136,7 +136,7 @@ impl PyTable {
         format!("Table({rows} rows, {columns} columns{})", self.counts())
     }
 
-    /// The columns' names and types, for whatever takes an Arrow schema.
+    /// The names and types of the columns, as an Arrow schema.
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         Ok(to_schema_pycapsule(py, self.batch.schema().as_ref())?)
     }
@@ -164,7 +164,7 @@ impl PyTable {
     }
 }
 
-/// What pickle keeps of a table, and its checksum.
+/// The pickled form of a table, and its checksum.
 type Stored<'py> = (Bound<'py, PyBytes>, u32);
 
 impl PyTable {
@@ -175,7 +175,7 @@ impl PyTable {
         (Arc::new(field.with_metadata(metadata)), columns)
     }
 
-    /// Returns how many rows there are of each status, in words.
+    /// Returns the number of rows of each status, in words.
     fn counts(&self) -> String {
         let column = self.batch.column_by_name("status");
         let Some(column) = column.and_then(|column| column.as_string_opt::<i32>()) else {

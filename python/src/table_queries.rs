@@ -4,7 +4,7 @@ use crate::body::{body_of, warn_of_tolerance};
 use crate::errors::{input as refuse, interrupted, of_table, warn, with_attribute, wrong_type};
 use crate::polled::polled;
 use crate::settings::{self, CONTACTS_OF_TABLES, DISTANCES_OF_TABLES};
-use crate::table::answering::{Answered, Asked, Micros, answer};
+use crate::table::answering::{Answered, Micros, TableQuestion, answer};
 use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -14,7 +14,7 @@ use rigid_ccd::batch::{Bodies, Question};
 use rigid_ccd::table::motions::TableError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Answers a question about each row of a table of motions; `rigid_ccd.first_contacts` and the like call it.
+/// Answers a question about each row of a table of motions; called by `rigid_ccd.first_contacts` and its siblings.
 #[pyfunction]
 #[pyo3(signature = (question, a, b, motions, *, clearance = None, threads = None, progress = None, micros = true, **settings))]
 #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
@@ -35,7 +35,7 @@ pub(crate) fn answer_table(
         clearance,
         ..settings::read(settings, known(question))?
     };
-    let asked = Asked {
+    let asked = TableQuestion {
         bodies: Bodies {
             a: body_of(a, "a")?,
             b: body_of(b, "b")?,
@@ -44,7 +44,7 @@ pub(crate) fn answer_table(
         question,
         threads: settings::threads(threads)?,
         micros: if micros {
-            Micros::Told
+            Micros::Measured
         } else {
             Micros::LeftOut
         },
@@ -57,18 +57,18 @@ pub(crate) fn answer_table(
     let progress = progress.map(Bound::unbind);
     let reader = input::open(motions)?;
     let (rows, done) = (input::rows(motions, &reader), AtomicUsize::new(0));
-    let mut told = None;
-    let mut tell = |py: Python<'_>| {
+    let mut reported = None;
+    let mut report = |py: Python<'_>| {
         let now = done.load(Ordering::Relaxed);
         match &progress {
-            Some(progress) if told.replace(now) != Some(now) => {
+            Some(progress) if reported.replace(now) != Some(now) => {
                 progress.call1(py, (now, rows)).map(drop)
             }
             _ => Ok(()),
         }
     };
     let work = |stop: &_| answer(asked, reader, stop, &done);
-    let (found, seen) = polled(py, work, &mut tell)?;
+    let (found, interruption) = polled(py, work, &mut report)?;
     let found = found.map_err(|error| table_error(&error))?;
     let Answered {
         results,
@@ -76,7 +76,7 @@ pub(crate) fn answer_table(
         remarks,
     } = found;
     let table = PyTable { batch: results };
-    match (seen.and_then(|()| tell(py)), fault) {
+    match (interruption.and_then(|()| report(py)), fault) {
         (Err(cause), _) => Err(interrupted(py, cause, table)),
         (Ok(()), Some(fault)) => Err(match table_error(&fault) {
             error if error.is_instance_of::<PyKeyboardInterrupt>(py) => {
@@ -92,7 +92,7 @@ pub(crate) fn answer_table(
     }
 }
 
-/// From `answer_table` up to who calls `rigid_ccd.first_contacts`.
+/// The number of stack frames from `answer_table` to the caller of `rigid_ccd.first_contacts`.
 const CALLS_UP: i32 = 3;
 
 fn question(name: &str) -> PyResult<Question> {
@@ -116,8 +116,8 @@ fn known(question: Question) -> &'static [&'static str] {
     }
 }
 
-/// Refuses settings that no query can have.
-fn check(asked: Asked<'_>) -> PyResult<()> {
+/// Refuses settings that are invalid for every query.
+fn check(asked: TableQuestion<'_>) -> PyResult<()> {
     match asked.settings.clearance {
         Some(_) if !asked.question.is_for_a_clearance() => {
             return Err(refuse(

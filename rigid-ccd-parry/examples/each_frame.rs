@@ -1,4 +1,4 @@
-//! What a cast costs in every frame of a game: parry's own, the function with its signature, and a `Caster`.
+//! The cost of a cast in every frame of a game: parry's own, the function with parry's signature, and a `Caster`.
 //!
 //! `cargo run --release -p rigid-ccd-parry --example each_frame`. Shapes fly at shapes, slowly turning; times are medians
 //! of a few hundred casts, after the first one.

@@ -1,11 +1,11 @@
-//! A cast in double precision, made a question for the engine.
+//! A cast in double precision, converted to a query of the engine.
 
 use crate::half_space::HalfSpace;
-use crate::horizon::{Horizon, Reaching, way};
+use crate::horizon::{Horizon, Reaching, relative_displacement};
 use crate::interval::Interval;
 use crate::leaving::parting;
 use crate::order::{greater, length, lesser};
-use crate::scene::{Ending, Found, Scene};
+use crate::scene::{CastHit, Ending, Scene};
 use crate::tolerance::{BEYOND, RELATIVE, SHARE_OF_SIZE};
 use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
@@ -24,18 +24,18 @@ pub(crate) struct Cast<'a> {
     pub(crate) target: f64,
     pub(crate) start: StartPolicy,
     pub(crate) options: Options,
-    /// The tolerance by default.
+    /// The default tolerance.
     pub(crate) contact: f64,
 }
 
-/// A shape, ready for a cast.
+/// A shape prepared for one cast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Operand<'a> {
     Body(&'a Prepared),
     HalfSpace(HalfSpace),
 }
 
-/// A shape, ready for casts.
+/// A shape prepared for many casts.
 #[derive(Clone, Debug)]
 pub(crate) enum Ready {
     Body(Arc<Prepared>),
@@ -51,21 +51,21 @@ impl Ready {
     }
 }
 
-/// A motion from the start of the interval on.
+/// A motion that starts at the start of the interval.
 #[derive(Clone, Copy, Debug)]
 struct Started {
     motion: Motion,
-    /// How far the motion may be off, for rounding.
+    /// A bound on the motion's deviation due to rounding.
     stray: Stray,
 }
 
 impl Cast<'_> {
     /// Finds the first contact in the interval.
-    pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
-        self.posed(|scene| self.told(scene, solver))
+    pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
+        self.posed(|scene| self.hit(scene, solver))
     }
 
-    /// Poses the question for the engine.
+    /// Builds the engine's scene for a cast.
     pub(crate) fn posed<T>(
         &self,
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
@@ -92,7 +92,10 @@ impl Cast<'_> {
         let started = [0, 1].map(|k| started[k].without_spin_of(bodies[k]));
         let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
         let slack = |k: usize| bodies[k].slack() + slack(started[k].stray, &sides[k]);
-        let rounded = self.rounded(way(&sides, self.target + self.tolerance(&bodies)));
+        let rounded = self.rounded(relative_displacement(
+            &sides,
+            self.target + self.tolerance(&bodies),
+        ));
         let settings = self.settings(&bodies, slack(0) + slack(1) + rounded)?;
         let within = settings.margin + settings.tolerance;
         Ok(Scene {
@@ -106,7 +109,7 @@ impl Cast<'_> {
         })
     }
 
-    /// Poses the question about a half-space, which is the shape of that index, and a body.
+    /// Builds the engine's scene for a half-space, shape number `k`, and a body.
     fn on_plane<T>(
         &self,
         plane: &HalfSpace,
@@ -151,14 +154,14 @@ impl Cast<'_> {
         })
     }
 
-    /// Returns what is found, after bodies are let go that begin to part.
-    fn told(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+    /// Returns the hit; overlapping bodies that begin to part are ignored until they are apart.
+    fn hit(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let found = scene.first_contact(solver)?;
         match found {
             Some(found)
                 if found.ending == Ending::Overlap
                     && self.start == StartPolicy::Leave
-                    && scene.is_let_go() =>
+                    && scene.may_part() =>
             {
                 parting(scene, found, solver)
             }
@@ -166,8 +169,8 @@ impl Cast<'_> {
         }
     }
 
-    /// Returns the motions from the start of the interval on, as seen by one who moves along with the second body: a
-    /// speed that both have costs no digits.
+    /// Returns the motions from the start of the interval on, relative to the second body's velocity: a common velocity
+    /// loses no digits.
     fn started(&self) -> Result<[Started; 2], CastError> {
         let along = self.motions[1].velocity();
         let started = |k: usize| {
@@ -180,12 +183,12 @@ impl Cast<'_> {
         Ok([started(0)?, started(1)?])
     }
 
-    /// Bounds how far bodies are off for that, on their way past each other.
-    fn rounded(&self, way: f64) -> f64 {
+    /// Bounds the deviation due to that subtraction, for bodies that move `displacement` past each other.
+    fn rounded(&self, displacement: f64) -> f64 {
         if self.motions[1].velocity() == DVec3::ZERO {
             0.0
         } else {
-            RELATIVE * way
+            RELATIVE * displacement
         }
     }
 
@@ -200,7 +203,7 @@ impl Cast<'_> {
         asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
     }
 
-    /// Returns the engine's settings for bodies that may be off by the slack.
+    /// Returns the engine's settings for bodies with a deviation of at most `slack`.
     fn settings(&self, bodies: &[&Prepared], slack: f64) -> Result<Settings, CastError> {
         let margin = self.target + slack;
         if !(self.target >= 0.0 && margin.is_finite()) {
@@ -238,7 +241,7 @@ impl Started {
         })
     }
 
-    /// Returns the motion with the reach of a body.
+    /// Returns the motion with the extent of a body.
     fn reaching(&self, body: &Prepared) -> Reaching {
         let (middle, radius) = body.ball();
         let about = if self.motion.spin() == DVec3::ZERO {
@@ -253,7 +256,7 @@ impl Started {
         }
     }
 
-    /// Returns the motion of a half-space, with the point of it from which the other body is nearest.
+    /// Returns the motion of a half-space, about its point nearest to the other body.
     fn reaching_plane(&self, other: &Reaching) -> Reaching {
         let start = self.motion.start();
         let about = if self.motion.spin() == DVec3::ZERO {
@@ -268,7 +271,7 @@ impl Started {
         }
     }
 
-    /// Returns it without a spin that leaves a ball as it is.
+    /// Returns the motion without an angular velocity that leaves a ball unchanged.
     fn without_spin_of(self, body: &Prepared) -> Self {
         if body.point() != Some(self.motion.centre()) {
             return self;
@@ -282,7 +285,7 @@ impl Started {
     }
 }
 
-/// Returns how far points of a body may be off.
+/// Bounds the deviation of a body's points.
 fn slack(stray: Stray, side: &Reaching) -> f64 {
     stray.at(side.reach + length(side.about - side.motion.centre()))
 }

@@ -1,9 +1,9 @@
-//! Whether a mesh is closed.
+//! The test for closed meshes.
 
 use ccd_core::glam::DVec3;
 use std::collections::HashMap;
 
-/// Returns an edge of a mesh that is passed more often in one direction than in the other; none of a closed mesh.
+/// Returns an edge that triangles use more often in one direction than in the other; `None` for a closed mesh.
 ///
 /// Vertices at one place count as one.
 pub(crate) fn open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {

@@ -1,8 +1,8 @@
-//! What is refused, and why.
+//! Errors: shapes and casts that are refused.
 
 use ccd_core::InputError;
 
-/// A cast that has no answer.
+/// The error of a cast.
 ///
 /// parry's error, `Unsupported`, tells nothing. It is made from this one, by the functions with parry's signatures.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -11,104 +11,104 @@ pub enum CastError {
     /// A shape is refused.
     #[error("shape {which}: {error}")]
     Shape {
-        /// 1 or 2.
+        /// The number of the shape: 1 or 2.
         which: u8,
-        /// The reason.
+        /// The error of the shape.
         #[source]
         error: ShapeError,
     },
-    /// A motion or a pose is refused.
+    /// A motion or a pose is invalid.
     #[error("motion {which}: {error}")]
     Motion {
-        /// 1 or 2.
+        /// The number of the motion: 1 or 2.
         which: u8,
-        /// The reason.
+        /// The error of the motion.
         #[source]
         error: InputError,
     },
-    /// A time or a distance is refused.
+    /// A time or a distance is invalid.
     #[error("{what} is {value}, but must be {allowed}")]
     Number {
-        /// The argument.
+        /// The name of the argument.
         what: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
         /// The accepted values, in words.
         allowed: &'static str,
     },
-    /// Two half-spaces, which have no nearest points in general.
+    /// Both shapes are half-spaces, which have no nearest points in general.
     #[error("both shapes are half-spaces")]
     HalfSpaces,
-    /// An interval without time has nothing to record.
+    /// An interval without time cannot be recorded.
     #[error("the interval holds no time: its end is before its start")]
     NoTime,
-    /// The engine refuses the scene: it is too large, for instance.
+    /// The engine refuses the scene, for example because it is too large.
     #[error(transparent)]
     Scene(#[from] InputError),
 }
 
-/// A shape that no body is made of.
+/// The error of a shape from which no body can be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ShapeError {
-    /// A shape of a type that is not known here.
+    /// The shape has an unknown type.
     #[error("the shape is of a custom type, whose points are not known")]
     Custom,
-    /// A half-space as a part, or where a bounded body is needed.
+    /// A half-space is a part of a compound, or is given where a bounded body is required.
     #[error("a half-space is served alone only, and not as a body")]
     HalfSpace,
-    /// A size that is negative, NaN or infinite.
+    /// A size is negative, NaN or infinite.
     #[error("its {what} is {value}, but must be at least 0 and finite")]
     Size {
-        /// The size.
+        /// The name of the size.
         what: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
     },
-    /// A polytope about a round shape would have too many corners.
+    /// A polytope around a round shape would need too many corners.
     #[error(
         "a polytope about it that exceeds it by only {asked} would have too many corners; {least} can be had"
     )]
     Excess {
-        /// The excess that was asked for.
+        /// The excess that was requested.
         asked: f64,
-        /// The least excess that can be had for this shape.
+        /// The least possible excess for this shape.
         least: f64,
     },
-    /// Cylinders and cones are refused by the [options](crate::Excess::Refuse).
+    /// The shape is a cylinder or a cone, which the [options](crate::Excess::Refuse) refuse.
     #[error("it is a cylinder or a cone, for which the options allow no polytope about it")]
     Round,
-    /// An oriented mesh that is to be a solid is not closed.
+    /// An oriented mesh that should be a solid is not closed.
     #[error(
         "the mesh is oriented, but has an edge without a neighbour, from vertex {from} to {to}"
     )]
     Open {
-        /// The number of one end of the edge.
+        /// The index of one end of the edge.
         from: u32,
-        /// The number of the other end.
+        /// The index of the other end.
         to: u32,
     },
-    /// Voxels of a size or at places that parry itself does not tell apart.
+    /// Voxels have sizes or positions that parry itself cannot distinguish.
     #[error("its voxels are too far from the origin, or of a size that is not positive")]
     Grid,
-    /// Compounds within compounds, too deep.
+    /// Compounds are nested too deeply.
     #[error("its parts are nested more than {} deep", crate::limits::DEEPEST)]
     Nested,
-    /// A part of a compound.
+    /// A part of a compound is refused.
     #[error("part {part}: {error}")]
     Part {
-        /// The part's number.
+        /// The index of the part.
         part: u32,
-        /// The reason.
+        /// The error of the part.
         #[source]
         error: Box<ShapeError>,
     },
-    /// The engine refuses a piece of the body: a triangle, a voxel, a part.
+    /// The engine refuses a piece of the body: a triangle, a voxel or a part.
     #[error("sub-shape {number}: {error}")]
     Piece {
-        /// The number of the triangle, segment or part; 0 for shapes that have none.
+        /// The index of the triangle, segment or part; 0 for shapes without indices.
         number: u32,
-        /// The reason.
+        /// The error of the piece.
         #[source]
         error: InputError,
     },

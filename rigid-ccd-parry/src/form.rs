@@ -1,4 +1,4 @@
-//! The geometry of a shape in double precision: all that a body is made of.
+//! The geometry of a shape in double precision, from which a body is made.
 
 use crate::closed::open_edge;
 use crate::order::{greater, length};
@@ -11,24 +11,24 @@ use ccd_core::{
 };
 use std::borrow::Cow;
 
-/// The geometry of a shape: triangles, and convex parts.
+/// The geometry of a shape: triangles and convex parts.
 ///
 /// A body is made of this alone: equal forms make equal bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Form {
     vertices: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
-    /// The number of the sub-shape that each triangle is.
+    /// The sub-shape index of each triangle.
     triangle_numbers: Vec<u32>,
     parts: Vec<Part>,
-    /// A cylinder or a cone, grown by a radius, if it is nothing else.
+    /// A cylinder or a cone, grown by a radius, if the form consists of it alone.
     round: Option<(Round, f64, Excess)>,
     volume: Volume,
-    /// How far points may be from their places, for rounding.
+    /// A bound on the rounding error of points.
     slack: f64,
-    /// How far polytopes may exceed what they enclose.
+    /// A bound on the excess of polytopes over the shapes that they enclose.
     excess: f64,
-    /// The boundary of the only part in triangles, and the numbers of their facets, if it is exact.
+    /// If the form is one exact part, its boundary as triangles, and the sub-shape indices of these.
     surface: Option<(Vec<[u32; 3]>, Vec<u32>)>,
 }
 
@@ -36,12 +36,12 @@ pub(crate) struct Form {
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     polytope: Polytope,
-    /// The number of the sub-shape that it is.
+    /// The sub-shape index of the part.
     number: u32,
 }
 
 impl Form {
-    /// Nothing, to be added to.
+    /// An empty form.
     pub(crate) const EMPTY: Form = Form {
         vertices: Vec::new(),
         triangles: Vec::new(),
@@ -54,7 +54,7 @@ impl Form {
         surface: None,
     };
 
-    /// A cylinder or a cone, grown by a radius: a polytope about it is made with the body.
+    /// Returns the form of a cylinder or a cone, grown by a radius; its polytope is made with the body.
     pub(crate) fn of_round(round: Round, radius: f64, excess: Excess) -> Self {
         Form {
             round: Some((round, radius, excess)),
@@ -62,7 +62,7 @@ impl Form {
         }
     }
 
-    /// Returns it with a polytope in place of a cylinder or a cone.
+    /// Returns the form with a polytope in place of a cylinder or a cone.
     pub(crate) fn expanded(&self) -> Result<Cow<'_, Form>, ShapeError> {
         let Some((round, radius, excess)) = &self.round else {
             return Ok(Cow::Borrowed(self));
@@ -112,13 +112,13 @@ impl Form {
         self.push_corners((0..8).map(corner).collect(), radius);
     }
 
-    /// Adds a box with eight corners, of which corner `k` is high along the first, second and third axis of a right-handed
-    /// frame if bit 0, 1, 2 of `k` is set.
+    /// Adds a box given by its eight corners: bits 0, 1 and 2 of `k` are set if corner `k` is high along the first,
+    /// second and third axis of a right-handed frame.
     pub(crate) fn push_corners(&mut self, corners: Vec<DVec3>, radius: f64) {
         self.push_hull(corners, radius, &BOX.map(Vec::from));
     }
 
-    /// Adds a piece of a body, as the sub-shape of that number.
+    /// Adds a piece of a body, with the sub-shape index `number`.
     pub(crate) fn push_piece(&mut self, piece: &Piece<'_>, number: u32) {
         let loops: Vec<Vec<u32>> = piece.facets.iter().map(<[u32]>::to_vec).collect();
         self.push_hull(piece.points.to_vec(), piece.radius, &loops);
@@ -153,12 +153,12 @@ impl Form {
         self.triangle_numbers.extend(0..faces.len() as u32);
     }
 
-    /// Notes that points may be farther from their places.
+    /// Increases the bound on the rounding error of points.
     pub(crate) fn add_slack(&mut self, slack: f64) {
         self.slack = greater(self.slack, slack);
     }
 
-    /// Returns it with the triangles as the surface of a solid.
+    /// Returns the form with the triangles as the surface of a solid.
     ///
     /// # Errors
     /// [`ShapeError::Open`] unless they are closed.
@@ -172,7 +172,7 @@ impl Form {
         }
     }
 
-    /// Adds another form at a pose, as the sub-shape of that number.
+    /// Adds another form at a pose, with the sub-shape index `number`.
     pub(crate) fn push_placed(
         &mut self,
         pose: &Pose,
@@ -205,17 +205,17 @@ impl Form {
         Ok(())
     }
 
-    /// How far points may be from their places, for rounding.
+    /// Returns a bound on the rounding error of points.
     pub(crate) fn slack(&self) -> f64 {
         self.slack
     }
 
-    /// How far polytopes may exceed what they enclose.
+    /// Returns a bound on the excess of polytopes over the shapes that they enclose.
     pub(crate) fn excess(&self) -> f64 {
         self.excess
     }
 
-    /// The approximate number of bytes held.
+    /// Returns the approximate memory use in bytes.
     pub(crate) fn bytes(&self) -> usize {
         let corners = |part: &Part| {
             part.polytope
@@ -229,7 +229,7 @@ impl Form {
         24 * self.vertices.len() + 16 * self.triangles.len() + parts
     }
 
-    /// Returns a ball about it: the middle, and a radius rounded up.
+    /// Returns an enclosing ball: its centre, and its radius rounded up.
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         let (low, high) = self
             .points()
@@ -244,7 +244,7 @@ impl Form {
         (middle, radius * crate::tolerance::BEYOND)
     }
 
-    /// Returns the only point, of a ball.
+    /// Returns the centre if the form is a ball.
     pub(crate) fn point(&self) -> Option<DVec3> {
         match &self.parts[..] {
             [part] if self.triangles.is_empty() => match part.polytope.points[..] {
@@ -260,7 +260,7 @@ impl Form {
         self.vertices.iter().chain(parts)
     }
 
-    /// Returns the body, and the number of the sub-shape that each of its pieces is, in the body's order.
+    /// Returns the body and the sub-shape index of each of its pieces, in the body's order.
     ///
     /// # Errors
     /// [`ShapeError::Piece`] that names the sub-shape, [`ShapeError::Body`].
@@ -300,7 +300,7 @@ impl Form {
         Body::new(&pieces, Volume::Surface)
     }
 
-    /// Returns the parts, and each triangle as a part.
+    /// Returns the parts, with each triangle as a part.
     fn all_parts(&self, parts: &[Part]) -> Vec<Part> {
         // A vertex that does not exist is refused as a point that is not finite.
         let corner = |v: &u32| *self.vertices.get(*v as usize).unwrap_or(&DVec3::NAN);
@@ -319,7 +319,7 @@ impl Form {
         parts.iter().cloned().chain(faces).collect()
     }
 
-    /// Returns the number of the sub-shape that a piece of the body is.
+    /// Returns the sub-shape index of a piece of the body.
     fn number(&self, body: &Body, piece: usize) -> u32 {
         let inside = match body.pieces().all_triangles() {
             true => {
@@ -338,7 +338,7 @@ impl Form {
         }
     }
 
-    /// Returns the error with the number of the sub-shape in place of that of the piece.
+    /// Returns the error with the sub-shape index in place of the piece's index.
     fn named(&self, error: InputError) -> ShapeError {
         let piece = match error {
             InputError::BadPoint { piece, .. }
@@ -360,7 +360,7 @@ impl Form {
     }
 }
 
-/// Returns a polytope about a cylinder or a cone.
+/// Returns a polytope around a cylinder or a cone.
 fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
         Excess::Fine => round.usual_excess(),
@@ -382,7 +382,7 @@ fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
     }
 }
 
-/// Loops of corners of a box, whose corner `k` is high in x, y, z if bit 0, 1, 2 of `k` is set.
+/// The face loops of a box: bits 0, 1 and 2 of `k` are set if corner `k` is high in x, y and z.
 const BOX: [[u32; 4]; 6] = [
     [0, 4, 6, 2],
     [1, 3, 7, 5],

@@ -1,4 +1,4 @@
-//! Half-spaces: for the time of one cast, a box is as good.
+//! Half-spaces, each replaced by a box large enough for one cast.
 //!
 //! The other body stays within a ball about a point of the half-space, in the half-space's frame. A box that holds the
 //! part of the half-space in that ball, and hardly more, has the same contacts.
@@ -15,11 +15,13 @@ use std::f64::consts::TAU;
 /// All points on one side of a plane through the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HalfSpace {
-    /// The unit normal, to the outside.
+    /// The outward unit normal.
     normal: DVec3,
 }
 
 impl HalfSpace {
+    /// Creates a half-space from the direction of its normal.
+    ///
     /// # Errors
     /// [`ShapeError::Size`] for a normal that has no direction.
     pub(crate) fn new(normal: DVec3) -> Result<Self, ShapeError> {
@@ -36,7 +38,7 @@ impl HalfSpace {
         }
     }
 
-    /// Returns the time to look at for a body that is in contact within a distance, of a time that is asked for.
+    /// Returns the horizon of a cast of a body with contact distance `within`, for the time `wanted`.
     ///
     /// `plane` is the half-space's motion, about any point of it.
     pub(crate) fn horizon(
@@ -60,8 +62,8 @@ impl HalfSpace {
         }
     }
 
-    /// Returns a time after which the body is inside for good, or outside for good, or does what it did; none if there
-    /// is none.
+    /// Returns a time after which the body is inside forever, is outside forever, or repeats its motion; `None` without
+    /// one.
     fn decided(&self, plane: Reaching, body: Reaching, within: f64) -> Option<f64> {
         let [p, b] = [plane.motion, body.motion];
         let (still, spin) = (p.spin() == DVec3::ZERO, b.spin());
@@ -94,16 +96,16 @@ impl HalfSpace {
         let spread = plane.spread() + body.spread();
         let height = normal.dot(to - from);
         let reach = (body.reach + within + FACE * spread) * BEYOND;
-        let way = if rate < 0.0 {
+        let needed = if rate < 0.0 {
             height + reach
         } else {
             reach - height
         };
         let rate = rate.abs() - rounding;
-        (rate > 0.0).then(|| greater(0.0, way) / rate * BEYOND)
+        (rate > 0.0).then(|| greater(0.0, needed) / rate * BEYOND)
     }
 
-    /// Bounds the distance from `plane.about` of all points of the half-space that the body may be in contact with.
+    /// Bounds the distance from `plane.about` of all points of the half-space that the body may touch.
     pub(crate) fn reach(&self, plane: Reaching, body: Reaching, within: f64, duration: f64) -> f64 {
         let [p, b] = [plane.place(), body.place()];
         let speed = length(body.motion.velocity() - plane.motion.velocity());
@@ -111,7 +113,7 @@ impl HalfSpace {
         (length(b - p) + speed * duration + body.reach + within + FACE * spread) * BEYOND
     }
 
-    /// Returns a box that has the contacts of the half-space within that reach of `plane.about`.
+    /// Returns a box that contains all points of the half-space within `reach` of `plane.about`.
     pub(crate) fn stand_in(&self, plane: Reaching, reach: f64) -> Result<Prepared, ShapeError> {
         let normal = self.normal;
         let height = normal.dot(plane.about);

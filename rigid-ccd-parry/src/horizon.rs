@@ -1,4 +1,4 @@
-//! For how long a cast has to look: casts may ask for any time, queries are finite.
+//! The horizon of a cast: a finite duration that decides it, since casts allow any time and queries are finite.
 //!
 //! Each body stays within a ball about its centre, and centres move straight. Contact is over for good once the balls
 //! have passed each other, and a motion that repeats itself need be looked at once.
@@ -10,34 +10,34 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_TURN};
 use std::f64::consts::TAU;
 
-/// A motion, and how far the body reaches.
+/// A motion with the extent of its body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reaching {
     pub(crate) motion: Motion,
-    /// A point of the body that moves straight, in its frame.
+    /// A point of the body, in its frame, that moves in a straight line.
     pub(crate) about: DVec3,
-    /// The largest distance of the body's points from that.
+    /// The largest distance of the body's points from `about`.
     pub(crate) reach: f64,
 }
 
 impl Reaching {
-    /// Returns the place of the point that moves straight, at the start.
+    /// Returns the position of `about` at the start.
     pub(crate) fn place(&self) -> DVec3 {
         self.motion.start().transform_point(self.about)
     }
 
-    /// Returns the sum of the lengths that the place is computed of, for its rounding.
+    /// Returns the sum of the magnitudes that enter the position, for its rounding error.
     pub(crate) fn spread(&self) -> f64 {
         length(self.motion.start().translation()) + length(self.about)
     }
 }
 
-/// The time to look at.
+/// The duration of the query for a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Horizon {
-    /// Bodies that stay apart for this time stay apart for all that was asked for.
+    /// The whole cast: bodies that stay apart for this duration stay apart for the whole requested time.
     Whole(f64),
-    /// The engine can look no farther than this.
+    /// A part of the cast: the longest duration that the engine accepts.
     Part(f64),
 }
 
@@ -48,13 +48,13 @@ impl Horizon {
         }
     }
 
-    /// Returns the time to look at for bodies that are in contact within a distance, of a time that is asked for.
+    /// Returns the horizon for bodies with contact distance `within`, for the time `wanted`.
     pub(crate) fn of(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
         let needed = [passed(bodies, within), repeated(bodies)];
         Horizon::needed(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
 
-    /// Returns the time to look at, of a time that is needed.
+    /// Returns the horizon for a duration that is known to decide the cast.
     pub(crate) fn needed(bodies: [Reaching; 2], needed: f64) -> Self {
         let possible = possible(bodies);
         if needed <= possible {
@@ -65,20 +65,20 @@ impl Horizon {
     }
 }
 
-/// Returns a time after which the bodies are out of each other's reach; none if they do not pass each other.
+/// Returns a time after which the bodies can no longer meet; `None` if they do not pass each other.
 fn passed(bodies: [Reaching; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);
-    (speed > 0.0).then(|| way(&bodies, within) / speed * BEYOND)
+    (speed > 0.0).then(|| relative_displacement(&bodies, within) / speed * BEYOND)
 }
 
-/// Bounds how far the bodies move past each other while they may be in contact.
-pub(crate) fn way([a, b]: &[Reaching; 2], within: f64) -> f64 {
+/// Bounds the relative displacement of the bodies while they may be in contact.
+pub(crate) fn relative_displacement([a, b]: &[Reaching; 2], within: f64) -> f64 {
     let rounding = (BEYOND - 1.0) * (a.spread() + b.spread());
     length(b.place() - a.place()) + rounding + a.reach + b.reach + within
 }
 
-/// Returns a time after which the bodies have each pose to each other that they ever have, if they do not move on.
+/// Returns a time after which the bodies repeat their relative poses, if they do not move on.
 fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion);
     let turn = |spin: DVec3| TAU / length(spin) * BEYOND;
@@ -95,7 +95,7 @@ fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
     }
 }
 
-/// Returns the longest time for which the engine takes both motions.
+/// Returns the longest duration for which the engine accepts both motions.
 fn possible(bodies: [Reaching; 2]) -> f64 {
     // The engine's origin is at one of them.
     let origins = bodies.map(|body| body.motion.start().translation());

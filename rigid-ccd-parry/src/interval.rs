@@ -1,9 +1,9 @@
-//! The times that a cast is about.
+//! The time interval of a cast.
 
 use crate::CastError;
 use crate::order::{greater, lesser};
 
-/// Times, from the first to the last one.
+/// A time interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Interval {
     start: f64,
@@ -11,7 +11,7 @@ pub(crate) struct Interval {
 }
 
 impl Interval {
-    /// Returns none if it holds no time, as its end is before its start.
+    /// Creates an interval; `None` if its end is before its start.
     ///
     /// # Errors
     /// [`CastError::Number`] for NaN, and for a start that is infinite.
@@ -30,12 +30,12 @@ impl Interval {
         Ok((start <= end).then_some(Interval { start, end }))
     }
 
-    /// The first time.
+    /// Returns the start.
     pub(crate) fn start(self) -> f64 {
         self.start
     }
 
-    /// Returns its length, rounded up.
+    /// Returns the length, rounded up.
     pub(crate) fn length(self) -> f64 {
         if self.start == 0.0 {
             self.end
@@ -44,7 +44,7 @@ impl Interval {
         }
     }
 
-    /// Returns the time that long after the start, rounded down.
+    /// Returns the time `after` past the start, rounded down.
     pub(crate) fn time_after(self, after: f64) -> f64 {
         let time = if self.start == 0.0 {
             after

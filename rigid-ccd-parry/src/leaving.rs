@@ -1,4 +1,4 @@
-//! Bodies that overlap at the start of a straight cast and are to be let go if they part, as parry lets them.
+//! Bodies that overlap at the start of a linear cast and are ignored as long as they part, as in parry.
 //!
 //! Two convex pieces that move straight overlap for one stretch of time. Once they part they never meet again: a pair
 //! that begins to part is left out, and all other pairs are asked about. parry, too, looks at each pair by itself.
@@ -7,7 +7,7 @@ mod direction;
 
 use crate::form::Form;
 use crate::order::{greater, length, lesser};
-use crate::scene::{Ending, Found, Scene};
+use crate::scene::{CastHit, Ending, Scene};
 use crate::tolerance::{ALONG, BEYOND};
 use crate::{CastError, Prepared};
 use ccd_core::Piece;
@@ -15,20 +15,20 @@ use ccd_core::glam::DVec3;
 use direction::direction;
 use rigid_ccd::Solver;
 
-/// The most pairs of pieces that are left out. Beyond it the bodies are in contact at the start.
+/// The maximum number of pairs of pieces that are left out. Beyond it the bodies are in contact at the start.
 const MOST_PAIRS: usize = 256;
 
-/// Some pieces of both bodies, by their numbers: all pairs of them are asked about.
+/// Some pieces of both bodies, by index; all pairs of them are examined.
 struct Task {
     pieces: [Vec<u32>; 2],
 }
 
-/// Returns the first contact of all pairs that do not begin to part; `overlap` is what was found at the start.
+/// Returns the first contact of all pairs that do not begin to part; `overlap` is the hit at the start.
 pub(crate) fn parting(
     scene: &Scene<'_>,
-    overlap: Found,
+    overlap: CastHit,
     solver: &mut Solver,
-) -> Result<Option<Found>, CastError> {
+) -> Result<Option<CastHit>, CastError> {
     let mut tasks = vec![Task {
         pieces: [0, 1].map(|k| near(scene, k)),
     }];
@@ -37,10 +37,10 @@ pub(crate) fn parting(
         if task.pieces.iter().any(Vec::is_empty) {
             continue;
         }
-        match ask(scene, &task, solver)? {
-            Asked::Overlap([a, b]) => {
+        match examine(scene, &task, solver)? {
+            TaskOutcome::Overlap([a, b]) => {
                 left_out += 1;
-                if left_out > MOST_PAIRS || !parts(scene, [a, b], solver) {
+                if left_out > MOST_PAIRS || !begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
                 }
                 let [of_a, of_b] = task.pieces;
@@ -58,10 +58,10 @@ pub(crate) fn parting(
                     pieces: [without(&of_a, a), of_b],
                 });
             }
-            Asked::Inside => return Ok(Some(overlap)),
-            Asked::Found(None) => {}
-            Asked::Found(Some(found)) => {
-                let earlier = first.is_none_or(|first: Found| found.time < first.time);
+            TaskOutcome::Inside => return Ok(Some(overlap)),
+            TaskOutcome::Hit(None) => {}
+            TaskOutcome::Hit(Some(found)) => {
+                let earlier = first.is_none_or(|first: CastHit| found.time < first.time);
                 first = if earlier { Some(found) } else { first };
             }
         }
@@ -69,17 +69,17 @@ pub(crate) fn parting(
     Ok(first)
 }
 
-/// What comes out for some pieces.
-enum Asked {
-    /// These two overlap at the start.
+/// The outcome of a task.
+enum TaskOutcome {
+    /// These two pieces overlap at the start.
     Overlap([u32; 2]),
     /// One body is inside the other at the start.
     Inside,
-    Found(Option<Found>),
+    Hit(Option<CastHit>),
 }
 
-/// Asks about all pairs of a task.
-fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, CastError> {
+/// Finds the first contact of all pairs of a task.
+fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOutcome, CastError> {
     let some = |k: usize| {
         let which = k as u8 + 1;
         let named = |error| CastError::Shape { which, error };
@@ -91,20 +91,20 @@ fn ask(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<Asked, Cas
         ..scene.clone()
     };
     let Some(found) = part.first_contact(solver)? else {
-        return Ok(Asked::Found(None));
+        return Ok(TaskOutcome::Hit(None));
     };
     let numbers = found.numbers;
     Ok(match found.ending {
-        Ending::Overlap => Asked::Overlap(numbers),
-        Ending::Inside => Asked::Inside,
-        Ending::Near | Ending::Contact | Ending::Limit => Asked::Found(Some(Found {
+        Ending::Overlap => TaskOutcome::Overlap(numbers),
+        Ending::Inside => TaskOutcome::Inside,
+        Ending::Near | Ending::Contact | Ending::Limit => TaskOutcome::Hit(Some(CastHit {
             numbers: [0, 1].map(|k| scene.bodies[k].sub_shape(numbers[k])),
             ..found
         })),
     })
 }
 
-/// Returns the body of some pieces, whose sub-shapes have their numbers.
+/// Returns the body of some pieces, with the pieces' indices as sub-shape indices.
 fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
     let mut form = Form::EMPTY;
     for &number in pieces {
@@ -114,11 +114,11 @@ fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Shape
     Prepared::new(&form)
 }
 
-/// Returns the pieces of a body that the other body may come near to.
+/// Returns the pieces of body `k` that the other body may reach.
 fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
-    let way = velocity * scene.horizon.duration();
+    let displacement = velocity * scene.horizon.duration();
     let (middle, radius) = other.0.ball();
     // In the world at the start.
     let from = other.1.start().transform_point(middle);
@@ -126,8 +126,8 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let comes_near = |piece: &Piece<'_>| {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
-        let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(way));
-        let apart = distance_to_way(place - from, way);
+        let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(displacement));
+        let apart = distance_to_segment(place - from, displacement);
         // Written so that NaN is near.
         !(apart > (within + radius) * BEYOND + rounding)
     };
@@ -138,18 +138,18 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         .collect()
 }
 
-/// Returns the distance of a point from the segment from the origin along a vector.
-fn distance_to_way(point: DVec3, way: DVec3) -> f64 {
-    let square = way.dot(way);
+/// Returns the distance of a point from the segment between the origin and `displacement`.
+fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
+    let square = displacement.dot(displacement);
     let share = if square > 0.0 {
-        lesser(greater(0.0, point.dot(way) / square), 1.0)
+        lesser(greater(0.0, point.dot(displacement) / square), 1.0)
     } else {
         0.0
     };
-    length(point - share * way)
+    length(point - share * displacement)
 }
 
-/// Returns a ball about a piece.
+/// Returns an enclosing ball of a piece.
 fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
     let first = piece.points[0];
     let reach = piece.points.iter().map(|p| length(*p - first));
@@ -157,7 +157,7 @@ fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
 }
 
 /// Returns whether two pieces that overlap at the start begin to part.
-fn parts(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
+fn begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();

@@ -134,7 +134,7 @@ pub use prepared::Prepared;
 #[cfg(feature = "record")]
 pub use recording::{RecordError, Recording};
 
-/// For `parry3d`, in single precision.
+/// Casts for `parry3d`, in single precision.
 #[cfg(feature = "f32")]
 #[allow(clippy::duplicate_mod)] // Both precisions are one source.
 #[path = "precision"]
@@ -167,7 +167,7 @@ pub mod f32 {
     pub use shapes::body;
 }
 
-/// For `parry3d-f64`, in double precision.
+/// Casts for `parry3d-f64`, in double precision.
 #[cfg(feature = "f64")]
 // Both precisions are one source. Some conversions are needed in the other one only.
 #[allow(
@@ -205,7 +205,7 @@ pub mod f64 {
     pub use shapes::body;
 }
 
-/// The examples in the README.
+/// The examples in the README, run as doctests.
 #[cfg(all(doctest, feature = "f32"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,15 +1,15 @@
-//! What is accepted at most.
+//! The limits on input and memory.
 
-/// The most compounds within one another.
+/// The maximum nesting depth of compounds.
 pub const DEEPEST: usize = 16;
 
-/// The farthest voxel from the origin, in voxels: parry rounds their places.
+/// The maximum coordinate of a voxel, in voxels: parry rounds their positions.
 pub const FARTHEST_VOXEL: i64 = 1 << 20;
 
-/// The most memory that the bodies of the functions with parry's signatures take in a thread, in bytes.
+/// The maximum memory of cached bodies per thread, in bytes, for the functions with parry's signatures.
 pub const KEPT_BYTES: usize = 256 << 20;
 
-/// The most bodies that the functions with parry's signatures keep in a thread.
+/// The maximum number of cached bodies per thread, for the functions with parry's signatures.
 pub const KEPT_BODIES: usize = 64;
 
 /// The default limit of a cast's work: about a second.

@@ -1,9 +1,9 @@
-//! What can be asked for beyond parry's arguments.
+//! Options beyond parry's arguments.
 
 use crate::limits::DEFAULT_BUDGET;
 use std::time::Duration;
 
-/// What can be asked for beyond parry's arguments.
+/// Options beyond parry's arguments.
 ///
 /// ```
 /// use rigid_ccd_parry::{Excess, Options};
@@ -12,18 +12,19 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// A contact is reported at the target distance plus at most this, in the scene's unit of length.
+    /// The tolerance: a contact is reported at the target distance plus at most this, in the scene's unit of length.
     ///
     /// None is 1e-6 in single and 1e-9 in double precision, and at most a millionth of the smaller body's radius.
     pub tolerance: Option<f64>,
-    /// How far polytopes about cylinders and cones may exceed them.
+    /// The allowed excess of polytopes around cylinders and cones.
     pub excess: Excess,
     /// Whether a mesh is a surface or a solid.
     pub meshes: Meshes,
-    /// The most work before a cast ends as `OutOfIterations`: [`Settings::budget`](ccd_core::Settings::budget). By default it
-    /// is a quarter of the engine's, about a second.
+    /// The maximum work before a cast ends as `OutOfIterations`: [`Settings::budget`](ccd_core::Settings::budget). By
+    /// default it is a quarter of the engine's, about a second.
     pub budget: u64,
-    /// The longest time before a cast ends as `OutOfIterations`: [`Settings::deadline`](ccd_core::Settings::deadline).
+    /// The maximum duration before a cast ends as `OutOfIterations`:
+    /// [`Settings::deadline`](ccd_core::Settings::deadline).
     pub deadline: Option<Duration>,
 }
 
@@ -39,13 +40,13 @@ impl Default for Options {
     }
 }
 
-/// How far a polytope about a cylinder or a cone may exceed it: contacts are early by at most the time in which the
-/// bodies come nearer by that, and never late.
+/// The allowed excess of a polytope over its cylinder or cone: contacts are never late, and early by at most the time
+/// in which the bodies approach by the excess.
 ///
 /// The polytope touches its shape along the axes, so that a cylinder that stands, or lies along an axis, is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Excess {
-    /// A quarter of a thousandth of the radius.
+    /// 1/4000 of the radius.
     #[default]
     Fine,
     /// A length.
@@ -54,14 +55,14 @@ pub enum Excess {
     Refuse,
 }
 
-/// What the inside of a triangle mesh is.
+/// The interior of a triangle mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Meshes {
-    /// Empty: only triangles are touched, as in all of parry's queries between two shapes. A room is a mesh around
+    /// Empty: only the triangles can be touched, as in all of parry's queries on two shapes. A room is a mesh around
     /// its visitors.
     #[default]
     Surfaces,
-    /// Filled if the mesh has the flag `ORIENTED`, for which parry's queries of points take it as filled: a body
-    /// inside is in contact. Such a mesh is refused unless it is closed. Meshes in compounds stay surfaces.
+    /// Solid if the mesh has the flag `ORIENTED`, as in parry's point queries: a body inside is in contact. Such a mesh
+    /// is refused unless it is closed. Meshes in compounds stay surfaces.
     SolidIfOriented,
 }

@@ -1,4 +1,4 @@
-//! Numbers compared, and vectors measured, as everywhere in the engine.
+//! Comparisons of numbers and lengths of vectors, as in the engine.
 
 pub(crate) use ccd_core::order::{greater, lesser};
 pub(crate) use ccd_core::vector::length;

@@ -1,11 +1,11 @@
-//! Bodies of shapes, ready for casts.
+//! Bodies of shapes, prepared for casts.
 
 use crate::ShapeError;
 use crate::form::Form;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 
-/// A body made of a shape: for casts, and for all other questions of [`rigid_ccd::Solver`].
+/// A body made from a shape, for casts and for all other questions of [`rigid_ccd::Solver`].
 ///
 /// # Guarantee
 /// Each point of the shape is at most [`slack`](Prepared::slack) from the body, and each point of the body at most
@@ -18,7 +18,7 @@ pub struct Prepared {
     numbers: Vec<u32>,
     middle: DVec3,
     radius: f64,
-    /// The middle, for a ball.
+    /// The centre, for a ball.
     point: Option<DVec3>,
     slack: f64,
     excess: f64,
@@ -41,7 +41,7 @@ impl Prepared {
         })
     }
 
-    /// The body, in the shape's frame.
+    /// Returns the body, in the shape's frame.
     ///
     /// Features of a triangle mesh have the mesh's numbers. Vertices of other bodies of many parts have the number of
     /// their part.
@@ -49,24 +49,24 @@ impl Prepared {
         &self.body
     }
 
-    /// How far points of the shape may be outside of the body, for rounding: 0 for all shapes but compounds and
+    /// Returns a bound on the distance of the shape's points from the body, due to rounding: 0 except for compounds and
     /// voxels.
     pub fn slack(&self) -> f64 {
         self.slack
     }
 
-    /// How far the body may exceed the shape: 0 without cylinders and cones.
+    /// Returns a bound on the body's excess over the shape: 0 without cylinders and cones.
     pub fn excess(&self) -> f64 {
         self.excess
     }
 
-    /// Returns the number of the sub-shape that a piece of the body is, as in
-    /// `parry3d::query::ShapeCastHit::subshape1`; 0 for a piece that does not exist.
+    /// Returns the sub-shape index of a piece of the body, as in `parry3d::query::ShapeCastHit::subshape1`; 0 for a
+    /// piece that does not exist.
     pub fn sub_shape(&self, piece: u32) -> u32 {
         self.numbers.get(piece as usize).copied().unwrap_or(0)
     }
 
-    /// Returns it as one that exceeds its shape by this.
+    /// Returns the body with its excess set to `excess`.
     ///
     /// # Errors
     /// [`ShapeError::Body`] for what is no length.
@@ -79,23 +79,23 @@ impl Prepared {
         })
     }
 
-    /// The approximate number of bytes held.
+    /// Returns the approximate memory use in bytes.
     pub fn bytes(&self) -> usize {
         self.body.bytes() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
     }
 
-    /// The middle of a ball, in the shape's frame; none for other shapes.
+    /// Returns the centre of a ball, in the shape's frame; `None` for other shapes.
     pub(crate) fn point(&self) -> Option<DVec3> {
         self.point
     }
 
-    /// A ball about all points: its middle, in the shape's frame, and its radius.
+    /// Returns an enclosing ball: its centre, in the shape's frame, and its radius.
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         (self.middle, self.radius)
     }
 }
 
-/// Returns a body that may exceed its shape by two lengths together.
+/// Returns a body whose excess is the sum of `slack` and `excess`.
 fn exceeding(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
     let together = if slack > 0.0 {
         (slack + excess).next_up()

@@ -1,4 +1,4 @@
-//! Casts as files for the command `ccd`.
+//! Recordings of casts as files for the command `ccd`.
 
 use crate::scene::Scene;
 use ccd_core::{Body, Motion, Settings, StartPolicy};
@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// A cast that can be asked again by the command `ccd`: both bodies and their motions from the start of the interval on.
+/// A cast that the command `ccd` can repeat: both bodies and their motions from the start of the interval on.
 ///
 /// # Guarantee
 /// It is the question that the cast asks the engine, with its tolerance, its slack and its polytopes about round shapes;
@@ -35,13 +35,13 @@ pub enum RecordError {
     Write {
         /// The folder or the file.
         path: PathBuf,
-        /// The cause.
+        /// The error of the system.
         source: io::Error,
     },
 }
 
 impl Recording {
-    /// Takes down the question of a scene.
+    /// Records a scene.
     pub(crate) fn of(scene: &Scene<'_>) -> Self {
         Recording {
             bodies: scene.bodies.map(|body| body.body().clone()),
@@ -51,9 +51,9 @@ impl Recording {
         }
     }
 
-    /// Writes `a.ccd`, `b.ccd` and `motions.csv` to a folder, which is made if need be, and returns the command that
-    /// answers them. Time 0 of the table is the start of the cast, and both bodies are seen as by one who moves along with
-    /// the second.
+    /// Writes `a.ccd`, `b.ccd` and `motions.csv` to a folder, creates the folder if necessary, and returns the command
+    /// that answers them. Time 0 of the table is the start of the cast, and both bodies are seen as by one who moves
+    /// along with the second.
     ///
     /// # Errors
     /// [`RecordError`].
@@ -85,7 +85,7 @@ impl Recording {
         ))
     }
 
-    /// Returns the table of its one motion.
+    /// Returns the table of motions, with one row.
     fn table(&self) -> String {
         let (mut names, mut cells) = (String::from("duration"), self.duration.to_string());
         for (body, motion) in ["a", "b"].iter().zip(&self.motions) {

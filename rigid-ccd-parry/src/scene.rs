@@ -1,4 +1,4 @@
-//! Two bodies and their motions from the start of a cast on: the engine's question, and its answer in parry's terms.
+//! A query of the engine for two bodies, from the start of a cast on, and its answer in parry's terms.
 
 use crate::horizon::Horizon;
 use crate::interval::Interval;
@@ -13,55 +13,57 @@ use rigid_ccd::Solver;
 #[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) bodies: [&'a Prepared; 2],
-    /// From the start of the interval on, as far as they matter.
+    /// The motions from the start of the interval on, without rotations that have no effect.
     pub(crate) motions: [Motion; 2],
     /// The full motions, rotation included. Hits are reported in these frames.
     pub(crate) frames: [Motion; 2],
     pub(crate) horizon: Horizon,
     pub(crate) interval: Interval,
-    /// The distance at which they count as in contact.
+    /// The distance at which the bodies are in contact.
     pub(crate) target: f64,
     pub(crate) settings: Settings,
 }
 
-/// What a cast found.
+/// The hit of a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Found {
+pub(crate) struct CastHit {
     pub(crate) time: f64,
     /// The nearest points, each in its body's frame.
     pub(crate) witnesses: [DVec3; 2],
     /// The directions to the other body, each in its body's frame.
     pub(crate) normals: [DVec3; 2],
-    /// The sub-shapes that are nearest.
+    /// The indices of the nearest sub-shapes.
     pub(crate) numbers: [u32; 2],
     pub(crate) ending: Ending,
 }
 
-/// How a cast ended.
+/// The way in which a cast ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// With a contact.
+    /// A contact after the start.
     Contact,
-    /// With bodies that overlap at the start: two pieces, or one body inside the other.
+    /// An overlap of two pieces at the start.
     Overlap,
+    /// One body inside the other at the start.
     Inside,
-    /// With bodies that are nearer than the target distance at the start.
+    /// A distance below the target distance at the start.
     Near,
-    /// At a limit: nothing touches before.
+    /// A limit of work or time, with no contact before it.
     Limit,
 }
 
 impl Scene<'_> {
     /// Finds the first contact.
-    pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<Found>, CastError> {
+    pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), self.motions[k]));
         solver.set_settings(self.settings.clone());
         let answer = solver.first_contact(a, b, self.horizon.duration())?;
-        Ok(self.found(&answer, solver))
+        Ok(self.hit(&answer, solver))
     }
 
-    /// Returns whether overlapping pieces may be let go: if both bodies move straight, and touch by their pieces alone.
-    pub(crate) fn is_let_go(&self) -> bool {
+    /// Returns whether overlapping bodies may be ignored while they part: only if both move in straight lines, and
+    /// their pieces overlap.
+    pub(crate) fn may_part(&self) -> bool {
         let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
         // Inside a mesh that is a solid there is no piece to part from.
         let bare = |body: &&Prepared| {
@@ -71,9 +73,11 @@ impl Scene<'_> {
         self.motions.iter().all(straight) && self.bodies.iter().all(bare)
     }
 
-    fn found(&self, answer: &Answer, solver: &mut Solver) -> Option<Found> {
+    fn hit(&self, answer: &Answer, solver: &mut Solver) -> Option<CastHit> {
         match answer.outcome {
-            Outcome::Contact { time, contact } => Some(self.shown(time, &contact, Ending::Contact)),
+            Outcome::Contact { time, contact } => {
+                Some(self.hit_of(time, &contact, Ending::Contact))
+            }
             Outcome::Touching { contact } => {
                 let within = self.target > 0.0 && contact.separation.upper <= self.target;
                 let ending = if within {
@@ -81,30 +85,30 @@ impl Scene<'_> {
                 } else {
                     Ending::Contact
                 };
-                Some(self.shown(0.0, &contact, ending))
+                Some(self.hit_of(0.0, &contact, ending))
             }
             Outcome::Overlapping { overlap, .. } => Some(match overlap {
-                Overlap::Pieces(contact) => self.shown(0.0, &contact, Ending::Overlap),
+                Overlap::Pieces(contact) => self.hit_of(0.0, &contact, Ending::Overlap),
                 Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
             }),
-            Outcome::Unresolved(known) => Some(self.seen(known.safe_until, solver)),
+            Outcome::Unresolved(known) => Some(self.hit_at_limit(known.safe_until, solver)),
             // A first contact has no other outcomes.
             Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::Measured { .. } => {
                 match self.horizon {
                     Horizon::Whole(_) => None,
-                    Horizon::Part(duration) => Some(self.seen(duration, solver)),
+                    Horizon::Part(duration) => Some(self.hit_at_limit(duration, solver)),
                 }
             }
         }
     }
 
-    /// Returns a contact in the bodies' frames.
-    fn shown(&self, after: f64, contact: &Contact, ending: Ending) -> Found {
+    /// Returns a contact as a hit in the bodies' frames.
+    fn hit_of(&self, after: f64, contact: &Contact, ending: Ending) -> CastHit {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
         let normals = [separation.normal, -separation.normal];
         let poses = self.poses(after);
-        Found {
+        CastHit {
             time: self.interval.time_after(after),
             witnesses: [0, 1].map(|k| poses[k].inverse().transform_point(points[k])),
             normals: [0, 1].map(|k| poses[k].rotation().conjugate() * normals[k]),
@@ -117,18 +121,18 @@ impl Scene<'_> {
     }
 
     /// Returns a hit of one body inside the other at the start, with a common point.
-    fn inside(&self, point: DVec3) -> Found {
+    fn inside(&self, point: DVec3) -> CastHit {
         let witnesses = self
             .poses(0.0)
             .map(|pose| pose.inverse().transform_point(point));
-        Found {
+        CastHit {
             witnesses,
-            ..Found::unseen(self.interval.start(), Ending::Inside)
+            ..CastHit::without_points(self.interval.start(), Ending::Inside)
         }
     }
 
-    /// Returns the hit for a time at which a limit was reached, with the nearest points if they can be had.
-    fn seen(&self, after: f64, solver: &mut Solver) -> Found {
+    /// Returns the hit at a limit, with the nearest points if they can be found.
+    fn hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
             budget: lesser(self.settings.budget, LOOK),
             deadline: self.settings.deadline,
@@ -145,8 +149,8 @@ impl Scene<'_> {
             Err(_) => None,
         };
         match contact {
-            Some(contact) => self.shown(after, &contact, Ending::Limit),
-            None => Found::unseen(self.interval.time_after(after), Ending::Limit),
+            Some(contact) => self.hit_of(after, &contact, Ending::Limit),
+            None => CastHit::without_points(self.interval.time_after(after), Ending::Limit),
         }
     }
 
@@ -155,10 +159,10 @@ impl Scene<'_> {
     }
 }
 
-impl Found {
-    /// A hit without nearest points: they are as in parry's casts.
-    fn unseen(time: f64, ending: Ending) -> Self {
-        Found {
+impl CastHit {
+    /// Returns a hit without nearest points, with parry's values in their place.
+    fn without_points(time: f64, ending: Ending) -> Self {
+        CastHit {
             time,
             witnesses: [DVec3::ZERO; 2],
             normals: [DVec3::X; 2],

@@ -1,18 +1,18 @@
-//! Bodies kept by what they are made of.
+//! A cache of bodies by their geometry.
 
 use crate::form::Form;
 use crate::limits::{KEPT_BODIES, KEPT_BYTES};
 use crate::{Prepared, ShapeError};
 use std::sync::Arc;
 
-/// The bodies that were asked for last, for shapes that nobody holds.
+/// A cache of the most recently used bodies, for shapes without another owner.
 ///
 /// A body is found by its form, number by number: no other shape is ever taken for it.
 #[derive(Debug)]
 pub(crate) struct Shelf {
-    /// The one asked for last stands last.
-    bodies: Vec<Kept>,
-    /// The most memory that they may take.
+    /// The bodies, the most recently used one last.
+    bodies: Vec<Entry>,
+    /// The maximum memory of the bodies.
     most_bytes: usize,
 }
 
@@ -26,7 +26,7 @@ impl Default for Shelf {
 }
 
 #[derive(Debug)]
-struct Kept {
+struct Entry {
     form: Form,
     body: Arc<Prepared>,
     bytes: usize,
@@ -44,7 +44,7 @@ impl Shelf {
         let bytes = body.bytes() + form.bytes();
         self.make_room(bytes);
         if bytes <= self.most_bytes {
-            self.bodies.push(Kept {
+            self.bodies.push(Entry {
                 form,
                 body: Arc::clone(&body),
                 bytes,
@@ -53,7 +53,7 @@ impl Shelf {
         Ok(body)
     }
 
-    /// Lets go of those that were not asked for the longest.
+    /// Removes the least recently used bodies until `bytes` fit.
     fn make_room(&mut self, bytes: usize) {
         let mut held: usize = self.bodies.iter().map(|kept| kept.bytes).sum();
         let mut gone = 0;

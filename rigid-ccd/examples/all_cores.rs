@@ -2,7 +2,7 @@
 
 use rigid_ccd::{Body, Error, Motion, Pose, first_contacts};
 
-/// Returns the motion of a capsule that flies past a box or into it, from another side for each `k`.
+/// Returns the motion of a capsule past a box or into it, from another side for each `k`.
 fn motion(k: u32) -> Result<Motion, Error> {
     let angle = f64::from(k) * 0.01;
     let from = Pose::at([4.0 * angle.cos(), 4.0 * angle.sin(), 0.3])?;

@@ -1,4 +1,4 @@
-//! Two involute gears over a full turn: the least clearance of their teeth over the angle, proven.
+//! Two involute gears over a full turn: the proven least clearance of their teeth over the angle.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example gears -- [OUT.svg]
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 struct Gear {
     teeth: u32,
     module: f64,
-    /// By how much the teeth are thinner than their gaps, at the pitch circle.
+    /// The difference of the widths of gaps and teeth at the pitch circle.
     backlash: f64,
 }
 
@@ -30,7 +30,7 @@ impl Gear {
         0.5 * self.module * f64::from(self.teeth)
     }
 
-    /// Returns the outline, counterclockwise; it begins at the root of the tooth at angle 0.
+    /// Returns the outline, counterclockwise, starting at the root of the tooth at angle 0.
     fn outline(&self) -> Vec<[f64; 2]> {
         let pitch = self.pitch_radius();
         let base = pitch * PRESSURE.cos();
@@ -61,7 +61,7 @@ impl Gear {
         outline.into_iter().map(flat).collect()
     }
 
-    /// Returns the solid: the outline, drawn out along z.
+    /// Returns the solid: the outline, extruded along z.
     fn body(&self) -> Result<Body, Box<dyn std::error::Error>> {
         let outline = self.outline();
         let count = outline.len() as u32;
@@ -83,7 +83,7 @@ impl Gear {
     }
 }
 
-/// The number of parts of a flank.
+/// The number of segments of a flank.
 const STEPS: u32 = 8;
 
 /// The angle of a window, in degrees of the first gear.
@@ -96,7 +96,7 @@ struct Window {
     upper: f64,
 }
 
-/// Turns both gears by a full turn of the first one, window by window.
+/// Rotates both gears by a full turn of the first one, window by window.
 fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Error>> {
     let [a, b] = gears;
     let bodies = [a.body()?, b.body()?];
@@ -134,7 +134,7 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Erro
     Ok(windows)
 }
 
-/// The least lower bound and the greatest upper bound.
+/// Returns the least lower bound and the greatest upper bound.
 fn range(windows: &[Window]) -> (f64, f64) {
     let (mut least, mut most) = (f64::INFINITY, 0.0);
     for &Window { lower, upper, .. } in windows {

@@ -1,5 +1,5 @@
-//! A planner's roadmap for a bracket that has to pass a slot in a wall: edges certified, beside checks at equal
-//! steps.
+//! A planner's roadmap for a bracket that has to pass a slot in a wall: edges are certified, and compared with checks
+//! at equal steps.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example planner -- [OUT.svg]
@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The walls: two of them, with a slot in between.
+/// Two walls with a slot between them.
 struct Room {
     walls: Vec<(Body, Motion)>,
 }
@@ -59,7 +59,7 @@ fn edge_is_free(
     Ok(true)
 }
 
-/// About the middle of the bracket, which is not its origin.
+/// The approximate middle of the bracket, which is not its origin.
 const MIDDLE: [f64; 3] = [0.8, 0.5, 0.4];
 
 /// Returns whether the body is free at equal steps of a motion.
@@ -82,7 +82,7 @@ fn steps_are_free(
     Ok(true)
 }
 
-/// Draws places at which the body is free: the first is the start, the second the goal.
+/// Draws poses at which the body is free: the first is the start, the second the goal.
 fn places(solver: &mut Solver, room: &Room, body: &Body) -> Result<Vec<Pose>, Error> {
     let mut random = Pcg64::seed_from_u64(7);
     let mut places = vec![Pose::at([-4.0, 0.0, 0.0])?, Pose::at([3.0, 0.0, 0.0])?];
@@ -107,7 +107,7 @@ fn places(solver: &mut Solver, room: &Room, body: &Body) -> Result<Vec<Pose>, Er
     Ok(places)
 }
 
-/// Joins each place with its nearest ones.
+/// Connects each place with its nearest ones.
 fn edges(places: &[Pose]) -> Vec<[usize; 2]> {
     let middle = |pose: &Pose| pose.transform_point(MIDDLE.into());
     let apart = |a: &Pose, b: &Pose| {

@@ -1,4 +1,4 @@
-//! A table of motions by the library alone: what answering costs, without tables of results.
+//! Answers a table of motions with the library alone, to measure the cost without tables of results.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example rows -- A.obj B.obj motions.csv [THREADS [ROWS [TIMES]]]
@@ -8,7 +8,7 @@
 //! their durations. Without arguments it shows a small table of its own.
 
 use anyhow::{Context, Result};
-use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::table::motions::{MotionTable, Motions};
 use rigid_ccd::{Body, ParallelSolver, Solver, load};
 use std::fs::{self, File};
 use std::io::Write;
@@ -31,7 +31,7 @@ fn main() -> Result<()> {
             (ball, wall, MotionTable::read(SHOWN.as_bytes())?)
         }
     };
-    let queries: Vec<Query> = table.rows.into_iter().map(|(_, query)| query).collect();
+    let queries: Vec<Motions> = table.rows.into_iter().map(|(_, query)| query).collect();
     let rows = number(4, queries.len())?;
     let queries: Vec<_> = (queries.iter().cycle().take(rows))
         .map(|query| ((&a, query.a), (&b, query.b), query.duration))

@@ -1,4 +1,4 @@
-//! A box flies at a ball and turns by 20 radians per unit of time: when and where do they touch?
+//! A box flies at a ball and rotates at 20 radians per unit of time: when and where do they touch?
 
 use rigid_ccd::{Body, Motion, Pose, first_contact};
 use std::error::Error;

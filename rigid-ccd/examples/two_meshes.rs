@@ -1,4 +1,4 @@
-//! A wedge drops onto a bracket and turns on its way. Give two mesh files to use them instead.
+//! A wedge drops onto a bracket and rotates as it falls. Give two mesh files to use them instead.
 //!
 //! `cargo run -p rigid-ccd --example two_meshes -- part.stl other.obj`
 

@@ -54,7 +54,7 @@ impl<'q> Bodies<'q> {
     }
 }
 
-/// Creates a solver for each thread that is asked for, by default one for each core.
+/// Creates one solver for each of `threads`, by default one for each core.
 pub fn on_threads<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> ParallelSolver<S> {
     match threads.and_then(|threads| NonZeroUsize::new(threads.into())) {
         Some(threads) => ParallelSolver::with_threads(threads, solver),
@@ -62,7 +62,7 @@ pub fn on_threads<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> Paralle
     }
 }
 
-/// Sorts values and returns their median; NaN without values.
+/// Sorts values and returns their median, or NaN without values.
 pub fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     let upper = values.len() / 2;

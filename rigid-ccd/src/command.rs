@@ -81,14 +81,14 @@ enum Command {
     Man(ManArgs),
 }
 
-/// The end of a run that wrote all its output.
+/// The outcome of a run that wrote all its output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// Every row has an answer.
     AllAnswered,
     /// Some rows are bad; the others have an answer.
     SomeRowsBad,
-    /// Every row has an answer, and some are not free or kept, in an audit or a check.
+    /// Every row has an answer, and an audit or a check found rows that are not free or kept.
     SomeNotFree,
 }
 
@@ -127,24 +127,24 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
 
 /// Writes a message to standard error, after the program's name.
 pub fn complain(message: &str) {
-    tell(&format!("{}: {message}", program()));
+    print_line(&format!("{}: {message}", program()));
 }
 
 /// Writes a line to standard error. Cells and names of files in it may hold anything: nothing of it moves the cursor,
 /// changes colours or ends the line.
-pub(crate) fn tell(line: &str) {
+pub(crate) fn print_line(line: &str) {
     // A message that cannot be written is not a failure.
     let _ = writeln!(io::stderr(), "{}", Printable(line));
 }
 
-/// Says what is odd about a question, one line for each.
+/// Prints the remarks about a question, one line for each.
 fn complain_of(remarks: impl IntoIterator<Item = Remark>) {
     for remark in remarks {
         complain(&remark.to_string());
     }
 }
 
-/// Returns the name of this program, without folder and extension.
+/// Returns the name of this program without its folder and extension.
 fn program() -> String {
     let path = std::env::args_os().next().map(PathBuf::from);
     let name = path.as_deref().and_then(Path::file_stem);

@@ -140,7 +140,7 @@ pub use remark::Remark;
 pub use scene::{FixedBody, Groups, Impact, PairError, Scene, Stop};
 pub use solver::{Solver, first_contact};
 
-/// The example in the README.
+/// The example in the README, run as a doctest.
 #[cfg(all(doctest, feature = "meshes"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -27,8 +27,9 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
     Ok(source.load(Detail::Auto)?.body)
 }
 
-/// Loads a body as [`load`] does, with coordinates in a unit. A glTF, which is in metres, and a 3MF, which states its
-/// unit, are [converted](MeshFile::in_unit); the coordinates of other files are taken to be in the unit already.
+/// Loads a body as [`load`] does, with coordinates converted to a unit. A glTF, which is in metres, and a 3MF, which
+/// states its unit, are [converted](MeshFile::in_unit); the coordinates of other files are taken to be in the unit
+/// already.
 ///
 /// # Errors
 /// Those of [`load`].
@@ -43,8 +44,8 @@ pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
     Ok(source.load_in(unit, Detail::Auto)?.body)
 }
 
-/// Loads a body as [`load`] does, with adjustments of its mesh: the unit of its numbers where the file states none or a
-/// wrong one, a factor, a mirror, a closed mesh as a hollow surface.
+/// Loads a body as [`load`] does, with adjustments of its mesh: unit, scale factor, mirror, or a closed mesh taken as a
+/// hollow surface.
 ///
 /// # Errors
 /// Those of [`load`]. A prepared body is refused: it stays as it is.
@@ -62,8 +63,8 @@ pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Resul
     Ok(source.load_adjusted(adjustments, Detail::Auto)?.body)
 }
 
-/// Loads a body from each part of a mesh file, with its name or, without one, its number from 0: the nodes with meshes
-/// of a glTF, the items of a 3MF's build, the objects or groups of an OBJ. Any other mesh is one part.
+/// Loads each part of a mesh file as a body, with its name or, without one, its number from 0. Parts are the nodes with
+/// meshes of a glTF, the items of a 3MF's build, the objects or groups of an OBJ. Any other mesh is one part.
 ///
 /// Vertices and faces are numbered from 0 in each part. To convert units, or to load one part, use
 /// [`mesh::MeshFile`](MeshFile).

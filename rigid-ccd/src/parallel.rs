@@ -1,4 +1,4 @@
-//! Many queries, side by side on several threads.
+//! Many queries in parallel.
 
 use crate::Solver;
 use ccd_core::{Answer, DistanceOracle, InputError, Moving};
@@ -88,23 +88,23 @@ pub struct QueryError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct ParallelSolver<S = Solver> {
-    /// Not empty.
+    /// The solvers, at least one.
     solvers: Vec<CachePadded<S>>,
 }
 
-/// A value on cache lines of its own: threads that write to one line slow each other down. Processors fetch lines of
-/// 64 bytes in pairs. Two lines, where the one of `crossbeam-utils` is a dependency.
+/// A value aligned to its own cache lines, which avoids false sharing between threads. Processors fetch lines of 64
+/// bytes in pairs. Two lines, where the one of `crossbeam-utils` is a dependency.
 #[repr(align(128))]
 pub(crate) struct CachePadded<S>(pub(crate) S);
 
 impl<S> ParallelSolver<S> {
-    /// Creates a solver for each core, such as `ParallelSolver::new(Solver::new)`.
+    /// Creates a solver for each core, for example `ParallelSolver::new(Solver::new)`.
     pub fn new(solver: impl FnMut() -> S) -> Self {
         let cores = available_parallelism().unwrap_or(NonZeroUsize::MIN);
         ParallelSolver::with_threads(cores, solver)
     }
 
-    /// Creates a solver for each of that many threads.
+    /// Creates a solver for each of `threads` threads.
     pub fn with_threads(threads: NonZeroUsize, mut solver: impl FnMut() -> S) -> Self {
         let solvers = (0..threads.get()).map(|_| CachePadded(solver())).collect();
         ParallelSolver { solvers }
@@ -231,7 +231,7 @@ impl<S: Send> ParallelSolver<S> {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
-    /// Works on queries, on up to `most` threads, until there is no next one.
+    /// Calls a function on each query, on up to `most` threads.
     fn share<Q>(
         &mut self,
         most: usize,
@@ -261,7 +261,7 @@ impl<S: Send> ParallelSolver<S> {
     }
 }
 
-/// Tells the other threads that this one panics.
+/// Sets a flag when this thread panics, so that the other threads stop.
 struct TellsOfPanic<'f>(&'f AtomicBool);
 
 impl Drop for TellsOfPanic<'_> {

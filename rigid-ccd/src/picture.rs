@@ -1,4 +1,4 @@
-//! Answers as views of a page: see `ccd-view`.
+//! Answers drawn as views of a page; see `ccd-view`.
 //!
 //! Public only because the pages of `ccd-bench` and the Python package share it; no stable interface.
 
@@ -33,7 +33,7 @@ use drawn::lit;
 /// The colours of both bodies.
 pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 
-/// Makes views of the answers about two bodies.
+/// Draws answers about two bodies as views.
 pub struct Painter<'a> {
     bodies: Bodies<'a>,
     asked: Asked,
@@ -48,7 +48,7 @@ pub enum ViewError {
     /// The motions are out of range.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The bodies are not those of the row.
+    /// The bodies do not match the row.
     #[error(
         "at {time} the bodies are at least {measured} apart, but the row says at most {told}: it is the answer about \
          other bodies, or other motions"
@@ -64,7 +64,7 @@ pub enum ViewError {
 }
 
 impl<'a> Painter<'a> {
-    /// Draws two bodies, for answers to a question.
+    /// Creates a painter of two bodies, for answers to a question.
     pub fn new(bodies: Bodies<'a>, asked: Asked) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn(body)));
@@ -145,7 +145,7 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// Holds the distance of a row that was read from a table against the bodies' own.
+    /// Checks a distance from a table of results against the bodies' distance.
     fn compare(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
         let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
             return Ok(());
@@ -163,7 +163,7 @@ impl<'a> Painter<'a> {
         Ok(())
     }
 
-    /// Returns what touches, or is nearest, with its features.
+    /// Returns the nearest or touching points with their features.
     fn contact(&self, row: &ResultRow, time: f64, poses: [Pose; 2]) -> Option<ShownContact> {
         let point = |cells: [Option<f64>; 3]| {
             let [x, y, z] = cells;

@@ -1,4 +1,4 @@
-//! What is valid, and hardly what is meant.
+//! Remarks: input that is valid, but probably a mistake.
 
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
@@ -7,7 +7,7 @@ use ccd_core::vector::length;
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// Something about a question that is valid, and hardly what is meant. It changes no answer.
+/// A remark about a question that is valid, but probably a mistake. It changes no answer.
 ///
 /// The command prints it, and the Python package warns of it, each kind once. Who asks through the library decides
 /// for himself what to do with it.
@@ -32,45 +32,45 @@ pub enum Remark {
         /// The largest side of the smaller body's box.
         size: f64,
     },
-    /// An angular velocity looks like one in degrees.
+    /// An angular velocity seems to be in degrees.
     SpinInDegrees {
         /// The angular velocity.
         spin: DVec3,
-        /// The turn that it makes in the duration, in radians.
+        /// The rotation over the duration, in radians.
         turn: f64,
     },
-    /// The position of a joint that turns looks like one in degrees.
+    /// A revolute joint's position seems to be in degrees.
     JointInDegrees {
         /// The position.
         position: f64,
     },
     /// A quaternion is far from unit length.
     LongQuaternion {
-        /// Its parts w, x, y, z.
+        /// The components w, x, y, z.
         parts: [f64; 4],
-        /// Its length.
+        /// The length of the quaternion.
         length: f64,
     },
 }
 
-/// The share of the smaller body's size that a tolerance may be: what is called a contact is then as far away as
-/// that. With the default tolerance, a part of a centimetre in metres is not remarked upon, and one of a millimetre is.
+/// The largest unremarkable tolerance, as a share of the smaller body's size. With the default tolerance, a part of a
+/// centimetre in metres is not remarked upon, and one of a millimetre is.
 const COARSE: f64 = 0.1;
 
-/// Turns above this may be meant in degrees. Four turns in radians are 25; as degrees, that is a small angle. Robots'
-/// joints and parts that are thrown or assembled turn less.
+/// The rotation above which an angle may be meant in degrees. Four turns in radians are 25; as degrees, that is a small
+/// angle. Robots' joints and parts that are thrown or assembled turn less.
 const MANY_TURNS: f64 = 4.0 * TAU;
 
-/// Angles up to this may be meant in degrees: two turns of them. More is a shaft that spins.
+/// The largest angle that may be meant in degrees: two turns. More is a shaft that spins.
 const MOST_DEGREES: f64 = 720.0;
 
-/// Angles in degrees are mostly multiples of this. In radians, 50, 100, 200, 500 and multiples of π are none of them.
+/// The step of typical angles in degrees. In radians, 50, 100, 200, 500 and multiples of π are none of them.
 const STEP: f64 = 15.0;
 
-/// How far an angle may be from a multiple, relative to it: a product of a rate and a duration is rounded.
+/// The relative deviation from a multiple that is attributed to rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// How far from 1 a quaternion's length may be. One that is printed with two digits is nearer.
+/// The largest unremarkable deviation of a quaternion's length from 1. One that is printed with two digits is nearer.
 const UNIT: f64 = 0.1;
 
 impl Remark {
@@ -92,15 +92,15 @@ impl Remark {
         sides.fold(0.0, greater)
     }
 
-    /// Remarks upon a tolerance that is large against the smaller of two bodies, by their [sizes](Remark::size). A
-    /// point has none.
+    /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their
+    /// [sizes](Remark::size). A point has none.
     pub fn of_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
         let size = lesser(sizes[0], sizes[1]);
         let is_coarse = size > 0.0 && tolerance > COARSE * size;
         is_coarse.then_some(Remark::CoarseTolerance { tolerance, size })
     }
 
-    /// Remarks upon an angular velocity that turns a body many times in the duration, and is a round number of
+    /// Returns a remark if an angular velocity rotates a body many times in the duration and is a round number of
     /// degrees.
     pub fn of_spin(spin: impl Into<[f64; 3]>, duration: f64) -> Option<Self> {
         let spin = DVec3::from_array(spin.into());
@@ -111,13 +111,13 @@ impl Remark {
         (may_be_degrees(turn) && is_round).then_some(Remark::SpinInDegrees { spin, turn })
     }
 
-    /// Remarks upon a position of a joint that is many turns, and a round number of degrees.
+    /// Returns a remark if a joint's position is many turns and a round number of degrees.
     pub fn of_joint(position: f64) -> Option<Self> {
         let is_odd = may_be_degrees(position.abs()) && is_multiple(position);
         is_odd.then_some(Remark::JointInDegrees { position })
     }
 
-    /// Remarks upon a quaternion w, x, y, z that is far from unit length.
+    /// Returns a remark if a quaternion w, x, y, z is far from unit length.
     pub fn of_quaternion(parts: [f64; 4]) -> Option<Self> {
         let [w, x, y, z] = parts;
         let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
@@ -125,7 +125,7 @@ impl Remark {
         (!is_unit).then_some(Remark::LongQuaternion { parts, length })
     }
 
-    /// Returns the remark without the numbers, which tells whether two are alike.
+    /// Returns the remark's text without numbers, the same for remarks of one kind.
     pub fn in_general(&self) -> &'static str {
         match self {
             Remark::CoarseTolerance { .. } => {
@@ -144,7 +144,7 @@ impl Remark {
         }
     }
 
-    /// Returns whether an angular velocity makes so many turns that it may be meant in degrees, round or not.
+    /// Returns whether a body rotates so often that its angular velocity may be meant in degrees, round or not.
     #[cfg(feature = "tables")]
     pub(crate) fn is_fast(spin: DVec3, duration: f64) -> bool {
         length(spin) * duration > MANY_TURNS

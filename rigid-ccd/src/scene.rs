@@ -6,7 +6,7 @@ mod goal;
 mod groups;
 mod pairs;
 mod race;
-mod rest;
+mod shifted;
 mod stops;
 
 use crate::ParallelSolver;
@@ -21,7 +21,8 @@ use race::{Race, Worker};
 use std::num::NonZeroUsize;
 pub use stops::Stop;
 
-/// Many bodies, each with its [motion](ccd_core::Motion) or [trajectory](crate::trajectory): which of them touch first, or at all.
+/// Many bodies, each with a [motion](ccd_core::Motion) or a [trajectory](crate::trajectory); finds which of them touch,
+/// and when.
 ///
 /// Only bodies whose ways meet are examined, and the pair that is proven least far goes on next: no pair is proven
 /// much further than the answer needs. Keep a scene from step to step: it reuses its memory.
@@ -78,10 +79,10 @@ pub struct FixedBody {
     pub index: usize,
 }
 
-/// The pairs that are worth another thread. To start one takes as long as a few tens of pairs do.
+/// The number of pairs that justifies another thread. To start one takes as long as a few tens of pairs do.
 const PAIRS_A_THREAD: usize = 32;
 
-/// A box that meets all that can be asked for: coordinates are up to 1e12, and travels as much.
+/// A box that meets the box of every valid motion: coordinates and displacements are at most 1e12.
 const EVERYWHERE: SweptBox = SweptBox {
     min: DVec3::splat(-1e15),
     max: DVec3::splat(1e15),
@@ -93,7 +94,7 @@ impl<'a> Scene<'a> {
         Scene::from(ParallelSolver::new(Worker::default))
     }
 
-    /// Creates a scene that uses that many threads.
+    /// Creates a scene that uses `threads` threads.
     pub fn with_threads(threads: NonZeroUsize) -> Self {
         Scene::from(ParallelSolver::with_threads(threads, Worker::default))
     }
@@ -107,8 +108,8 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Sets tolerance, margin, start policy, the budget of each pair, and a flag by which other threads stop the
-    /// search: pairs that are under way then are unresolved, with a certified time. A deadline is for all pairs
+    /// Sets the tolerance, the margin, the start policy, the budget of each pair, and a flag by which other threads
+    /// stop the search. Pairs in progress are then unresolved, with a certified time. A deadline is for all pairs
     /// together.
     #[must_use]
     pub fn with_settings(mut self, settings: Settings) -> Self {
@@ -116,7 +117,7 @@ impl<'a> Scene<'a> {
         self
     }
 
-    /// Asks only for pairs that a function of both indices, the lower one first, returns true for.
+    /// Restricts the queries to pairs accepted by a function of both indices, the lower one first.
     ///
     /// Most filters are [`Groups`]; a function suits a list of parts that are fitted to each other.
     #[must_use]
@@ -127,7 +128,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Adds a body with a motion or a trajectory, and returns its index. Indices count from 0.
+    /// Adds a body with a motion or a trajectory, and returns the body's index. Indices count from 0.
     pub fn add(&mut self, body: &'a Body, movement: impl Into<Movement<'a>>) -> usize {
         self.push(body, movement.into(), Mobility::Moving)
     }
@@ -147,7 +148,8 @@ impl<'a> Scene<'a> {
         self.members.len() - 1
     }
 
-    /// Changes what moves a body, for the next step. A fixed body takes a motion at rest: it is put elsewhere.
+    /// Changes the motion or trajectory of a body, for the next step. A fixed body takes a motion at rest: it is put
+    /// elsewhere.
     ///
     /// # Errors
     /// [`FixedBody`] for a fixed body that would move: pairs of two fixed bodies are not looked at.
@@ -171,7 +173,7 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    /// Returns what moves a body.
+    /// Returns the motion or trajectory of a body.
     ///
     /// # Panics
     /// No body has the index.
@@ -202,7 +204,7 @@ impl<'a> Scene<'a> {
         self.members.clear();
     }
 
-    /// Finds the first contact of any two bodies, from time 0 to `duration`; none if all stay apart.
+    /// Finds the first contact of any two bodies, from time 0 to `duration`; `None` if all stay apart.
     ///
     /// Of contacts at the same time, that of the lowest indices is the first.
     ///
@@ -215,7 +217,7 @@ impl<'a> Scene<'a> {
         first.map(Event::impact).transpose()
     }
 
-    /// Finds the first contact of each body with any other one, by index; none for those that touch no other.
+    /// Finds the first contact of each body with any other one, by index; `None` for a body without contacts.
     ///
     /// # Errors
     /// Each body has a result of its own; its error is what is wrong with a pair, if it has no earlier contact.
@@ -246,7 +248,7 @@ impl<'a> Scene<'a> {
         events.iter().map(Event::impact).collect()
     }
 
-    /// Returns what happens to the pairs, as far as the goal needs it, in any order.
+    /// Returns the contacts and errors of the pairs, as far as the goal needs them, in any order.
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
@@ -270,7 +272,7 @@ impl<'a> Scene<'a> {
         events.into_iter().flatten().collect()
     }
 
-    /// Returns the pairs that are asked for and whose ways meet.
+    /// Returns the pairs that are accepted and whose swept boxes meet.
     fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
         let swept = |member: &Member<'_>| {
             let swept = member.moving().swept_box(duration, &self.settings);

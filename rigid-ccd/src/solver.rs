@@ -1,4 +1,4 @@
-//! Queries, one after another.
+//! Solvers for single queries.
 
 use crate::Error;
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
@@ -279,7 +279,7 @@ impl<O: DistanceOracle> Solver<O> {
         self.closest_approach(a, b, 0.0)
     }
 
-    /// Answers a question, with the settings of the query.
+    /// Answers a question with the settings of the query.
     ///
     /// # Errors
     /// Those of trajectories.
@@ -303,7 +303,7 @@ impl<O: DistanceOracle> Solver<O> {
     }
 }
 
-/// Poses a query that borrows the settings.
+/// Builds a query that borrows the settings.
 fn posed<'s, 'b: 's>(
     a: impl Into<Moving<'b>>,
     b: impl Into<Moving<'b>>,

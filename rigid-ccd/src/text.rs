@@ -1,8 +1,8 @@
-//! Numbers in messages.
+//! Formatting for messages.
 
 use std::fmt;
 
-/// A number displayed in few digits: very large and very small ones with an exponent.
+/// Displays a number with few digits, with an exponent if it is very large or very small.
 #[derive(Clone, Copy)]
 pub(crate) struct Number(pub(crate) f64);
 
@@ -18,7 +18,7 @@ impl fmt::Display for Number {
     }
 }
 
-/// A text displayed on one line of a terminal: characters that control one are escaped.
+/// Displays a text on one line of a terminal, with control characters escaped.
 #[cfg(feature = "command")]
 pub(crate) struct Printable<'a>(pub(crate) &'a str);
 

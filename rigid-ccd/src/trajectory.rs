@@ -1,4 +1,4 @@
-//! Motions beyond constant velocities, and the means to write one.
+//! Trajectories beyond constant velocities, and the parts to build others.
 //!
 //! Anything that implements [`Trajectory`] can carry a body. Queries along trajectories are as certain as those
 //! along motions: every stretch of a trajectory knows how far it strays from a [`Motion`].
@@ -48,7 +48,7 @@ pub use timed::{Pace, Timed};
 pub use turns::Turns;
 pub use worst_stray::{Worst, worst_stray};
 
-/// The relative rounding error of one operation.
+/// The unit roundoff: the relative error of one operation.
 const U: f64 = f64::EPSILON / 2.0;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A solver that has answered queries before answers them again without any allocation.
+//! A warmed-up solver answers the same queries again without allocations.
 //!
 //! This is a program of its own: the allocator that counts is that of the whole program.
 
@@ -13,13 +13,13 @@ static HEAP: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 const QUERIES: u64 = 3_000;
 
-/// Answers all queries, and returns how many find the bodies in contact at the start.
+/// Answers all queries, and returns the number of those with bodies in contact at the start.
 fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
     let mut at_start = 0;
     for number in 0..QUERIES {
-        let posed = mixed.posed(number);
-        let [a, b] = [0, 1].map(|k| mixed.moving(&posed, k));
-        solver.set_settings(posed.config);
+        let query = mixed.query(number);
+        let [a, b] = [0, 1].map(|k| mixed.moving(&query, k));
+        solver.set_settings(query.config);
         let answer = solver.first_contact(a, b, 1.0).expect("a well-posed query");
         if let Outcome::Touching { .. } | Outcome::Overlapping { .. } = answer.outcome {
             at_start += 1;

@@ -11,7 +11,7 @@ use ccd_core::{
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// Values that are no valid time or length, with their text in messages.
+/// Invalid times and lengths, with their text in messages.
 const OUT_OF_RANGE: [(f64, &str); 5] = [
     (-1.0, "-1"),
     (-1e-300, "-1e-300"),
@@ -208,7 +208,7 @@ fn polytopes_name_their_bad_element() {
     }
 }
 
-/// A box with a negative side would have its faces inside out, and a capsule would be one of another height.
+/// Boxes with a negative side would be inside out, and capsules would have another height.
 #[test]
 fn shapes_name_the_bad_length() {
     type Shape = fn(f64) -> Result<Body, InputError>;

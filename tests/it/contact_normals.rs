@@ -1,4 +1,4 @@
-//! The normal of a contact is in the normal cones of both surfaces, also where the bodies have no gap.
+//! The normal of a contact is in the normal cones of both surfaces, even if the bodies have no gap.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Outcome, Pose, Separation, Settings};
@@ -11,13 +11,14 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// The angle from the cone that rounding may leave: coordinates near 1, on faces of 0.3 and more.
+/// The allowed angle from the cone due to rounding: coordinates near 1, on faces of 0.3 and more.
 const FLUSH: f64 = 1e-12;
 
-/// The error of the direction between two points, times their distance. It is left in directions of longer ways.
+/// The error of the direction between two points, multiplied by their distance. It is left in directions of longer
+/// ways.
 const BETWEEN: f64 = 4e-15;
 
-/// Ways from which on the direction between two points may be the normal.
+/// The distance above which the direction between two points may be the normal.
 const WAY: f64 = 1e-8;
 
 const GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
@@ -48,7 +49,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
     );
 }
 
-/// Every backend finds the normal that the surfaces have, whatever axis its claim has.
+/// Every backend finds the normal of the surfaces, whatever axis its claim has.
 #[test]
 fn answers_of_all_backends_have_a_common_normal() {
     let rng = &mut Pcg64::seed_from_u64(46);
@@ -60,11 +61,11 @@ fn answers_of_all_backends_have_a_common_normal() {
     }
 }
 
-/// Two bodies at a gap along a direction that is in the normal cones of a feature of either.
+/// Two bodies with a gap along a direction that is in the normal cones of a feature of each.
 struct Touch {
     query: Query,
     gap: f64,
-    /// 0 for vertices, 1 for edges, 2 for faces: the larger one of both.
+    /// The dimension of the larger feature: 0 for vertices, 1 for edges, 2 for faces.
     size_of_support: usize,
 }
 
@@ -156,8 +157,8 @@ impl Touch {
     }
 }
 
-/// Returns the sine of the largest angle by which a direction from a point is nearer to the surface there than a right
-/// angle: a normal of the surface is none.
+/// Returns the sine of the largest angle by which a direction leaves the normal cone of a surface at a point; at most 0
+/// within the cone.
 fn off_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
     let mesh = &actor.shape.mesh;
     let pose = actor.motion.start();
@@ -186,11 +187,11 @@ fn off_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
     largest(&mut ends.collect::<Vec<_>>().into_iter())
 }
 
-/// A point of a shape beyond which nothing of it is along a direction.
+/// A point of a shape that is extreme along a direction.
 struct Support {
     normal: DVec3,
     point: DVec3,
-    /// A direction across the normal, along an edge if there is one.
+    /// A direction perpendicular to the normal, along an edge if there is one.
     along: DVec3,
     size: usize,
 }
@@ -246,7 +247,7 @@ impl Support {
         }
     }
 
-    /// Returns the turn of x and z to the edge and the normal.
+    /// Returns the rotation of x and z to the edge and the normal.
     fn basis(&self) -> DQuat {
         let aside = self.normal.cross(self.along);
         DQuat::from_mat3(&ccd_core::glam::DMat3::from_cols(
@@ -257,7 +258,7 @@ impl Support {
     }
 }
 
-/// A box, a cube, a skewed box, or a shape that is not convex.
+/// Returns a box, a cube, a skewed box, or a non-convex shape.
 fn shape(rng: &mut Pcg64) -> Shape {
     let mut half = || rng.random_range(0.3..1.0);
     let half = DVec3::new(half(), half(), half());

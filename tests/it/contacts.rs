@@ -36,7 +36,7 @@ fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     bodies.iter().map(of_kind).collect()
 }
 
-/// Every upright edge of the peg, which goes through the plate, meets both rims of one of its walls.
+/// Every upright edge of the peg, which passes through the plate, meets both rims of one wall of the hole.
 #[test]
 fn t12_a_peg_touches_four_walls_at_once() {
     for (kinds, pairs) in contacts_of("T12 ") {
@@ -68,7 +68,7 @@ fn t12_a_peg_touches_four_walls_at_once() {
     }
 }
 
-/// Four corners of every tooth of either comb meet the other comb's base.
+/// Four corners of every tooth of each comb meet the other comb's base.
 #[test]
 fn t19_all_tips_of_two_combs_touch() {
     for (kinds, pairs) in contacts_of("T19 combs of 4") {
@@ -95,7 +95,7 @@ fn t1_a_cube_rests_on_its_corners() {
     }
 }
 
-/// In two plates of 512 triangles that cover each other, vertices meet vertices.
+/// Two plates of 512 triangles cover each other, and their vertices coincide.
 #[test]
 fn plates_meet_vertex_by_vertex() {
     for (kinds, pairs) in contacts_of("plates") {
@@ -111,8 +111,7 @@ fn plates_meet_vertex_by_vertex() {
     }
 }
 
-/// The touching features are among the contacts, for all kinds of pieces, and each contact is as
-/// described.
+/// The touching features are among the contacts for all kinds of pieces, and each contact is as described.
 #[test]
 fn contacts_of_random_cases_hold() {
     let (reported, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
@@ -159,8 +158,8 @@ fn contacts_of_random_cases_hold() {
 
 type Names = [Feature; 2];
 
-/// Returns true if names are those of the mesh, or, for a corner or an edge without a number in a
-/// patch, that of a face with it.
+/// Returns true if names are those of the mesh; a corner or an edge without a number in a patch may have the name of an
+/// adjacent face.
 fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
     let meshes = [&query.a, &query.b].map(|actor| &actor.shape.mesh);
     let fits = |name: &Names, exact: &Names| {

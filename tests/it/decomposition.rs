@@ -1,4 +1,4 @@
-//! Convex patches: exactly within the solid, exactly on its surface, or a typed error.
+//! Convex patches are exactly within the solid and exactly on its surface, or there is a typed error.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::{DecomposeError, Decomposition, Order, decompose};
@@ -42,7 +42,7 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
     Ok(points)
 }
 
-/// Checks a model without faults, in every order: with the given effort in the default order, quickly in the others.
+/// Checks a model without faults in every order: with the given effort in the default order, quickly in the others.
 fn check_model(model: &Model, effort: Effort) {
     check_in(Order::Cresting, model, effort);
     for order in [Order::BreadthFirst, Order::DepthFirst] {
@@ -85,7 +85,7 @@ fn patches_of_thousands_of_faces() {
     }
 }
 
-/// On a coarse grid, many features are coplanar, collinear, or folded over.
+/// Many features of solids on a coarse grid are coplanar, collinear, or folded over.
 #[test]
 fn patches_of_random_solids() {
     // Solids as they are; and some whose cavity may reach through their surface.

@@ -1,5 +1,4 @@
-//! Convex solids of many corners: one piece, its triangles, and one piece against triangles give
-//! the same answer.
+//! Convex solids with many corners: one piece, its triangles, and one piece against triangles give the same answer.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
@@ -78,7 +77,7 @@ fn a_dense_solid_answers_like_its_triangles() {
     assert!(contacts >= 9, "{contacts}");
 }
 
-/// Near a mesh, one piece was once measured against nearly every triangle, which was slow.
+/// A piece near a mesh is measured against few of the mesh's triangles.
 #[test]
 fn a_solid_against_many_triangles_costs_as_much_as_triangles() {
     let ball = icosphere(1.0, 4).mesh;

@@ -1,4 +1,4 @@
-//! The same call gives the same bits, from a fresh schedule and from a used one.
+//! The same query gives the same bits with a fresh schedule and with a used one.
 
 use ccd_core::schedule::{BestFirst, Naive};
 use ccd_core::{DistanceOracle, OrElse, Schedule};
@@ -30,7 +30,7 @@ fn every_setup_repeats_itself() {
     });
 }
 
-/// Compares every oracle, kept with its schedule from query to query, with fresh ones.
+/// Compares every oracle, reused with its schedule from query to query, with fresh ones.
 macro_rules! used_as_fresh {
     ($($test:ident: $schedule:ident, $oracle:ty;)*) => {$(
         #[test]

@@ -1,4 +1,4 @@
-//! Tests the exact inside test itself, which is the reference for decompositions.
+//! Tests of the exact point-in-solid test, which is the reference for decompositions.
 
 use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
@@ -15,7 +15,7 @@ fn at(p: DVec3) -> Blend {
     Blend::mean([p])
 }
 
-/// Returns the mesh's vertices as one polytope, which extends far out of a mesh that is not convex.
+/// Returns the mesh's vertices as one polytope, whose hull extends far beyond a non-convex mesh.
 fn hull(mesh: &Mesh) -> Polytope {
     Polytope {
         points: mesh.vertices.clone(),
@@ -44,7 +44,7 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
     }
 }
 
-/// A difference in the last place separates inside from outside.
+/// A difference in the last bit separates inside from outside.
 #[test]
 fn points_a_rounding_off_the_surface_are_not_on_it() {
     let mesh = cuboid(DVec3::ONE).mesh;
@@ -60,7 +60,7 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
     }
 }
 
-/// The mean of three numbers has no last binary digit.
+/// The mean of three numbers is not exact in binary.
 #[test]
 fn thirds_are_exact() {
     let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1.0)];
@@ -84,7 +84,7 @@ fn triangles_without_an_area_hold_their_segment() {
     ));
 }
 
-/// The points are on the same grid as the mesh, so that rays go upwards from below edges and vertices.
+/// The points are on the same grid as the mesh, so that vertical rays pass through edges and vertices.
 #[test]
 fn rays_through_edges_and_vertices_count_once() {
     let mesh = l_prism().mesh;
@@ -136,7 +136,7 @@ fn cavities_are_outside_and_windings_add_up() {
     }
 }
 
-/// Winding numbers by solid angles in floating point differ next to the surface only.
+/// Winding numbers from solid angles in floating point differ only next to the surface.
 #[test]
 fn solid_angles_give_the_same_locations() {
     let mut all_outside = 0;

@@ -1,4 +1,4 @@
-//! A mesh that bounds no solid is refused by a typed error that names the offending elements.
+//! A mesh that bounds no solid gives a typed error that names the offending elements.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{DecomposeError, Edge, Order, Topology, decompose};

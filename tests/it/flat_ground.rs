@@ -1,5 +1,5 @@
-//! Bodies that slide on flat ground, however it is cut into triangles, feel none of its inner edges: only what stands
-//! on it.
+//! Bodies that slide on triangulated flat ground have no contacts with its inner edges, only with bodies that stand on
+//! it.
 
 use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 /// Half of the ground's length and width.
 const HALF: f64 = 8.0;
 
-/// The time before the true one from which on a contact may be reported: bodies are let go at the least tolerance.
+/// The allowed earliness of a contact: the search ignores contacts up to the least tolerance.
 const EARLY: f64 = 1e-9;
 
 fn leave() -> Settings {
@@ -26,7 +26,7 @@ fn leave() -> Settings {
     }
 }
 
-/// Draws level ground at height 0, cut along `cuts` lines each way, with a diagonal in each cell.
+/// Returns level ground at height 0, cut along `cuts` random lines each way, with a diagonal in each cell.
 fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
     let mut lines = || {
         let mut lines: Vec<f64> = (0..cuts).map(|_| rng.random_range(-HALF..HALF)).collect();
@@ -59,7 +59,7 @@ fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
     Mesh { vertices, faces }
 }
 
-/// Closes a sheet with a bottom a unit below, and walls.
+/// Closes a sheet with walls, and a bottom one unit below.
 fn slab(top: Mesh) -> Mesh {
     let count = top.vertices.len() as u32;
     let Mesh {
@@ -91,7 +91,7 @@ fn ground(rng: &mut Pcg64) -> Shape {
     }
 }
 
-/// Draws a solid whose lowest point is at height 0, around the origin.
+/// Returns a random solid around the origin whose lowest point is at height 0.
 fn solid(rng: &mut Pcg64) -> Shape {
     let half = || dvec3(0.3, 0.4, 0.5);
     let shape = match rng.random_range(0..5) {
@@ -111,7 +111,7 @@ fn solid(rng: &mut Pcg64) -> Shape {
     shape.placed(DQuat::IDENTITY, -least * DVec3::Z)
 }
 
-/// Draws a pose for the whole scene: as it is, or any.
+/// Returns a pose for the whole scene: the identity, or a random one.
 fn frame(rng: &mut Pcg64) -> Pose {
     let mut unit = || rng.random_range(-1.0..1.0);
     let any = DQuat::from_xyzw(unit(), unit(), unit(), unit()).normalize();
@@ -129,7 +129,7 @@ fn drawn(cases: u32, law: impl Fn(&mut Pcg64, u64)) {
     }
 }
 
-/// Whatever slides and turns on cut ground is as free as on one face.
+/// A body that slides and rotates on cut ground is as free as on a single face.
 #[test]
 fn whatever_slides_on_cut_ground_is_free() {
     drawn(24, |rng, seed| {
@@ -161,7 +161,7 @@ fn whatever_slides_on_cut_ground_is_free() {
     });
 }
 
-/// A block on the ground, however low, is met at its time.
+/// A body hits a block on the ground, however low, at the right time.
 #[test]
 fn what_stands_on_cut_ground_is_found_at_its_time() {
     drawn(16, |rng, seed| {
@@ -204,7 +204,7 @@ fn what_stands_on_cut_ground_is_found_at_its_time() {
     });
 }
 
-/// Few of a thousand triangles cost anything.
+/// The ground has a thousand triangles, of which few are visited.
 #[test]
 fn ground_of_a_thousand_triangles_is_as_one() {
     drawn(4, |rng, seed| {
@@ -271,7 +271,8 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     });
 }
 
-/// Open surfaces have no side: two that touch edge to edge, and others in the same plane, meet at their time.
+/// Open surfaces have no inner side: two that meet edge to edge, or in the same plane, are in contact at the right
+/// time.
 #[test]
 fn sheets_within_one_plane_meet() {
     let sheet = |from: f64, to: f64| {

@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::hint::black_box;
 
-/// At every length up to 16 every element is the searched one once.
+/// Each element of arrays of up to 16 elements is once the one to find.
 #[test]
 fn no_element_is_lost() {
     macro_rules! at_lengths {
@@ -20,7 +20,7 @@ fn no_element_is_lost() {
     assert!(lost.is_empty(), "lost, as (length, position): {lost:?}");
 }
 
-/// Returns the positions that are not found, each with the length.
+/// Returns the lengths and positions of elements that were not found.
 fn lost_of<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
     (0..N).filter(|&at| lost(at)).map(|at| (N, at)).collect()
 }
@@ -59,7 +59,7 @@ fn in_a_row<const N: usize>(
         .fold(start, |best, &x| better(best, roots(x)))
 }
 
-/// The code is long enough that the loop around it is not unrolled.
+/// Computes a value with code too long for the loop around it to be unrolled.
 #[inline(always)]
 fn roots(x: f64) -> f64 {
     let root = |x: f64| x.sqrt().sqrt().sqrt().sqrt();

@@ -76,7 +76,7 @@ fn the_certified_time_grows_with_the_budget() {
     assert!(grown.get() > 40, "grew {} times", grown.get());
 }
 
-/// Answers a number of calls, then asks for the end of the query, and answers on.
+/// An oracle that answers some calls, then stops the query, and still answers.
 struct Stopping {
     calls: u32,
     stop: Arc<AtomicBool>,

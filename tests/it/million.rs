@@ -1,4 +1,4 @@
-//! Handles over a million pairs of pieces at once, and tens of millions that must not all be examined.
+//! More than a million pairs of pieces at once, and tens of millions of which few may be visited.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Outcome, Settings};
@@ -7,7 +7,7 @@ use ccd_tests::backends::{Backend, Oracle, Order};
 use ccd_tests::models::{PITCH, parallel_plate};
 use ccd_tests::query::{Actor, Query};
 
-/// Drops a plate of `2·cells²` triangles flat onto another; they touch at half time.
+/// Returns the answer for a plate of `2·cells²` triangles that falls flat onto another; they touch at half time.
 fn falling_plate(cells: usize, backend: Backend, tolerance: f64) -> Answer {
     let high = DVec3::new(0.3, 0.2, 0.5);
     let query = Query {
@@ -50,7 +50,7 @@ fn sixty_million_pairs_touching_at_once() {
     }
 }
 
-/// T19: the queue holds thousands of teeth.
+/// T19: the queue holds thousands of pairs of teeth.
 #[test]
 fn combs_of_many_teeth() {
     let teeth = if slow() { 512 } else { 96 };
@@ -69,7 +69,7 @@ fn combs_of_many_teeth() {
     );
 }
 
-/// T18: a fine thread in its nut, near everywhere and all the time: a million pairs wait at once.
+/// T18: a fine thread stays near its nut everywhere and at all times: a million pairs are in the queue at once.
 #[test]
 fn a_fine_screw() {
     let scene = screw_in_nut("T18 fine screw", PITCH, if slow() { 4 } else { 2 });

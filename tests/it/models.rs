@@ -1,4 +1,4 @@
-//! The models have their properties: closed where they should be, with convex parts within.
+//! The models have the properties that tests rely on, such as closed surfaces and convex parts.
 
 use ccd_core::glam::DVec3;
 use ccd_tests::models::{Shape, convex_solids, gear, l_block, l_prism, solids};
@@ -53,7 +53,7 @@ fn parts_have_their_points_below_their_facets() {
     }
 }
 
-/// For a solid of one shell, vertices minus edges plus faces is 2 minus two for each hole.
+/// The Euler characteristic of a solid with one shell is 2 minus two for each hole.
 #[test]
 fn gears_have_a_bore_and_holes() {
     let mesh = gear(5).mesh;

@@ -1,4 +1,4 @@
-//! Motions are as specified: through both poses, any turn, about any centre.
+//! Motions are as specified: through both poses, with any number of turns, about any centre.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;

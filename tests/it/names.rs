@@ -1,4 +1,4 @@
-//! Contacts of patches carry the numbers of the mesh.
+//! Contacts of patches have the feature numbers of the mesh.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Outcome, Settings};
@@ -10,9 +10,9 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-/// A witness lies on the named feature, which is the least feature of the mesh that holds it: a vertex
-/// rather than an edge, an edge rather than a face. For an edge between facets of several faces, a patch
-/// names a face with it. On a virtual facet, inside the surface, no feature of the mesh is named.
+/// A witness lies on the named feature, which is the least feature of the mesh that contains it: a vertex rather than
+/// an edge, an edge rather than a face. For an edge between facets of several faces, a patch names a face with it. On a
+/// virtual facet, inside the surface, no feature of the mesh is named.
 #[test]
 fn contacts_of_patches_name_the_mesh() {
     let counts: [Cell<u32>; 3] = Default::default();
@@ -51,14 +51,14 @@ fn contacts_of_patches_name_the_mesh() {
     );
 }
 
-/// The relation of a name to the features that hold a witness.
+/// The relation of a name to the features that contain a witness.
 #[derive(Clone, Copy)]
 enum Name {
     /// The name is that of the least feature.
     Least,
-    /// The name is that of a face with the edge that is the least feature.
+    /// The name is that of a face adjacent to the least feature, an edge.
     Larger,
-    /// The name is none of the mesh, since no feature of it is there.
+    /// The name is not one of the mesh, because no feature of the mesh is there.
     None,
 }
 
@@ -74,7 +74,7 @@ fn name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<Name> {
     }
 }
 
-/// Returns all features of the mesh that a point is on at a time; vertices come first, then edges.
+/// Returns all features of the mesh that contain a point at a time; vertices come first, then edges.
 fn holding(actor: &Actor, time: f64, point: DVec3, rounding: f64) -> BTreeSet<Feature> {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);

@@ -9,8 +9,8 @@ use rigid_ccd::Solver;
 use rigid_ccd::trajectory::{Chain, Curve, Joint, Spline, Steady, Trajectory, Turns};
 use std::f64::consts::PI;
 
-/// T6: a rod turns past a wall that its corners just do not reach. All of a gap is left to advance by when a
-/// corner is nearest; what the other corners do then must not matter.
+/// T6: a rod rotates past a wall that its corners just do not reach. All of a gap is left to advance by when a corner
+/// is nearest; what the other corners do then must not matter.
 #[test]
 fn a_rod_that_turns_past_a_wall_takes_few_steps() {
     let (thin, long) = (0.05, 2.0f64);
@@ -34,9 +34,9 @@ fn a_rod_that_turns_past_a_wall_takes_few_steps() {
     }
 }
 
-/// A ball past a box: straight along a face, on curves that come down to it, and as the hand of an arm. A straight
-/// way and a parabola take as many steps at any gap. Other curves are cut into stretches that strays fit into: near
-/// the face these are short, and each is a multiple of the one before.
+/// A ball passes a box: straight along a face, on curves that come down to it, and as the hand of an arm. A straight
+/// way and a parabola take as many steps at any gap. Other curves are cut into stretches that strays fit into: near the
+/// face these are short, and each is a multiple of the one before.
 #[test]
 fn a_ball_past_a_box_takes_few_steps() {
     let at = |z: f64| Pose::at([0.0, 0.0, z]).unwrap();
@@ -65,7 +65,7 @@ fn a_ball_past_a_box_takes_few_steps() {
     }
 }
 
-/// Asks all questions of a ball that passes a box at a gap, or touches it, and returns the most visits of an answer.
+/// Answers all questions about a ball that passes a box at a gap, or touches it; returns the largest number of visits.
 fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     let radius = 0.25;
     let (ball, cube) = (Body::ball(radius).unwrap(), Body::cuboid([1.0; 3]).unwrap());
@@ -105,7 +105,7 @@ fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     visits.into_iter().max().unwrap()
 }
 
-/// The least height on a way that comes down once.
+/// Returns the least height of a trajectory that comes down once.
 fn lowest(trajectory: &dyn Trajectory) -> f64 {
     let height = |time: f64| trajectory.pose(time).unwrap().translation().z;
     let (mut low, mut high) = (0.0, 1.0);

@@ -47,8 +47,8 @@ contract! {
     vmarch: Vmarch, [1, 2, 3, 8, 20];
 }
 
-/// The largest error of a claim's distance, as a fraction of the pair's size: a tenth of the least
-/// tolerance that the engine is tested with.
+/// The largest error of a claimed distance, as a fraction of the pair's size: a tenth of the least tolerance in the
+/// tests.
 const SLACK: f64 = 1e-10;
 
 fn points(sizes: &'static [usize]) -> impl Strategy<Value = Vec<DVec3>> {
@@ -148,7 +148,7 @@ fn degenerate<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     });
 }
 
-/// T23: turned from parallel by less and less, face over face, until the nearest features change.
+/// T23: pieces rotated from parallel by smaller and smaller angles, face over face, until the nearest features change.
 fn parallel<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     let count = *sizes.iter().filter(|&&n| n <= 8).max().expect("a size");
     let cube = &cuboid(DVec3::splat(0.5)).parts[0];

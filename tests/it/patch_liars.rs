@@ -1,4 +1,4 @@
-//! The laws of patches detect wrong patches: each kind of lie is found by the law that it breaks.
+//! The laws of patches detect wrong patches: each kind of fault is found by the law that it breaks.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -7,7 +7,7 @@ use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
 use ccd_tests::patches::{Claim, check_cover, check_inside, check_polytope};
 
-/// Returns the cube as its only patch, an honest one.
+/// Returns the cube as a single, correct patch.
 fn cube() -> (Mesh, Polytope) {
     let shape = cuboid(DVec3::ONE);
     let vertex_ids = (0..8).collect();
@@ -106,8 +106,7 @@ fn pair(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     }
 }
 
-/// Counts the pairs of faces of a shape whose hull is found to leave the solid, and checks that
-/// they are those which do.
+/// Returns the number of face pairs whose hull is found to leave the solid, and checks it against the exact predicate.
 fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     let solid = Solid::new(mesh);
     let mut found = 0;
@@ -160,7 +159,7 @@ fn a_hull_across_the_hole_of_a_torus_is_found() {
     assert!(found > 500, "{found}");
 }
 
-/// The smallest excess counts: a facet lies below the bottom of a dent by a rounding.
+/// The smallest excess is found: a facet lies below the bottom of a dent by a rounding error.
 #[test]
 fn a_hull_a_rounding_out_of_the_solid_is_found() {
     let mut mesh = cuboid(DVec3::ONE).mesh;

@@ -1,5 +1,5 @@
-//! Every bound that an answer along a trajectory proves, against sampled distances, knots included: whatever the
-//! question, the kind of trajectory and the tolerance.
+//! Every bound that an answer along a trajectory proves, compared with sampled distances, including at knots, for all
+//! questions, kinds of trajectory and tolerances.
 
 use ccd_core::Moving;
 use ccd_core::Unresolved;
@@ -17,7 +17,7 @@ use std::io::Write;
 /// The distance within which the bodies move.
 const REACH: f64 = 2.0;
 
-/// What distances and poses are rounded by here: coordinates are below 32.
+/// The rounding error of distances and poses in this test: coordinates are below 32.
 const ROUNDING: f64 = 2e-14;
 
 type Law = Result<(), String>;
@@ -63,7 +63,7 @@ impl Scene {
         a.distance(&b)
     }
 
-    /// Measures at even times, at all corners and beside them, and where that is least, finer and finer.
+    /// Samples the distance at even times, at and beside all knots, and more finely around the least distance.
     fn samples(&self) -> Samples {
         const EVEN: u32 = 48;
         let mut times: Vec<f64> = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN)).collect();
@@ -108,7 +108,7 @@ fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>
     }
 }
 
-/// Distances at times.
+/// Distances at sampled times.
 struct Samples(Vec<(f64, f64)>);
 
 impl Samples {
@@ -119,7 +119,7 @@ impl Samples {
             .fold(f64::INFINITY, lesser)
     }
 
-    /// Checks a lower bound of the distance at all times that are chosen.
+    /// Checks a lower bound of the distance at all chosen times.
     fn at_least(&self, bound: f64, chosen: impl Fn(f64) -> bool, what: &str) -> Law {
         let chosen = self.0.iter().filter(|sample| chosen(sample.0));
         for &(time, distance) in chosen {
@@ -132,7 +132,7 @@ impl Samples {
     }
 }
 
-/// How often what was said.
+/// The numbers of answers of each kind.
 #[derive(Debug, Default)]
 struct Tally {
     free: u64,
@@ -140,11 +140,11 @@ struct Tally {
     start: u64,
     measured: u64,
     unresolved: u64,
-    /// Free for one question, a contact for another one: within the tolerance of each other.
+    /// The number of scenes that are free for one question, and a contact within the tolerance for another.
     grazes: u64,
 }
 
-/// A scene, what is asked of it, and what is known of it.
+/// A scene, the settings of its queries, and its known distances.
 struct Case<'s> {
     scene: &'s Scene,
     config: Settings,
@@ -152,7 +152,7 @@ struct Case<'s> {
 }
 
 impl<'s> Case<'s> {
-    /// Draws tolerance and margin; mostly the least distance decides about a contact.
+    /// Draws the tolerance and the margin; in most cases the least distance decides about a contact.
     fn draw(rng: &mut Pcg64, scene: &'s Scene) -> Self {
         let samples = scene.samples();
         let least = samples.least();
@@ -189,7 +189,7 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks what free bodies keep: a true gap, of at least half the tolerance beyond the margin.
+    /// Checks the proven gap of free bodies: a true lower bound, at least half the tolerance beyond the margin.
     fn free(&self, proven_gap: f64) -> Law {
         let Settings {
             margin, tolerance, ..
@@ -202,7 +202,7 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks that nothing touches before a time.
+    /// Checks that there is no contact before a time.
     fn safe(&self, until: f64) -> Law {
         let margin = self.config.margin;
         (self.samples).at_least(margin, |time| time < until, "before a contact")
@@ -337,7 +337,7 @@ impl<'s> Case<'s> {
         }
     }
 
-    /// Asks the same about motions as such.
+    /// Checks the same for motions, which have no trajectory.
     fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> Law {
         let motion = |k: usize| -> Motion {
             let way = self.scene.ways[k].stretch(0.0, 1.0);
@@ -399,7 +399,7 @@ fn no_bound_is_above_a_sampled_distance() {
     assert!(grazes < many && unresolved < count / 50, "{tally:?}");
 }
 
-/// A ball comes near to a box at a knot, within the tolerance.
+/// A ball approaches a box at a knot to within the tolerance.
 #[test]
 fn what_is_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
     let (ball, wall) = (

@@ -1,5 +1,4 @@
-//! The paper's own bound uses the present pose only: it is late where arms turn, and the sound
-//! bound is not.
+//! The paper's bound uses only the current pose: it is late for rotating arms, and the sound bound is not.
 
 use ccd_core::Bound;
 use ccd_core::glam::{DQuat, DVec3};
@@ -59,8 +58,7 @@ fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_on
     }
 }
 
-/// Returns a query of a rod of 1 : 20 in any pose, at some distance, that flies at another one and
-/// turns.
+/// Returns a query of a rod of 1 : 20 in any pose, at some distance, that flies at another one and rotates.
 fn rods(rng: &mut Pcg64) -> Query {
     let mut vector = |size: f64| {
         let mut coordinate = || rng.random_range(-size..size);

@@ -1,4 +1,4 @@
-//! Random cases asked every question, against the independent referee, and against each other.
+//! Random cases with every question, compared with the independent referee and with each other.
 
 use ccd_core::Outcome;
 use ccd_tests::backends::default_answer;

@@ -6,7 +6,7 @@ use ccd_core::{Feature, Motion, Moving, Pose, Settings};
 use ccd_decomp::{Detail, Order, Prepared, TriangleMesh, body_from_mesh};
 use ccd_tests::models::{Mesh, divided_cube, l_block};
 
-/// Returns a mesh in which no two faces share a vertex, as from an STL file.
+/// Returns a mesh in which no two faces share a vertex, as in an STL file.
 fn torn(mesh: &Mesh) -> Mesh {
     let corners = mesh.faces.iter().flatten();
     Mesh {
@@ -35,7 +35,7 @@ impl Body {
         self.mesh.vertices.iter().map(|p| p.z)
     }
 
-    /// Returns a pose slightly above another body, shifted and turned about the upright axis.
+    /// Returns a pose slightly above another body, shifted, and rotated about the upright axis.
     fn resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
         let top = other.heights().fold(f64::NEG_INFINITY, greater);
         let bottom = self.heights().fold(f64::INFINITY, lesser);
@@ -55,8 +55,8 @@ fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
     names
 }
 
-/// The meshes have vertices in the middle of an edge or a side, which are no corners of a patch,
-/// and vertices at the same position.
+/// The meshes have vertices on edges and within sides, which are no corners of a patch, and vertices at equal
+/// positions.
 #[test]
 fn triangles_and_patches_have_the_same_names() {
     let shapes = [divided_cube(1), divided_cube(3), l_block(2)];

@@ -1,4 +1,4 @@
-//! Every scene with a closed-form answer, over every setup and tolerance, and with the bodies swapped.
+//! Every scene with a closed-form answer, for every setup and tolerance, and with the bodies swapped.
 
 use ccd_core::order::lesser;
 use ccd_core::{Answer, Outcome, Settings};
@@ -78,12 +78,12 @@ fn check_group(prefix: &str) {
     }
 }
 
-/// Returns the size that tolerances are in proportion to: a scene smaller than a unit gets less.
+/// Returns the size to which tolerances are proportional, at most 1.
 fn size(scene: &Scene) -> f64 {
     lesser(1.0, scene.query.a.reach(0.0))
 }
 
-/// Checks the referee, which judges everything else, against the closed form.
+/// Checks the referee, which judges all answers, against the closed form.
 fn check_finding(
     Scene {
         name,
@@ -184,7 +184,7 @@ fn check_answer(
     Ok(())
 }
 
-/// Checks answers along the same motions, given as a user's own.
+/// Checks answers for the same motions given as user-defined trajectories.
 fn check_along(
     judge: &Judge<'_>,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! Shells next to and within each other, wound at random: tests the inside, and the outer side.
+//! Shells next to and within each other, with random orientations: tests of inside and outside.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
@@ -16,8 +16,7 @@ const DETAILS: [Detail; 3] = [
     Detail::Auto,
 ];
 
-/// Returns a random closed shell around the origin that fits into one of radius 1 and holds one of
-/// radius 0.4.
+/// Returns a random closed shell around the origin that fits into a ball of radius 1 and contains one of radius 0.4.
 fn shell(rng: &mut Pcg64) -> Shape {
     match rng.random_range(0..3) {
         0 => icosphere(1.0, rng.random_range(0..2)),
@@ -88,7 +87,7 @@ fn direction(rng: &mut Pcg64) -> DVec3 {
         .normalize()
 }
 
-/// A point is inside if an odd number of shells is around it, checked one by one and exactly.
+/// A point is inside if an odd number of shells contain it, checked exactly and shell by shell.
 #[test]
 fn a_body_inside_overlaps_for_any_winding_of_shells() {
     let mut rng = Pcg64::seed_from_u64(1);
@@ -123,8 +122,7 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
     assert!(counts[0] > 200 && counts[1] > 200, "{counts:?}");
 }
 
-/// A triangle that rests on a face is released on one side only, and a thick body on its other side
-/// overlaps.
+/// A triangle that rests on a face is released only on the outer side; a thick body on the inner side overlaps.
 #[test]
 fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     let mut rng = Pcg64::seed_from_u64(2);
@@ -183,7 +181,7 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     assert!(released > 200, "{released}");
 }
 
-/// Returns the body of a triangle and a tip on one side of it.
+/// Returns the tetrahedron of a triangle and a tip on one side of it.
 fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, detail: Detail) -> Body {
     let mesh = Mesh {
         vertices: [triangle.as_slice(), &[tip]].concat(),
@@ -192,7 +190,7 @@ fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, detail: Detail) -> Body {
     body(&mesh, detail)
 }
 
-/// Every corner of equal bodies is on the other one's surface.
+/// Every corner of equal bodies is on the other body's surface.
 #[test]
 fn equal_bodies_overlap() {
     for shape in [
@@ -211,7 +209,7 @@ fn equal_bodies_overlap() {
     }
 }
 
-/// One tooth of many is far from every other piece of its body, so no sample may miss it.
+/// One tooth of many is far from every other piece of its body, so that no sampling may miss it.
 #[test]
 fn one_part_of_many_that_is_inside_is_found() {
     let outer = cuboid(DVec3::ONE);

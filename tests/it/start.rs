@@ -1,4 +1,4 @@
-//! A contact at the start is reported, or released for as long as it does not close.
+//! A contact at the start is reported, or ignored as long as the bodies do not approach.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::rounding::RESTING;
@@ -31,7 +31,7 @@ fn report(tolerance: f64) -> Settings {
     }
 }
 
-/// Calls `check` with every setup's outcome, for the query and for the query with bodies swapped.
+/// Calls `check` with the outcome of every setup, for the query and for the query with the bodies swapped.
 fn outcomes(query: &Query, config: &Settings, check: impl Fn(Outcome) -> bool) {
     for query in [query.clone(), query.swapped()] {
         for_each_setup(&query, config, |_, setup, answer| {
@@ -48,7 +48,8 @@ fn is_touching(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Touching { .. })
 }
 
-/// T10. Along the diagonal on which the slab's two triangles meet, no triangle passes onto another.
+/// T10: a slide within the tolerance. Along the diagonal on which the slab's two triangles meet, no triangle passes
+/// onto another.
 #[test]
 fn sliding_within_the_tolerance_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
@@ -60,7 +61,7 @@ fn sliding_within_the_tolerance_is_free() {
     outcomes(&sliding(1e-6, -DVec3::X).query, &leave(1e-8), is_free);
 }
 
-/// T10. The edge of the next triangle is flat ground as well.
+/// T10: a slide onto another piece. The edge of the next triangle is flat ground as well.
 #[test]
 fn sliding_onto_another_piece_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
@@ -68,7 +69,7 @@ fn sliding_onto_another_piece_is_free() {
     }
 }
 
-/// T11.
+/// T11: bodies that touch, and then part.
 #[test]
 fn touching_and_parting_is_free() {
     for gap in [1e-6, 0.0] {
@@ -82,7 +83,7 @@ fn touching_and_parting_is_free() {
     }
 }
 
-/// T11.
+/// T11: bodies that touch, and then approach.
 #[test]
 fn touching_and_approaching_is_a_contact_at_once() {
     for gap in [1e-6, 0.0] {
@@ -120,7 +121,7 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     }
 }
 
-/// The allowance of a resting contact is used up in a few steps, not in one for every bit of it.
+/// The allowance of a resting contact is used up in a few steps, not in one for each bit.
 #[test]
 fn a_very_slow_approach_takes_few_steps() {
     for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
@@ -137,9 +138,8 @@ fn a_very_slow_approach_takes_few_steps() {
     }
 }
 
-/// A box is inside the margin of a floor eighty times its size. Across so small a gap, the
-/// direction of the nearest points is not exact enough to separate sliding from approaching; the
-/// features' normals are.
+/// A box is within the margin of a floor eighty times its size. Across so small a gap, the direction of the nearest
+/// points is not exact enough to separate sliding from approaching; the features' normals are.
 #[test]
 fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     let floor = cuboid(DVec3::new(8.0, 8.0, 0.5)).moved(-0.5 * DVec3::Z);
@@ -215,7 +215,7 @@ fn a_liar_cannot_release_a_pair() {
     }
 }
 
-/// Returns the right points, with a wrong axis.
+/// An oracle that returns the right points with a wrong axis.
 struct AxisLiar(DVec3, ClosedForm);
 
 impl DistanceOracle for AxisLiar {
@@ -298,8 +298,8 @@ fn without_contact_at_the_start_both_policies_agree() {
     );
 }
 
-/// Two triangles that begin in contact, up to rounding, and close on each other: how exactly their distance
-/// is known depends on the last digits of their places.
+/// Two triangles start in contact, up to rounding, and approach. The accuracy of their distance depends on the last
+/// digits of their positions.
 #[test]
 fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
     let triangle = |corners: [DVec3; 3]| {

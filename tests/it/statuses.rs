@@ -1,4 +1,4 @@
-//! Touching, overlapping, inside: the state at the start decides.
+//! Touching, overlapping and inside: the state at the start decides.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
@@ -85,7 +85,7 @@ fn overlaps_in_any_way(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Overlapping { .. })
 }
 
-/// No triangle crosses another: all contacts are flush.
+/// No triangle crosses another one: all contacts are flush.
 #[test]
 fn flush_solids_overlap() {
     let inscribed = octahedron(0.5);
@@ -100,8 +100,8 @@ fn flush_solids_overlap() {
     }
 }
 
-/// For polytopes with more pairs of edges than are tried as axes, the oracle's claim is taken:
-/// trying all takes a thousand times as long.
+/// The claim of the oracle is used for polytopes with more edge pairs than are tried as axes: all pairs would take a
+/// thousand times as long.
 #[test]
 fn polytopes_of_many_facets_overlap() {
     let ball = || icosphere(1.0, 3);
@@ -127,7 +127,7 @@ fn octahedron(radius: f64) -> Shape {
     })
 }
 
-/// Needles cross at their middles: an oracle's common point is known to 1e-12 at best.
+/// Needles cross at their middles, where an oracle's common point is accurate to 1e-12 at best.
 #[test]
 fn needles_that_cross_overlap() {
     let needle = |thickness: f64| {
@@ -235,7 +235,7 @@ fn the_second_of_two_shells_is_found_inside() {
     outcomes_by_kind(&query(big, two, DVec3::ZERO), b_in_a);
 }
 
-/// The patches of a rough surface leave the middle of its solid empty.
+/// The patches of a rough surface do not fill the middle of its solid.
 #[test]
 fn a_body_inside_a_solid_that_its_patches_do_not_fill_overlaps() {
     let found = Cell::new(0);

@@ -1,9 +1,9 @@
-//! Unit vectors come from `ccd_core::vector` alone. Those of glam are not of unit length if squares
-//! underflow, and a distance along them is not proven.
+//! Unit vectors come only from `ccd_core::vector`. Those of glam are not of unit length if squares underflow, and a
+//! distance along them is not proven.
 
 use std::path::{Path, PathBuf};
 
-/// Files that may normalise: the path, and why the result is no axis.
+/// The files that may normalise, each with the reason why the result is no axis.
 const ELSEWHERE: [(&str, &str); 2] = [
     ("ccd-core/src/motion/pose.rs", "a quaternion, scaled first"),
     ("ccd-core/src/motion/interop.rs", "a quaternion of nalgebra"),

@@ -12,7 +12,7 @@ use crate::query::{Actor, Query};
 
 /// A scene with its known outcome.
 pub struct Scene {
-    /// Its name.
+    /// The name of the scene.
     pub name: String,
     /// The bodies and their motions.
     pub query: Query,
@@ -24,23 +24,24 @@ pub struct Scene {
 pub enum Expect {
     /// The bodies touch.
     Hit {
-        /// A lower bound of the time: the time at which the distance first falls to the argument.
+        /// A lower bound of the time, as a function of the distance: the first time at which the distance falls to the
+        /// argument.
         earliest: Distance,
         /// An upper bound of the time.
         latest: f64,
     },
-    /// They stay at least this far apart, and the bound is attained.
+    /// The bodies stay at least this far apart, and the bound is attained.
     Free {
         /// The least distance.
         gap: f64,
     },
-    /// They overlap at the start.
+    /// The bodies overlap at the start.
     Overlap,
     /// No closed form is known.
     Unknown,
 }
 
-/// The time at which the distance first comes down to a value.
+/// The first time at which the distance falls to a value.
 pub type Distance = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Every scene.
@@ -80,7 +81,7 @@ impl Scene {
 }
 
 impl Expect {
-    /// Returns a contact at a time known exactly, with the known distance at all earlier times.
+    /// Returns a contact at an exactly known time, with the known distance at all earlier times.
     fn hit(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Expect::Hit {
             latest: distance(0.0),

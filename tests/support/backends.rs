@@ -10,7 +10,7 @@ use ccd_distance_vmarch::Vmarch;
 /// The schedules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// A queue of clocks.
+    /// A queue of pairs, ordered by proven time.
     BestFirst,
     /// One step for all pairs, over the front of a descent through hull trees.
     Fast,
@@ -25,9 +25,9 @@ pub enum Oracle {
     ClosedForm,
     /// GJK in f64.
     Gjk,
-    /// Closed forms, then GJK.
+    /// Closed forms, with GJK for other pieces.
     Direct,
-    /// Voronoi marching, then GJK.
+    /// Voronoi marching, with GJK if it gives up.
     Vmarch,
 }
 
@@ -98,7 +98,7 @@ impl Backend {
         }
     }
 
-    /// Answers with its schedule and any oracle.
+    /// Answers with the backend's schedule and any oracle.
     pub fn solve_with<O: DistanceOracle>(
         self,
         problem: &ccd_core::Query<'_>,

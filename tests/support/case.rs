@@ -1,4 +1,4 @@
-//! Queries as plain data: generators draw them, the corpus stores them, failures print them.
+//! Queries as plain data, for generators, the corpus and failure messages.
 
 use crate::models::{self, Mesh, Shape};
 use crate::query::{Actor, Query};
@@ -13,18 +13,18 @@ pub struct Case {
     /// The name.
     #[serde(default)]
     pub name: String,
-    /// The fault that it revealed, or might reveal.
+    /// The fault that the case revealed, or might reveal.
     #[serde(default)]
     pub why: String,
     /// The end of the time interval, which begins at 0.
     pub duration: f64,
-    /// The same as [`Settings::tolerance`].
+    /// The value of [`Settings::tolerance`].
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// The same as [`Settings::margin`].
+    /// The value of [`Settings::margin`].
     #[serde(default)]
     pub margin: f64,
-    /// The same as [`Settings::start`].
+    /// The value of [`Settings::start`].
     #[serde(default)]
     pub start: Start,
     /// Body A.
@@ -33,14 +33,14 @@ pub struct Case {
     pub b: Part,
 }
 
-/// The same as [`StartPolicy`].
+/// The serialised form of [`StartPolicy`].
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Start {
-    /// The same as [`StartPolicy::Report`].
+    /// The value [`StartPolicy::Report`].
     #[default]
     Report,
-    /// The same as [`StartPolicy::Leave`].
+    /// The value [`StartPolicy::Leave`].
     Leave,
 }
 
@@ -48,9 +48,9 @@ pub enum Start {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// The shape that moves.
+    /// The shape of the body.
     pub shape: Model,
-    /// Every coordinate is multiplied by this.
+    /// The factor on every coordinate.
     #[serde(default = "one")]
     pub scale: f64,
     /// The position of the body's origin at the start.

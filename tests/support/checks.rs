@@ -1,4 +1,4 @@
-//! The laws of every answer, checked against the referee and against the bodies themselves.
+//! The laws of every answer, checked against the referee and against the bodies.
 
 mod questions;
 
@@ -12,7 +12,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Answer, Body, Contact, Feature, Outcome, Overlap, Piece, Separation, Settings};
 
-/// Judges answers to one query by the referee's findings.
+/// A judge of answers to one query, by the referee's findings.
 pub struct Judge<'a> {
     query: &'a Query,
     config: Settings,
@@ -23,10 +23,10 @@ pub struct Judge<'a> {
     samples: Vec<(f64, f64)>,
 }
 
-/// `Ok` if the law holds, else the reason why not.
+/// `Ok` if the law holds, otherwise the reason why not.
 pub type Law = Result<(), String>;
 
-/// Returns the reason unless the condition holds; comparisons with NaN do not hold.
+/// Returns an error with the reason unless the condition holds; comparisons with NaN do not hold.
 macro_rules! law {
     ($holds:expr, $($why:tt)*) => {{
         let holds: bool = $holds;
@@ -62,7 +62,7 @@ impl<'a> Judge<'a> {
         Judge { config, ..self }
     }
 
-    /// Returns the settings of the answers that it judges.
+    /// Returns the settings of the answers to judge.
     pub fn config(&self) -> Settings {
         self.config.clone()
     }
@@ -77,8 +77,8 @@ impl<'a> Judge<'a> {
         self.nested
     }
 
-    /// Checks an answer under the start policy `Report`: never late, never false, tight, resolved,
-    /// its contact as claimed.
+    /// Checks an answer under the start policy `Report`: never late, never false, tight and resolved, with a contact as
+    /// claimed.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -139,7 +139,7 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Checks that a time is not after a contact that the referee is sure of.
+    /// Checks that a time is not after a contact that the referee has proven.
     ///
     /// # Errors
     /// If it is.
@@ -154,8 +154,8 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or
-    /// on the mesh. Parts are not checked, as they need not be closed together.
+    /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
+    /// are not checked, as they need not be closed together.
     fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let placements = Placement::pair(self.query);
         let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();

@@ -41,7 +41,7 @@ impl Hull {
         Hull::with_facets(points, facets)
     }
 
-    /// Combines points and the facets of their hull; without facets they are points alone.
+    /// Combines points and the facets of their hull; without facets, the hull is known by its points only.
     pub fn with_facets(points: Vec<DVec3>, facets: Vec<Facet>) -> Self {
         let known = !facets.is_empty();
         let polytope = Polytope {
@@ -68,7 +68,7 @@ impl Hull {
         }
     }
 
-    /// Returns true if a backend that needs facets may refuse it.
+    /// Returns true if a backend that needs facets may refuse the hull.
     fn lacks_facets(&self) -> bool {
         self.points.len() > 3 && self.with_facets.is_none()
     }
@@ -100,7 +100,7 @@ impl Pair {
         points.map(|&p| self.b_to_a.point(p)).collect()
     }
 
-    /// Returns true if an oracle may give up for this reason: only for missing facets.
+    /// Returns true if an oracle may give up for this reason, which is missing facets only.
     fn excuses(&self, why: GiveUp) -> bool {
         why == GiveUp::BadFacets && (self.a.lacks_facets() || self.b.lacks_facets())
     }
@@ -111,8 +111,7 @@ impl Pair {
         rounding(largest(&self.a.points) + largest(&self.b_in_a()) + largest(&self.b.points))
     }
 
-    /// Computes the bounds that follow from a claim about this pair; a claim that names no points
-    /// is an error.
+    /// Returns the bounds that follow from a claim about this pair; a claim without points is an error.
     ///
     /// # Errors
     /// The part that the claim lacks.
@@ -132,7 +131,7 @@ impl Pair {
         })
     }
 
-    /// Computes the distance of the two hulls by brute force: the nearest two of all their triangles.
+    /// Returns the distance of the two hulls by brute force: the least over all their triangles.
     ///
     /// The result is exact up to rounding for hulls that are apart: then, and only then, the line
     /// between the two nearest points is an axis that separates the hulls. It is 0 for hulls that meet.
@@ -195,8 +194,8 @@ fn triples(count: u32) -> impl Iterator<Item = [u32; 3]> {
     pairs.flat_map(move |[i, j]| (j + 1..count).map(move |k| [i, j, k]))
 }
 
-/// Returns all triangles among some points that have the rest on one side, or all points if there
-/// are fewer than three. They cover the hull's surface.
+/// Returns all triangles among some points with the rest on one side, or all points if there are fewer than three. They
+/// cover the hull's surface.
 fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
     if points.len() <= 3 {
         return vec![points.to_vec()];
@@ -264,18 +263,18 @@ fn crossing(e: [DVec3; 2], f: [DVec3; 2]) -> Option<DVec3> {
         .then(|| n * (w.dot(n) / n.length_squared()))
 }
 
-/// The kind of pair for which a law was checked.
+/// The kind of a pair in the test of a law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
     /// The pieces are apart.
     Apart,
-    /// They have a common point, or are apart by no more than rounding.
+    /// The pieces have a common point, or are apart by no more than rounding.
     Meeting,
     /// The oracle gave up for a documented reason.
     Refused,
 }
 
-/// Checks the law of bounds: those of a claim enclose the true distance closely.
+/// Checks the law of bounds: the bounds of a claim enclose the true distance closely.
 ///
 /// # Errors
 /// The mistake of the oracle.
@@ -310,7 +309,7 @@ pub fn bounds_law<O: DistanceOracle>(
     Ok(Met::Apart)
 }
 
-/// Checks the law of caches: a cache left by another pair, of any size, changes nothing beyond `slack`.
+/// Checks the law of caches: a cache from another pair, of any size, changes the result by at most `slack`.
 ///
 /// # Errors
 /// The change by the stale cache.
@@ -346,7 +345,7 @@ pub fn cache_law<O: DistanceOracle>(
     Ok(Met::Apart)
 }
 
-/// Checks the law of ends: the answer names points of the pieces, or is a typed refusal, for any points.
+/// Checks the law of ends: for any points, the answer names points of the pieces, or is a typed refusal.
 ///
 /// # Errors
 /// The named point that a piece lacks.

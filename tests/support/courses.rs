@@ -1,4 +1,4 @@
-//! Trajectories of every kind, drawn at random over the times from 0 to 1.
+//! Random trajectories of every kind, over the times from 0 to 1.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, Trajectory};
@@ -25,7 +25,8 @@ pub const KINDS: [&str; 13] = [
     "zigzag",
 ];
 
-/// Draws a trajectory of a kind, an index of [`KINDS`]: within about `reach` of the origin, over about that length.
+/// Returns a random trajectory of a kind, an index of [`KINDS`], of length about `reach` and within about `reach` of
+/// the origin.
 pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
     of_kind(rng, KINDS[kind], reach).expect("finite numbers")
 }
@@ -138,7 +139,7 @@ fn points(rng: &mut Pcg64, count: usize, reach: f64) -> Vec<[f64; 3]> {
     (0..count).map(|_| vector(rng, reach).to_array()).collect()
 }
 
-/// Orientations that turn by less than 1 from one to the next.
+/// Returns orientations with rotations of less than 1 radian from one to the next.
 fn keys(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
     let count = rng.random_range(2..6);
     let mut at = DQuat::from_scaled_axis(vector(rng, 3.0));
@@ -159,7 +160,7 @@ fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
     }
 }
 
-/// The last link of a chain that it owns.
+/// The last link of a chain, which it owns.
 struct Hand {
     chain: Chain,
     positions: [Vec<f64>; 2],
@@ -172,7 +173,7 @@ impl Trajectory for Hand {
     }
 }
 
-/// Swings and turns by a sine of the time, as a user writes it: without accelerations that are known.
+/// A user-defined trajectory that oscillates with a sine of the time, without known accelerations.
 struct Swing {
     place: DVec3,
     along: DVec3,
@@ -199,7 +200,7 @@ impl Smooth for Swing {
     }
 }
 
-/// Moves straight from corner to corner, by chords, and may not tell where the corners are.
+/// A trajectory that moves straight from corner to corner, by chords, and optionally hides its corners.
 struct Zigzag {
     corners: Vec<DVec3>,
     tells: bool,

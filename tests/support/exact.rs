@@ -1,4 +1,4 @@
-//! Locates points relative to closed meshes, without rounding: the judge of decompositions.
+//! Locates points relative to closed meshes, without rounding, to judge decompositions.
 //!
 //! It shares no code with the code under test.
 
@@ -28,14 +28,14 @@ pub enum Location {
     Inside(i32),
 }
 
-/// Locates points relative to one closed mesh.
+/// A closed mesh, prepared for locating points.
 pub struct Solid<'a> {
     mesh: &'a Mesh,
     columns: Columns,
 }
 
-/// Returns, exactly, whether a point is above (greater), below (less) or in the plane of a triangle
-/// that is counter-clockwise seen from above.
+/// Returns, exactly, whether a point is above (greater), below (less) or in the plane of a triangle that is
+/// counter-clockwise seen from above.
 pub fn side_of(triangle: [DVec3; 3], point: &Blend) -> Ordering {
     side(triangle, &Spot::new(point))
 }
@@ -53,8 +53,8 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     VIEWS.iter().all(in_line)
 }
 
-/// Returns, exactly, whether a loop of coplanar points is a convex polygon, seen from one side or
-/// the other. Corners may be collinear.
+/// Returns, exactly, whether a loop of coplanar points is a convex polygon of either orientation. Corners may be
+/// collinear.
 pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
     let spots: Vec<Blend> = corners.iter().map(|&p| Blend::mean([p])).collect();
     VIEWS.iter().any(|&view| {
@@ -101,7 +101,7 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// Returns true if a point is certainly outside a triangle as seen from above.
+/// Returns true if a point is certainly outside a triangle in the view from above.
 fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
@@ -112,7 +112,7 @@ fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
     })
 }
 
-/// Returns 1 if the moved upward ray from a point leaves through a triangle, −1 if it enters, else
+/// Returns 1 if the displaced upward ray from a point leaves through a triangle, −1 if it enters, else 0.
 /// 0. The triangle must not contain the point.
 fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
     let [a, b, c] = triangle;
@@ -184,7 +184,7 @@ impl Columns {
         cell.to_array().map(|x| (x as usize).min(self.count - 1))
     }
 
-    /// Returns at least every face that a point could be over, under or on.
+    /// Returns a superset of the faces that a point could be over, under or on.
     fn faces_over(&self, p: &Spot<'_>) -> &[u32] {
         let [x, y] = self.cell_of(DVec2::new(p.near[0].lo, p.near[1].lo));
         &self.faces[x * self.count + y]

@@ -1,5 +1,4 @@
-//! Queries of all kinds mixed: bodies from balls to knots, motions from none to many turns, each made from its
-//! number alone.
+//! Mixed queries: bodies from balls to knots, motions from none to many turns, each determined by a number.
 
 use crate::models::{
     Kind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
@@ -14,14 +13,14 @@ pub struct Mixed {
     bodies: Vec<Body>,
 }
 
-/// A query by its bodies' numbers.
+/// A query that refers to its bodies by index.
 #[derive(Clone, Debug)]
-pub struct Posed {
-    /// The numbers of bodies A and B.
+pub struct MixedQuery {
+    /// The indices of bodies A and B.
     pub bodies: [usize; 2],
     /// Their motions.
     pub motions: [Motion; 2],
-    /// Accuracy and limits.
+    /// The settings.
     pub config: Settings,
 }
 
@@ -49,8 +48,8 @@ impl Mixed {
         }
     }
 
-    /// Returns the query of a number.
-    pub fn posed(&self, number: u64) -> Posed {
+    /// Returns the query with a number.
+    pub fn query(&self, number: u64) -> MixedQuery {
         let mut rng = Pcg64::seed_from_u64(number);
         let mut body = || rng.random_range(0..self.bodies.len());
         let bodies = [body(), body()];
@@ -65,7 +64,7 @@ impl Mixed {
             },
             ..Settings::DEFAULT
         };
-        Posed {
+        MixedQuery {
             bodies,
             motions,
             config,
@@ -73,8 +72,8 @@ impl Mixed {
     }
 
     /// Returns a body of a query and its motion.
-    pub fn moving(&self, posed: &Posed, which: usize) -> Moving<'_> {
-        (&self.bodies[posed.bodies[which]], posed.motions[which]).into()
+    pub fn moving(&self, query: &MixedQuery, which: usize) -> Moving<'_> {
+        (&self.bodies[query.bodies[which]], query.motions[which]).into()
     }
 }
 
@@ -84,7 +83,7 @@ impl Default for Mixed {
     }
 }
 
-/// Returns a motion that begins `apart` along x, and mostly flies towards the origin.
+/// Returns a motion that starts at distance `apart` along x, and in most cases flies towards the origin.
 fn motion(rng: &mut Pcg64, apart: f64) -> Motion {
     let mut vector = |size: f64| DVec3::from_array([0; 3].map(|_| rng.random_range(-size..=size)));
     let (place, axis) = (apart * DVec3::X + vector(0.8), vector(1.0));

@@ -1,4 +1,4 @@
-//! Shapes by code: triangle meshes, and their convex parts where those are known.
+//! Generated shapes: triangle meshes, and their convex parts if known.
 
 mod boxes;
 mod catalog;
@@ -40,9 +40,9 @@ pub struct Mesh {
 pub struct Shape {
     /// The surface.
     pub mesh: Mesh,
-    /// Convex parts whose union has that surface; empty if unknown.
+    /// Convex parts whose union has the mesh as its surface; empty if unknown.
     pub parts: Vec<Polytope>,
-    /// States whether the mesh is closed and its inside counts.
+    /// Whether the mesh bounds a solid.
     pub volume: Volume,
 }
 
@@ -87,7 +87,7 @@ impl Shape {
         }
     }
 
-    /// Returns a closed convex mesh, which is its own only part.
+    /// Returns a closed convex mesh, which is its only part.
     pub fn convex(mesh: Mesh) -> Self {
         let facets = mesh.faces.iter().enumerate();
         let part = Polytope {
@@ -136,13 +136,13 @@ impl Shape {
         out
     }
 
-    /// Rotates, then moves, within the body's frame.
+    /// Rotates, then translates, within the body's frame.
     pub fn placed(mut self, rotation: DQuat, offset: DVec3) -> Self {
         self.each_point(|p| rotation * p + offset);
         self
     }
 
-    /// Moves within the body's frame.
+    /// Translates within the body's frame.
     pub fn moved(self, offset: DVec3) -> Self {
         self.placed(DQuat::IDENTITY, offset)
     }
@@ -159,7 +159,7 @@ impl Shape {
         self
     }
 
-    /// Returns true if the mesh is closed and its inside counts.
+    /// Returns true if the shape is a solid.
     pub fn is_solid(&self) -> bool {
         self.volume == Volume::Solid
     }
@@ -169,7 +169,7 @@ impl Shape {
         matches!(&self.parts[..], [part] if part.radius == 0.0) && self.is_solid()
     }
 
-    /// Returns the kinds of pieces that it can be built of.
+    /// Returns the kinds of pieces of which the shape can be built.
     pub fn kinds(&self) -> impl Iterator<Item = Kind> {
         Kind::ALL.into_iter().filter(|kind| match kind {
             Kind::Triangles => !self.mesh.faces.is_empty(),
@@ -179,12 +179,12 @@ impl Shape {
         })
     }
 
-    /// Returns true if it can be built of the given pieces.
+    /// Returns true if the shape can be built of the given pieces.
     pub fn can_be(&self, kind: Kind) -> bool {
         self.kinds().any(|known| known == kind)
     }
 
-    /// Returns the engine's body. Parts are filled, so only the other kinds can be hollow.
+    /// Builds the engine's body. Parts are filled, so only the other kinds can be hollow.
     ///
     /// # Panics
     /// If the shape cannot be built of these pieces.
@@ -256,7 +256,7 @@ impl Mesh {
         self
     }
 
-    /// Returns the mesh in the form for the preparation.
+    /// Converts the mesh to the form for decomposition.
     ///
     /// # Panics
     /// If it has no faces, or a number that is not finite.
@@ -274,8 +274,8 @@ fn core_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
     Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
 }
 
-/// Returns the faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps
-/// around. Faces are counter-clockwise seen from where rows run to the right and columns upwards.
+/// Returns the faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps around. Faces are
+/// counter-clockwise seen from where rows run to the right and columns upwards.
 fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
     let vertex =
         |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;

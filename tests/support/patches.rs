@@ -1,5 +1,5 @@
-//! The laws of a convex patch of a closed surface, checked exactly: its hull is in the solid, its
-//! faces are on its hull, and its names are right.
+//! The laws of a convex patch of a closed surface, checked exactly: its hull is in the solid, its faces are on its
+//! hull, and its names are right.
 
 use crate::exact::{
     Blend, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
@@ -11,7 +11,7 @@ use ccd_core::{Facet, Origin, Polytope};
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-/// `Ok` if the law holds, else the reason why not.
+/// `Ok` if the law holds, otherwise the reason why not.
 pub type Law = Result<(), String>;
 
 /// A convex patch: faces of a mesh, and the polytope that represents them.
@@ -19,7 +19,7 @@ pub type Law = Result<(), String>;
 pub struct Claim<'a> {
     /// The faces of the mesh, by number.
     pub faces: &'a [u32],
-    /// Their hull.
+    /// The hull of the faces.
     pub polytope: &'a Polytope,
 }
 
@@ -61,7 +61,7 @@ pub fn check_inside(
     }
 }
 
-/// Checks that a patch's points, facets and faces are those of the mesh, and of its hull.
+/// Checks that a patch's points, facets and faces are those of the mesh and of its hull.
 ///
 /// # Errors
 /// The one that is not.
@@ -86,8 +86,7 @@ fn check_points(mesh: &Mesh, polytope: &Polytope) -> Law {
     Ok(())
 }
 
-/// Checks that facets are convex polygons with every point below them, and that together they are
-/// closed.
+/// Checks that facets are convex polygons with every point below them, and that together they are closed.
 fn check_hull(polytope: &Polytope) -> Law {
     let points = &polytope.points;
     let spots: Vec<Blend> = points.iter().map(|&p| Blend::mean([p])).collect();
@@ -118,7 +117,7 @@ fn check_hull(polytope: &Polytope) -> Law {
     }
 }
 
-/// Returns triangles that make up a polygon, without those of no area.
+/// Returns triangles that make up a polygon, without degenerate ones.
 fn triangles<'a>(
     polytope: &'a Polytope,
     corners: &'a [u32],
@@ -128,8 +127,8 @@ fn triangles<'a>(
     fan.filter(|triangle| !is_degenerate(*triangle))
 }
 
-/// Checks that every face of the patch is named once, by a facet that it is or that it lies on,
-/// seen from outside.
+/// Checks that every face of the patch is named once: by a facet that equals or contains it, with the outward
+/// orientation.
 fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
     let polytope = claim.polytope;
     let (mut named, inside_out) = (Vec::new(), mesh.signed_volume() < 0.0);
@@ -167,7 +166,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
     }
 }
 
-/// Checks that a facet of several faces has no point that is on none of them.
+/// Checks that every point of a merged facet is on one of its faces.
 fn check_merged(polytope: &Polytope) -> Law {
     let merged = |facet: &&Facet| facet.origin == Origin::Faces;
     for facet in polytope.facets.iter().filter(merged) {

@@ -10,9 +10,9 @@ use std::rc::Rc;
 /// A shape and its motion.
 #[derive(Clone, Debug)]
 pub struct Actor {
-    /// The shape that moves.
+    /// The shape.
     pub shape: Shape,
-    /// Its motion.
+    /// The motion.
     pub motion: Motion,
 }
 
@@ -45,7 +45,7 @@ impl Query {
         }
     }
 
-    /// Returns the query as seen from another frame.
+    /// Returns the query in another frame.
     pub fn seen_from(&self, frame: &Pose) -> Query {
         Query {
             a: self.a.seen_from(frame),
@@ -63,13 +63,13 @@ impl Query {
         }
     }
 
-    /// Returns a bound of the rounding of any distance in this scene.
+    /// Returns a bound on the rounding of any distance in this scene.
     pub fn rounding(&self) -> f64 {
         rounding(self.a.reach(self.duration) + self.b.reach(self.duration))
     }
 
-    /// Returns combinations of kinds of pieces: each kind with itself and with triangles, and of
-    /// the shapes' other kinds those with the fewest pieces.
+    /// Returns combinations of kinds of pieces: each kind with itself and with triangles, and among the other kinds
+    /// those with the fewest pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
         let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
@@ -100,7 +100,7 @@ impl Query {
         }
     }
 
-    /// Poses the query to the engine.
+    /// Builds the engine's query.
     ///
     /// # Panics
     /// If the engine refuses it.
@@ -146,7 +146,7 @@ impl Actor {
         }
     }
 
-    /// Returns an upper bound of all its points' coordinates, with the angle of rotation as a factor.
+    /// Returns an upper bound on the coordinates of the shape's points, with the angle of rotation as a factor.
     pub fn reach(&self, duration: f64) -> f64 {
         let motion = &self.motion;
         let points = self.shape.parts.iter().flat_map(|part| &part.points);
@@ -165,7 +165,7 @@ impl Actor {
         motion.start().translation().length() + travel + turn * (radius + radii)
     }
 
-    /// Returns its body of every kind of pieces.
+    /// Returns the shape's body for every kind of pieces.
     fn bodies(&self) -> Vec<(Kind, Rc<Body>)> {
         let built = |kind| (kind, Rc::new(self.shape.body(kind)));
         self.shape.kinds().map(built).collect()

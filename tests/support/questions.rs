@@ -1,5 +1,4 @@
-//! Questions other than that for the first contact, over every backend and kind of piece, and over motions as
-//! users give their own.
+//! All questions except the first contact, over every backend and kind of piece, and for user-defined trajectories.
 
 use crate::backends::Oracle;
 use crate::models::Kind;
@@ -11,7 +10,7 @@ use ccd_core::{Accelerations, Answer, DistanceOracle, InputError, Motion, Settin
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
-/// A motion of a user's own: its tangents, without accelerations.
+/// A motion as a user-defined trajectory: its tangents, without accelerations.
 #[derive(Clone, Copy, Debug)]
 pub struct Own(pub Motion);
 
@@ -29,7 +28,7 @@ impl Smooth for Own {
 
 /// The backend and the pieces of answers, to print if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct OracleSetup {
     /// The oracle.
     pub oracle: Oracle,
     /// The kinds of pieces of the bodies.
@@ -39,28 +38,28 @@ pub struct Asked {
 /// The answers to every question about motions.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
-    /// Whether they touch at all.
+    /// Whether the bodies touch at all.
     pub any: Answer,
-    /// How close they come.
+    /// The least distance.
     pub closest: Answer,
-    /// Whether they keep a distance: a required one, and the answer.
+    /// A required distance, and whether the bodies keep it.
     pub cleared: (f64, Answer),
 }
 
-/// The answers to every question about the same motions, given as a user's own.
+/// The answers to every question about the same motions, given as user-defined trajectories.
 #[derive(Clone, Copy, Debug)]
 pub struct AnswersAlong {
-    /// When they first touch.
+    /// The first contact.
     pub first: Answer,
-    /// Whether they touch at all.
+    /// Whether the bodies touch at all.
     pub any: Answer,
-    /// How close they come.
+    /// The least distance.
     pub closest: Answer,
-    /// Whether they keep a distance: a required one, and the answer.
+    /// A required distance, and whether the bodies keep it.
     pub cleared: (f64, Answer),
-    /// How far apart they get.
+    /// The greatest distance.
     pub greatest: Answer,
-    /// When they first touch, and when last.
+    /// The first and the last contact.
     pub interval: Answer,
 }
 
@@ -74,11 +73,11 @@ impl Oracle {
     ];
 }
 
-/// Calls `check` with the answers of every oracle that suits the bodies, for all bodies of the query.
+/// Calls `check` with the answers of every oracle that supports the bodies, for all bodies of the query.
 pub fn for_each_answers(
     query: &Query,
     config: &Settings,
-    mut check: impl FnMut(&Bodies, Asked, Answers),
+    mut check: impl FnMut(&Bodies, OracleSetup, Answers),
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
@@ -91,11 +90,11 @@ pub fn for_each_answers(
     });
 }
 
-/// Calls `check` with the answers along motions that are a user's own, as [`for_each_answers`] does.
+/// Calls `check` with the answers for user-defined trajectories, as [`for_each_answers`] does.
 pub fn for_each_answers_along(
     query: &Query,
     config: &Settings,
-    mut check: impl FnMut(&Bodies, Asked, AnswersAlong),
+    mut check: impl FnMut(&Bodies, OracleSetup, AnswersAlong),
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
@@ -108,19 +107,19 @@ pub fn for_each_answers_along(
     });
 }
 
-fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, Asked)) {
+fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
     for bodies in query.all_bodies() {
         for oracle in Oracle::ALL
             .into_iter()
             .filter(|oracle| oracle.suits(&bodies))
         {
             let kinds = bodies.kinds;
-            call(&bodies, Asked { oracle, kinds });
+            call(&bodies, OracleSetup { oracle, kinds });
         }
     }
 }
 
-/// Returns a distance on either side of the least one, or about it, and the settings that require it.
+/// Returns a required distance below, at or above the least distance, and the settings that require it.
 fn beside(closest: &Answer, config: &Settings) -> (f64, Settings) {
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // As good as random.

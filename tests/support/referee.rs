@@ -1,4 +1,4 @@
-//! An independent judge of the first contact of two moving meshes: slow and obvious.
+//! An independent judge of the first contact of two moving meshes, slow and simple.
 //!
 //! It shares no code with the engine. Poses come from the formula of the motion, distances from all
 //! pairs of vertices, edges and faces, times from undirected conservative advancement.
@@ -15,28 +15,28 @@ pub use triangles::{contains, point_segment, point_triangle};
 use crate::query::Query;
 use crate::tolerance::{CLOSE, KEPT};
 use ccd_core::glam::DVec3;
-use triangles::Posed;
+use triangles::PosedMesh;
 
 /// The referee's finding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finding {
     /// The surfaces are within the margin at the start.
     Start,
-    /// Apart until `lo`, in contact at `hi`.
+    /// The surfaces are apart until `lo`, and in contact at `hi`.
     Hit {
         /// The bodies are proven free until this time.
         lo: f64,
-        /// They are in contact at this time.
+        /// The bodies are in contact at this time.
         hi: f64,
     },
-    /// They are apart until `lo`, and then too near to decide.
+    /// The surfaces are apart until `lo`, and then too near to decide.
     Near {
         /// The bodies are proven free until this time.
         lo: f64,
     },
-    /// Apart over the whole duration.
+    /// The surfaces are apart over the whole duration.
     Free {
-        /// The least distance seen.
+        /// The least distance found.
         gap: f64,
     },
     /// The step limit was reached.
@@ -46,7 +46,7 @@ pub enum Finding {
     },
 }
 
-/// Judges one query.
+/// The judge of one query.
 pub struct Referee<'a> {
     query: &'a Query,
     placements: [Placement; 2],
@@ -57,12 +57,12 @@ pub struct Referee<'a> {
 const MAX_STEPS: u32 = 20_000;
 
 impl<'a> Referee<'a> {
-    /// Judges contacts at a distance of 0.
+    /// Creates a judge of contacts at a distance of 0.
     pub fn new(query: &'a Query) -> Self {
         Referee::with_margin(query, 0.0)
     }
 
-    /// Judges contacts at a distance of `margin`.
+    /// Creates a judge of contacts at a distance of `margin`.
     pub fn with_margin(query: &'a Query, margin: f64) -> Self {
         Referee {
             query,
@@ -81,7 +81,7 @@ impl<'a> Referee<'a> {
     pub fn nested(&self, time: f64) -> bool {
         let [a, b] = self.posed(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
-        let inside = |outer: &Posed<'_>, inner: &Posed<'_>| {
+        let inside = |outer: &PosedMesh<'_>, inner: &PosedMesh<'_>| {
             inner
                 .first_vertex()
                 .is_some_and(|p| contains(outer.mesh(), outer.points(), p))
@@ -121,7 +121,7 @@ impl<'a> Referee<'a> {
         Finding::Undecided { lo: time }
     }
 
-    /// Returns a bound of the rate of change of the distance.
+    /// Returns a bound on the rate of change of the distance.
     pub fn speed(&self) -> f64 {
         let [a, b] = &self.placements;
         (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
@@ -159,10 +159,10 @@ impl<'a> Referee<'a> {
             .fold(0.0, greater)
     }
 
-    fn posed(&self, time: f64) -> [Posed<'a>; 2] {
+    fn posed(&self, time: f64) -> [PosedMesh<'a>; 2] {
         let posed = |k: usize, actor: &'a crate::query::Actor| {
             let mesh = &actor.shape.mesh;
-            Posed::new(
+            PosedMesh::new(
                 mesh,
                 mesh.vertices
                     .iter()

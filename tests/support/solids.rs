@@ -1,4 +1,4 @@
-//! Small solids, with distances by the referee's.
+//! Small solids, with distances by the referee's code.
 
 use crate::models::{Mesh, cuboid};
 use crate::referee::{Face, distance_squared};
@@ -15,19 +15,19 @@ pub enum Solid {
     Ball(f64),
     /// A capsule along z: its radius, and half of its core's length.
     Capsule(f64, f64),
-    /// A cuboid of half extents.
+    /// A cuboid with half extents.
     Cuboid(DVec3),
     /// A tetrahedron as a mesh.
     Tetrahedron([DVec3; 4]),
-    /// A cuboid of half extents, as a mesh of twelve triangles.
+    /// A cuboid with half extents, as a mesh of twelve triangles.
     Crate(DVec3),
 }
 
-/// The corners of the faces of a tetrahedron, from outside counterclockwise if its determinant is positive.
+/// The corners of a tetrahedron's faces, counterclockwise from outside if its determinant is positive.
 const SIDES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
 impl Solid {
-    /// Draws a solid about as large as `size`.
+    /// Returns a random solid of size about `size`.
     pub fn draw(rng: &mut Pcg64, size: f64) -> Self {
         let mut length = || size * rng.random_range(0.05..1.0);
         let (x, y, z) = (length(), length(), length());
@@ -65,8 +65,8 @@ impl Solid {
         }
     }
 
-    /// Returns the solid in its place.
-    pub fn placed(&self, pose: &Pose) -> Placed {
+    /// Returns the solid at a pose.
+    pub fn placed(&self, pose: &Pose) -> PlacedSolid {
         let at = |p: DVec3| pose.rotation() * p + pose.translation();
         let hull = |corners: &[DVec3], faces: &[[u32; 3]]| {
             let face = |face: &[u32; 3]| Face::new(face.map(|k| at(corners[k as usize])));
@@ -85,20 +85,20 @@ impl Solid {
             }
             Solid::Tetrahedron(corners) => hull(&corners, &SIDES),
         };
-        Placed { faces, radius }
+        PlacedSolid { faces, radius }
     }
 }
 
-/// A solid in its place: the faces of a hull, counterclockwise from outside, or of a point or a segment, grown by a
+/// A solid at a pose: the faces of a hull, counterclockwise from outside, or of a point or a segment, grown by a
 /// radius.
-pub struct Placed {
+pub struct PlacedSolid {
     faces: Vec<Face>,
     radius: f64,
 }
 
-impl Placed {
+impl PlacedSolid {
     /// Returns the distance of two solids; 0 if they overlap.
-    pub fn distance(&self, other: &Placed) -> f64 {
+    pub fn distance(&self, other: &PlacedSolid) -> f64 {
         if self.contains(other) || other.contains(self) {
             return 0.0;
         }
@@ -110,8 +110,8 @@ impl Placed {
         greater(0.0, cores - self.radius - other.radius)
     }
 
-    /// Returns true if the hull holds a corner of the other solid's.
-    fn contains(&self, other: &Placed) -> bool {
+    /// Returns true if the hull contains a corner of the other solid.
+    fn contains(&self, other: &PlacedSolid) -> bool {
         let [p, ..] = other.faces[0].corners;
         let below = |Face {
                          corners: [a, b, c], ..

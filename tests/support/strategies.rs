@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 use std::f64::consts::{PI, TAU};
 
-/// Returns a runner of `cases` cases, times `CCD_TEST_CASES` if that is set.
+/// Returns a runner of `cases` cases, times `CCD_TEST_CASES` if set.
 ///
 /// The cases are always the same, unless `CCD_TEST_SEED` gives another seed.
 pub fn runner(cases: u32) -> TestRunner {
@@ -19,8 +19,7 @@ pub fn runner(cases: u32) -> TestRunner {
     })
 }
 
-/// Returns the numbers of `cases` draws, times `CCD_TEST_CASES` if that is set: seeds, which are others for another
-/// `CCD_TEST_SEED`.
+/// Returns the seeds of `cases` draws, times `CCD_TEST_CASES` if set; they depend on `CCD_TEST_SEED`.
 pub fn seeds(cases: u32) -> std::ops::Range<u64> {
     let first = u64::from(setting("CCD_TEST_SEED", 0)) << 32;
     first..first + u64::from(cases) * u64::from(setting("CCD_TEST_CASES", 1))
@@ -50,18 +49,18 @@ pub fn check_cases(
     }
 }
 
-/// Returns two small bodies aimed at each other, about a unit in size and a few units apart. Each
-/// may move and turn, up to three turns.
+/// Returns two small bodies aimed at each other, of size about 1 and a few units apart. Each may move and turn, up to
+/// three turns.
 pub fn cases() -> impl Strategy<Value = Case> {
     aimed(model(), model())
 }
 
-/// Does the same as [`cases`] with convex shapes only.
+/// Like [`cases`], with convex shapes only.
 pub fn convex_cases() -> impl Strategy<Value = Case> {
     aimed(convex_model(), convex_model())
 }
 
-/// Does the same as [`cases`] far from the origin, and from very small to very large.
+/// Like [`cases`], far from the origin, and of very small to very large size.
 pub fn remote_cases() -> impl Strategy<Value = Case> {
     (
         cases(),
@@ -89,7 +88,7 @@ pub fn remote_cases() -> impl Strategy<Value = Case> {
         })
 }
 
-/// Does the same as [`cases`] so close together that many overlap at the start.
+/// Like [`cases`], but so close together that many overlap at the start.
 pub fn crowded_cases() -> impl Strategy<Value = Case> {
     (cases(), 0.0..0.4f64).prop_map(|(mut case, nearer)| {
         case.b.position = (nearer * DVec3::from(case.b.position)).into();
@@ -130,7 +129,7 @@ fn aimed(
     })
 }
 
-/// Gives the relative velocity to B, to A, or to both on top of a common drift.
+/// Assigns the relative velocity to B, to A, or to both in addition to a common drift.
 fn share(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
     match drift {
         None => case.b.velocity = travel.into(),
@@ -155,7 +154,7 @@ fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
     })
 }
 
-/// Returns no spin, a part of a turn, or up to three turns per unit of time.
+/// Returns an angular velocity: zero, a part of a turn, or up to three turns per unit of time.
 fn spin() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         2 => Just(DVec3::ZERO),
@@ -169,12 +168,12 @@ fn centre() -> impl Strategy<Value = DVec3> {
     prop_oneof![2 => Just(DVec3::ZERO), 1 => turn(1.0)]
 }
 
-/// Returns a vector of up to a length, in any direction.
+/// Returns a vector of length up to `most`, in any direction.
 fn turn(most: f64) -> impl Strategy<Value = DVec3> {
     (direction(), 0.0..=most).prop_map(|(n, length)| length * n)
 }
 
-/// Returns a unit vector; the axes occur more often.
+/// Returns a unit vector; axes occur more often.
 pub fn direction() -> impl Strategy<Value = DVec3> {
     let any = (-1.0..1.0f64, 0.0..TAU).prop_map(|(z, angle)| {
         let r = (1.0 - z * z).sqrt();
@@ -193,7 +192,7 @@ fn half() -> impl Strategy<Value = f64> {
     (-1.3..0.0f64).prop_map(|x| 10.0f64.powf(x))
 }
 
-/// Returns a convex shape of at most about a unit.
+/// Returns a convex shape of size at most about 1.
 pub fn convex_model() -> impl Strategy<Value = Model> {
     let extents = || [half(), half(), half()];
     prop_oneof![
@@ -202,7 +201,7 @@ pub fn convex_model() -> impl Strategy<Value = Model> {
     ]
 }
 
-/// Returns any shape of at most about a unit, of at most about 100 triangles.
+/// Returns any shape of size at most about 1, with at most about 100 triangles.
 pub fn model() -> impl Strategy<Value = Model> {
     let ring =
         (4..9usize, 3..6usize, 0.05..0.3f64).prop_map(|(rings, sides, minor)| Model::Torus {
@@ -223,7 +222,7 @@ pub fn model() -> impl Strategy<Value = Model> {
     ]
 }
 
-/// Returns a solid that is not convex.
+/// Returns a non-convex solid.
 fn solid_model() -> impl Strategy<Value = Model> {
     prop_oneof![
         1 => (0.2..0.6f64, 0.1..0.9f64)

@@ -15,18 +15,18 @@ pub(crate) struct Shape {
     pub(crate) peer: SharedShape,
 }
 
-/// How the bodies begin.
+/// The start of the bodies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
-    /// From above onto the level.
+    /// The bodies fall onto the level from above.
     Hail,
-    /// Low over the level, along it.
+    /// The bodies fly low along the level.
     Skimming,
-    /// From all sides to the middle.
+    /// The bodies fly from all sides to the middle.
     Implosion,
-    /// Close to each other, in all directions.
+    /// The bodies start close to each other, and fly in all directions.
     Crowd,
-    /// Ten times as fast as the others, from above.
+    /// The bodies fall from above, ten times as fast as the others.
     Bullets,
 }
 
@@ -41,13 +41,13 @@ pub(crate) const KINDS: [Kind; 5] = [
 /// The duration of a step.
 pub(crate) const STEP: f64 = 1.0 / 60.0;
 
-/// Along each side of the level; two triangles each.
+/// The number of cells along each side of the level, with two triangles each.
 const CELLS: u32 = 119;
 
 /// Half a side of the level.
 const HALF: f64 = 30.0;
 
-/// Returns the level, hills of 28,322 triangles, and then one shape of each kind of body.
+/// Returns the level, hills of 28,322 triangles, followed by one shape of each kind of body.
 pub(crate) fn shapes() -> Result<Vec<Shape>> {
     let row = CELLS + 1;
     let vertices = (0..row * row)
@@ -95,7 +95,7 @@ fn height(x: f64, y: f64) -> f64 {
     1.5 * (0.31 * x).sin() * (0.27 * y).cos() + 0.3 * (1.7 * x + 0.9 * y).sin()
 }
 
-/// Bodies that fly at constant velocities, each with the number of its shape.
+/// Bodies at constant velocities, each with the index of its shape.
 pub(crate) struct Flight(Vec<(usize, DVec3, DQuat, DVec3, DVec3)>);
 
 impl Flight {
@@ -138,7 +138,7 @@ impl Flight {
         Flight((0..count).map(body).collect())
     }
 
-    /// Returns the number of each body's shape, and its motion in a step.
+    /// Returns the index of each body's shape, and the body's motion in a step.
     pub(crate) fn step(&self, step: u32) -> Result<Vec<(usize, Motion)>> {
         let time = STEP * f64::from(step);
         let motion =

@@ -1,5 +1,5 @@
-//! Two hundred bodies in free flight over a level of 28,322 triangles, and among each other, at 60 steps a second;
-//! beside parry's nonlinear casts of the same pairs.
+//! Two hundred bodies in free flight over a level of 28,322 triangles and among each other, at 60 steps a second,
+//! compared with parry's nonlinear casts of the same pairs.
 //!
 //! ```sh
 //! cargo run --release -p ccd-bench --example many -- [STEPS [BODIES]]
@@ -44,7 +44,7 @@ fn main() -> Result<()> {
 /// The measurements of a scene.
 #[derive(Default)]
 struct Row {
-    /// The milliseconds of each step: the first contact, that of each body, that of each pair.
+    /// The milliseconds of each step, for the first contact, that of each body, and that of each pair.
     first: Vec<f64>,
     each: Vec<f64>,
     all: Vec<f64>,
@@ -90,7 +90,7 @@ impl Row {
         Ok(row)
     }
 
-    /// Lets the peer cast all pairs of a step whose ways meet.
+    /// Runs the peer's casts for all pairs of a step whose boxes meet.
     fn cast(
         &mut self,
         step: &[(usize, Motion)],

@@ -1,4 +1,4 @@
-//! The peer's nonlinear casts of the same pairs, and what they are worth.
+//! The peer's nonlinear casts of the same pairs, and their errors.
 
 use crate::flight::{STEP, Shape};
 use ccd_bench::method::peer::parry::double::shapes::{pose, rigid_motion};
@@ -9,29 +9,29 @@ use rigid_ccd::Impact;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-/// The time after which the peer is taken not to return.
+/// The time limit of a cast by the peer.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// What came of the casts of many pairs.
+/// The comparison of both answers over many pairs.
 #[derive(Default)]
 pub(crate) struct Tally {
     pub(crate) pairs: usize,
     pub(crate) agree: usize,
-    /// The peer's time is later than that of a contact that its own distance confirms.
+    /// The number of times of the peer that are later than a contact confirmed by its own distance.
     pub(crate) late: usize,
-    /// The peer has no contact, or nothing to say, where its own distance confirms one.
+    /// The number of casts of the peer without a contact, or without an answer, where its own distance confirms one.
     pub(crate) missed: usize,
-    /// The peer has a contact where its own distance is more than the tolerance.
+    /// The number of contacts of the peer at which its own distance exceeds the tolerance.
     pub(crate) early: usize,
-    /// A contact of ours that the peer's distance does not confirm.
+    /// The number of our contacts that the peer's distance does not confirm.
     pub(crate) unconfirmed: usize,
-    /// A contact of the peer's, confirmed by its own distance, before which we say nothing.
+    /// The number of the peer's contacts that its own distance confirms, and for which we have no earlier contact.
     pub(crate) later_than_peer: usize,
     pub(crate) hung: usize,
     pub(crate) time: Duration,
 }
 
-/// Casts a pair, in a thread of its own: some casts do not return. Returns the time of the contact, if there is one.
+/// Runs a cast in its own thread, because some casts do not return. Returns the time of the contact, if there is one.
 fn cast(motions: [&Motion; 2], shapes: [&SharedShape; 2]) -> Option<(Duration, Option<f64>)> {
     let (sender, receiver) = channel();
     let motions = motions.map(rigid_motion);
@@ -48,7 +48,7 @@ fn cast(motions: [&Motion; 2], shapes: [&SharedShape; 2]) -> Option<(Duration, O
 }
 
 impl Tally {
-    /// Casts a pair, and compares the answer with ours. Contacts are within `tolerance`.
+    /// Runs a cast on a pair, and compares the answer with ours. Contacts are within `tolerance`.
     pub(crate) fn add(
         &mut self,
         motions: [&Motion; 2],

@@ -1,4 +1,4 @@
-//! A stand-in for the bunny, as convex parts: the same for rapier and for this engine.
+//! A stand-in for the bunny made of convex parts, the same for rapier and for this engine.
 
 use anyhow::Result;
 use ccd_bench::scene::model::Blob;

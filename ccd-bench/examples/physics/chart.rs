@@ -1,4 +1,4 @@
-//! How deep bodies get into each other, drawn over the steps.
+//! A chart of the penetration depth of bodies over the steps.
 
 use crate::{METHODS, Method};
 use anyhow::Result;
@@ -15,13 +15,13 @@ pub(crate) struct Depths {
     pub(crate) methods: Vec<Vec<f64>>,
 }
 
-/// Depths below this are drawn on the lower edge, in metres.
+/// The least depth of the axis, in metres; smaller depths are drawn there.
 const LEAST: f64 = 1e-6;
 
 /// The height of the legend, in pixels.
 const LEGEND: u32 = 36;
 
-/// The most values of a line: each is the deepest of its steps.
+/// The maximum number of values of a line: each is the deepest of several steps.
 const MOST_VALUES: usize = 300;
 
 /// Draws one panel for each world.
@@ -86,7 +86,7 @@ fn style(method: Method) -> ShapeStyle {
     }
 }
 
-/// Returns the deepest of every few steps.
+/// Returns the greatest depth of each group of steps.
 fn deepest(values: &[f64]) -> Vec<(usize, f64)> {
     let few = values.len().div_ceil(MOST_VALUES).max(1);
     let chunks = values.chunks(few).enumerate();

@@ -1,4 +1,4 @@
-//! The step of a rapier world in which nothing passes through anything: all that such a program needs.
+//! A step of a rapier world in which no body passes through another: all the code that a program needs.
 
 use anyhow::Result;
 use ccd_core::Trajectory;
@@ -7,8 +7,8 @@ use rapier3d_f64::prelude::{
 };
 use rigid_ccd::{Motion, Pose, Scene, Stop};
 
-/// Steps a world, and stops each body where it touches another one. `moving` are the bodies of the scene that move,
-/// by their indices in it. Returns until when each body of the scene moved.
+/// Steps a world, and stops each body at its first contact. `moving` are the bodies of the scene that move, by their
+/// indices in it. Returns until when each body of the scene moved.
 pub(crate) fn step(
     world: &mut PhysicsWorld,
     scene: &mut Scene<'_>,
@@ -36,7 +36,7 @@ pub(crate) fn step(
     Ok(stops)
 }
 
-/// Returns where a body is.
+/// Returns the pose of a body.
 pub(crate) fn pose(body: &RigidBody) -> Result<Pose> {
     let at = body.position();
     Ok(Pose::new(

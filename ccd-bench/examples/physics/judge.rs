@@ -1,4 +1,4 @@
-//! Counts what passes through what, and how deep bodies are in each other, by the peer's own tests.
+//! Counts passages of bodies through each other and measures penetration depths, with the peer's own tests.
 
 use crate::glue::at;
 use crate::worlds::World;
@@ -7,14 +7,14 @@ use ccd_core::order::{greater, lesser};
 use parry3d_f64::query::{contact, intersection_test};
 use rigid_ccd::{Motion, Moving};
 
-/// What was seen so far.
+/// The measurements so far.
 #[derive(Default)]
-pub(crate) struct Seen {
+pub(crate) struct Tally {
     /// The pairs that were apart before and after a step, and overlapped between.
     pub(crate) passed: usize,
     /// The deepest penetration after each step.
     pub(crate) depths: Vec<f64>,
-    /// The steps of moving bodies, and those of them that were stopped.
+    /// The number of steps of moving bodies, and the number of those that were stopped.
     moves: usize,
     stops: usize,
 }
@@ -22,8 +22,8 @@ pub(crate) struct Seen {
 /// A body's motion in a step, and the time at which it stops.
 pub(crate) type Moved = (Motion, f64);
 
-impl Seen {
-    /// Looks at a step of all bodies of a world.
+impl Tally {
+    /// Measures one step of all bodies of a world.
     pub(crate) fn step(&mut self, world: &World, moved: &[Moved], duration: f64) -> Result<()> {
         let mut deepest = 0.0;
         for (body, &(_, stop)) in world.bodies.iter().zip(moved) {
@@ -48,7 +48,7 @@ impl Seen {
     }
 }
 
-/// Returns the pairs whose ways meet, without those that are joined or do not move.
+/// Returns the pairs whose swept boxes meet, except joined pairs and pairs at rest.
 fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>> {
     let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &Moved)| {
         let moving = Moving::from((&body.body, motion));
@@ -85,8 +85,8 @@ fn overlap(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> bool 
     intersection_test(&a.0, a.1, &b.0, b.1).is_ok_and(|found| found.intersecting)
 }
 
-/// Returns whether bodies that are apart at both ends overlap between, at samples so close that none passes through
-/// the thinnest part without one.
+/// Returns whether bodies that are apart at both ends overlap between them, at samples dense enough for the thinnest
+/// part.
 fn passes(world: &World, moved: &[Moved], pair: [usize; 2], duration: f64) -> bool {
     if overlap(world, moved, pair, 0.0) || overlap(world, moved, pair, duration) {
         return false;

@@ -1,5 +1,5 @@
-//! Fast bodies in rapier, stepped as they are, with rapier's own continuous collision detection, and with certified
-//! times: what passes through what, and how deep bodies get into each other.
+//! Fast bodies in rapier, stepped without continuous collision detection, with rapier's own, and with certified times:
+//! passages through each other, and penetration depths.
 //!
 //! ```sh
 //! cargo run --release -p ccd-bench --example physics -- [STEPS [CHART.svg]]
@@ -14,7 +14,7 @@ mod worlds;
 use anyhow::Result;
 use chart::{Depths, draw};
 use glue::pose;
-use judge::{Moved, Seen};
+use judge::{Moved, Tally};
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Motion, Pose, Scene};
 use std::io::Write;
@@ -23,14 +23,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use worlds::{Detection, Simulated, World};
 
-/// How a world is stepped.
+/// The method of stepping a world.
 #[derive(Clone, Copy, Debug)]
 enum Method {
-    /// As it is.
+    /// No continuous collision detection.
     Plain,
-    /// With rapier's continuous collision detection.
+    /// rapier's continuous collision detection.
     Rapier,
-    /// With certified times.
+    /// Certified times.
     Certified,
 }
 
@@ -71,17 +71,17 @@ fn main() -> Result<()> {
         let mut name = "";
         for method in METHODS {
             let mut world = World::new(number, method.detection())?;
-            let (seen, time) = run(&mut world, method, steps)?;
+            let (tally, time) = run(&mut world, method, steps)?;
             let millis = 1e3 * time.as_secs_f64() / f64::from(steps);
-            let (deepest, stopped) = (seen.deepest(), seen.stopped());
+            let (deepest, stopped) = (tally.deepest(), tally.stopped());
             name = world.name;
             writeln!(
                 out,
                 "{name},{},{steps},{},{deepest:.2e},{stopped:.4},{millis:.3}",
                 method.name(),
-                seen.passed
+                tally.passed
             )?;
-            methods.push(seen.depths);
+            methods.push(tally.depths);
         }
         drawn.push(Depths {
             world: name,
@@ -93,8 +93,8 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Steps a world, and returns what was seen and the time that the steps took.
-fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)> {
+/// Steps a world; returns the measurements and the duration of the steps.
+fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration)> {
     let duration = world.physics.integration_parameters.dt;
     let bodies: Vec<_> = world.bodies.iter().map(|body| body.body.clone()).collect();
     let joined = world.joined.clone();
@@ -111,7 +111,7 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
             index
         };
     }
-    let (mut seen, mut time) = (Seen::default(), Duration::ZERO);
+    let (mut tally, mut time) = (Tally::default(), Duration::ZERO);
     for step in 0..steps {
         world.act(step);
         let starts = poses(world)?;
@@ -134,9 +134,9 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Seen, Duration)
                 .collect(),
             None => moved(world, &starts, duration)?,
         };
-        seen.step(world, &moved, duration)?;
+        tally.step(world, &moved, duration)?;
     }
-    Ok((seen, time))
+    Ok((tally, time))
 }
 
 fn poses(world: &World) -> Result<Vec<Pose>> {
@@ -147,7 +147,7 @@ fn poses(world: &World) -> Result<Vec<Pose>> {
     poses.collect()
 }
 
-/// Returns how each body of a world moved in a step that nothing stopped.
+/// Returns the motion of each body in a step without stops.
 fn moved(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
     let between = |(body, start): (&Simulated, &Pose)| {
         let rigid = &world.physics.bodies[body.handle];

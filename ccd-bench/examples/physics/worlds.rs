@@ -1,4 +1,4 @@
-//! Worlds in which fast bodies pass through each other, unless their steps are held against each other.
+//! Worlds in which fast bodies pass through each other without continuous collision detection.
 
 use crate::bunny::bunny;
 use anyhow::Result;
@@ -12,12 +12,12 @@ use rapier3d_f64::prelude::{
 use rigid_ccd::Body;
 use std::f64::consts::FRAC_PI_2;
 
-/// A world, its bodies, and what acts on them.
+/// A world, its bodies, and the forces on them.
 pub(crate) struct World {
     pub(crate) name: &'static str,
     pub(crate) physics: PhysicsWorld,
     pub(crate) bodies: Vec<Simulated>,
-    /// Pairs that are joined, and may overlap.
+    /// The joined pairs, which may overlap.
     pub(crate) joined: Vec<[usize; 2]>,
     /// The length of the thinnest part of a body.
     pub(crate) thinnest: f64,
@@ -32,26 +32,26 @@ pub(crate) struct Simulated {
     pub(crate) is_fixed: bool,
 }
 
-/// Whether rapier's own continuous collision detection is on.
+/// The use of rapier's own continuous collision detection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Detection {
     Off,
-    /// For all bodies, against each other too.
+    /// On for all bodies, and also between moving ones.
     Full,
 }
 
-/// The distance that rapier keeps about each body. Bodies that rest on each other are farther apart than those that
+/// The distance that rapier keeps around each body. Bodies that rest on each other are farther apart than those that
 /// are stopped.
 const SKIN: f64 = 0.002;
 
-/// The steps after which bodies are thrown again.
+/// The number of steps after which bodies are thrown again.
 const ROUND: u32 = 60;
 
 impl World {
     /// The number of worlds.
     pub(crate) const COUNT: usize = 3;
 
-    /// Makes a world, by its number.
+    /// Creates a world by its number.
     pub(crate) fn new(number: usize, detection: Detection) -> Result<World> {
         match number {
             0 => bullets(detection),
@@ -60,7 +60,7 @@ impl World {
         }
     }
 
-    /// Acts on the bodies before a step.
+    /// Applies forces to the bodies before a step.
     pub(crate) fn act(&mut self, step: u32) {
         (self.act)(self, step);
     }
@@ -110,7 +110,7 @@ impl World {
         DVec3::from_array(std::array::from_fn(|_| self.rng.random_range(-1.0..1.0)))
     }
 
-    /// Puts a body somewhere, and throws it.
+    /// Places a body, and sets its velocity.
     fn throw(&mut self, index: usize, place: DVec3, velocity: DVec3) {
         let (turn, spin) = (3.0 * self.any(), 5.0 * self.any());
         let body = &mut self.physics.bodies[self.bodies[index].handle];
@@ -134,7 +134,7 @@ fn dynamic(detection: Detection) -> RigidBodyBuilder {
 /// The number of sheets of paper, which are 1 mm thick.
 const SHEETS: usize = 5;
 
-/// Twelve bullets at 100 to 390 metres a second, at five sheets of paper.
+/// Creates twelve bullets at 100 to 390 metres a second, aimed at five sheets of paper.
 fn bullets(detection: Detection) -> Result<World> {
     let mut world = World::empty("bullets and paper", detection, 0.001, |world, step| {
         for index in SHEETS..world.bodies.len() {
@@ -161,7 +161,7 @@ fn bullets(detection: Detection) -> Result<World> {
     Ok(world)
 }
 
-/// Bunnies are thrown at each other and at thin walls, at 40 metres a second.
+/// Creates bunnies that are thrown at each other and at thin walls, at 40 metres a second.
 fn bunnies(detection: Detection) -> Result<World> {
     let mut world = World::empty("bunnies onto bunnies", detection, 0.01, |world, step| {
         if step % ROUND != 0 {
@@ -205,11 +205,12 @@ fn bunnies(detection: Detection) -> Result<World> {
     Ok(world)
 }
 
-/// The links of the chain, and half of the length of one.
+/// The number of links of the chain.
 const LINKS: usize = 14;
+/// Half the length of a link.
 const HALF: f64 = 0.06;
 
-/// A chain of fourteen links is drawn through a slot between two plates, and back, and laid out anew.
+/// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and laid out anew.
 fn chain(detection: Detection) -> Result<World> {
     let mut world = World::empty("chain through a slot", detection, 0.004, |world, step| {
         if step.is_multiple_of(4 * ROUND) {
@@ -245,7 +246,7 @@ fn chain(detection: Detection) -> Result<World> {
 }
 
 impl World {
-    /// Puts a link of the chain where it is at the start, at rest.
+    /// Returns a link of the chain to its start, at rest.
     fn lay_out(&mut self, link: usize) {
         let body = &mut self.physics.bodies[self.bodies[2 + link].handle];
         let place = Vector::new(-0.2 - 2.5 * HALF * link as f64, 0.0, 0.0);

@@ -50,7 +50,7 @@ pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Answers all queries, or returns why the method refuses the bodies or the setting.
+/// Answers all queries, or returns the reason for which the method refuses the bodies or the setting.
 fn answer(
     method: Method,
     [a, b]: &[TriangleMesh; 2],
@@ -110,7 +110,7 @@ fn unwritten(source: io::Error) -> CannotWrite {
 #[cfg(unix)]
 const WITHOUT_PARENT: Duration = Duration::from_secs(1);
 
-/// Ends this process, in whatever call it is, once its parent has ended.
+/// Ends this process, in any call, after its parent has ended.
 #[cfg(unix)]
 fn end_with_parent() {
     let parent = parent_id();

@@ -100,13 +100,13 @@ const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
 /// The amount of measurement.
 #[derive(Clone, Copy, PartialEq)]
 enum Extent {
-    /// A few rows of the methods that are fast to run.
+    /// A few rows, with the fast methods.
     Glance,
     /// Everything.
     Full,
 }
 
-/// Allowances in this process and in a process of its own, for everything in half an hour.
+/// The allowances in this process and in a separate process, for everything in half an hour.
 const AT_LENGTH: (Allowance, Allowance) = (
     Allowance {
         cell: Duration::from_millis(600),
@@ -123,7 +123,7 @@ const AT_LENGTH: (Allowance, Allowance) = (
         preparation: Duration::ZERO,
     },
 );
-/// Allowances for a few rows of everything in a minute.
+/// The allowances for a few rows of everything in a minute.
 const AT_A_GLANCE: (Allowance, Allowance) = (
     Allowance {
         cell: Duration::from_millis(40),
@@ -188,7 +188,7 @@ pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
     present(args, plan.run()?, Vec::new(), &[])
 }
 
-/// Writes tables, charts and the page, and says what was seen.
+/// Writes tables, charts and the page, and prints the findings.
 fn present(
     common: &CommonArgs,
     mut evaluated: Evaluated,
@@ -224,7 +224,7 @@ fn present(
     Ok(Exit::AllAnswered)
 }
 
-/// Returns the plan for everything, or for a few rows of the methods that are fast to run.
+/// Returns the plan for everything, or for a few rows with the fast methods.
 fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
     if let Some(directory) = &common.models {
         ensure!(
@@ -254,8 +254,8 @@ fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
     })
 }
 
-/// Returns true if a few rows of a method are fast to run. Peers take time to start, since they run
-/// in other processes, so only one of them is included.
+/// Returns true if a method runs a few rows fast. Peers take time to start, since they run in other processes, so only
+/// one of them is included.
 fn is_fast_to_run(method: Method) -> bool {
     match method {
         Method::Ours(..) | Method::Rival(_) => true,

@@ -1,9 +1,9 @@
-//! The command `ccd-bench judge`: asks one method, and judges its answers by the exact ones.
+//! The command `ccd-bench judge`: runs one method, and compares its answers with the exact ones.
 
 use crate::method::Method;
 use crate::method::guarded::{Guarded, Programs, Setting};
 use crate::method::solver::Claim;
-use crate::run::contest::{judge, judge_asked};
+use crate::run::contest::{judge, judge_outcome};
 use crate::truth::{Referee, Surface, TruthRow};
 use anyhow::{Context, Result, anyhow};
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
@@ -80,7 +80,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         let query = method.motion_kind().of(query)?;
         let truth = referee.first_contact(&query);
         let asked = guarded.ask(&query, Duration::from_secs(args.patience.get().into()))?;
-        let verdict = judge_asked(&asked, |reply| {
+        let verdict = judge_outcome(&asked, |reply| {
             let tolerance = reply.judged_by(args.tolerance);
             judge(&referee, &query, truth, reply.claim, tolerance)
         });

@@ -73,7 +73,7 @@ Examples:
   ccd-bench truth --a part.stl --b part.stl --motions motions.csv --threads 1 --out truth.csv
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd-bench truth --a part.stl --b slab.obj --motions -";
 
-/// Judges all valid rows; the table gives the reason for the others.
+/// Brackets the first contact of all valid rows; the table gives the reason for the others.
 pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     for (option, path) in [
         ("--motions", &args.motions),
@@ -95,7 +95,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
         Progress::new(length.map_or(Total::Unknown, Total::Bytes))
     };
     let mut bad_rows = BadRows::new(input_name(&args.motions));
-    let (mut seen, start) = (Seen::default(), Instant::now());
+    let (mut counts, start) = (TruthCounts::default(), Instant::now());
     loop {
         let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(size.items()).collect();
         let batch = batch.with_context(|| input_name(&args.motions))?;
@@ -111,14 +111,14 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
                 bad_rows.report(error.position, &error.problem, &progress);
             }
             write(&mut table, row, truth)?;
-            truth.iter().for_each(|truth| seen.add(truth));
+            truth.iter().for_each(|truth| counts.add(truth));
         }
         table.flush()?;
     }
     table.finish()?;
     drop(progress);
     bad_rows.close();
-    if seen.rows() + bad_rows.count() == 0 {
+    if counts.rows() + bad_rows.count() == 0 {
         complain(&format!(
             "{}: has a header, but no rows",
             input_name(&args.motions)
@@ -126,7 +126,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     }
     if !args.quiet {
         let seconds = start.elapsed().as_secs_f64();
-        let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", seen.summary());
+        let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", counts.summary());
     }
     Ok(match bad_rows.count() {
         0 => Exit::AllAnswered,
@@ -188,7 +188,7 @@ fn write(table: &mut Table, row: &MotionRow, truth: Option<Truth>) -> Result<(),
 
 /// The number of truths of each kind, and the widest bracket.
 #[derive(Default)]
-struct Seen {
+struct TruthCounts {
     hit: usize,
     free: usize,
     initial: usize,
@@ -197,7 +197,7 @@ struct Seen {
     widest: f64,
 }
 
-impl Seen {
+impl TruthCounts {
     fn add(&mut self, truth: &Truth) {
         let count = match truth {
             Truth::Hit { lo, hi } => {

@@ -1,11 +1,11 @@
-//! Runs a method in a process of its own, which is stopped when it takes too long.
+//! Runs a method in a separate process, which is stopped at a time limit.
 
 use super::Method;
 use super::solver::{Claim, Reply, TimedReply};
 use super::wire::{READY, REFUSED, format_query, parse_reply};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Asks a method one query at a time. Stops and restarts it when it hangs or dies.
+/// Runs a method on one query at a time, in a separate process. Stops and restarts it when it hangs or dies.
 #[derive(Debug)]
 pub struct Guarded {
     program: PathBuf,
@@ -25,21 +25,21 @@ pub struct Guarded {
     process: Option<Process>,
 }
 
-/// A method, and what it is to answer with.
+/// A method and its settings.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
     /// The method.
     pub method: Method,
     /// The tolerance, for methods that take one.
     pub tolerance: f64,
-    /// The distance to keep; a method that keeps none refuses any other than 0.
+    /// The distance to keep; a method without margins refuses any other than 0.
     pub margin: f64,
-    /// The time that the process may take to prepare its bodies.
+    /// The time limit for preparing the bodies.
     pub preparation: Duration,
 }
 
 impl Setting {
-    /// Returns the usual setting of a method at a tolerance: no margin, two minutes of preparation.
+    /// Returns the default setting of a method at a tolerance: no margin, two minutes of preparation.
     pub fn new(method: Method, tolerance: f64) -> Self {
         Setting {
             method,
@@ -52,7 +52,7 @@ impl Setting {
 
 /// The outcome of a query.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Asked {
+pub enum QueryOutcome {
     /// The method answered.
     Answered {
         /// Its reply.
@@ -66,7 +66,7 @@ pub enum Asked {
     Died,
 }
 
-/// The programs that answer.
+/// The programs that run the methods.
 #[derive(Clone, Debug, Default)]
 pub struct Programs {
     /// The script that runs the methods of kind [`Method::Script`].
@@ -74,7 +74,7 @@ pub struct Programs {
 }
 
 impl Programs {
-    /// Starts the script of a method, if it has one: libraries may be missing.
+    /// Starts the script of a method, if it has one, to detect missing libraries.
     ///
     /// # Errors
     /// If it does not start.
@@ -106,12 +106,12 @@ impl Programs {
     }
 }
 
-impl Asked {
+impl QueryOutcome {
     /// Returns the claim, if the method answered.
     pub fn claim(&self) -> Option<Claim> {
         match self {
-            Asked::Answered { reply, .. } => Some(reply.claim),
-            Asked::CutOff | Asked::Died => None,
+            QueryOutcome::Answered { reply, .. } => Some(reply.claim),
+            QueryOutcome::CutOff | QueryOutcome::Died => None,
         }
     }
 }
@@ -161,16 +161,16 @@ impl Guarded {
         self.running().map(|_| ())
     }
 
-    /// Asks one query. A process that was stopped or has died is restarted first; that is not timed.
+    /// Runs one query. A process that was stopped or has died is restarted first; that is not timed.
     ///
     /// # Errors
     /// Those of [`Guarded::start`].
-    pub fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Asked> {
-        let asked = self.running()?.ask(query, patience);
-        if !matches!(asked, Asked::Answered { .. }) {
+    pub fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
+        let outcome = self.running()?.ask(query, patience);
+        if !matches!(outcome, QueryOutcome::Answered { .. }) {
             self.process = None;
         }
-        Ok(asked)
+        Ok(outcome)
     }
 
     fn running(&mut self) -> io::Result<&mut Process> {
@@ -239,20 +239,20 @@ impl Process {
         }
     }
 
-    fn ask(&mut self, query: &Query, patience: Duration) -> Asked {
+    fn ask(&mut self, query: &Motions, patience: Duration) -> QueryOutcome {
         let Some(input) = &mut self.input else {
-            return Asked::Died;
+            return QueryOutcome::Died;
         };
         if writeln!(input, "{}", format_query(query)).is_err() {
-            return Asked::Died;
+            return QueryOutcome::Died;
         }
         match self.lines.recv_timeout(patience) {
             Ok(line) => match parse_reply(&line) {
-                Some(TimedReply { reply, micros }) => Asked::Answered { reply, micros },
-                None => Asked::Died,
+                Some(TimedReply { reply, micros }) => QueryOutcome::Answered { reply, micros },
+                None => QueryOutcome::Died,
             },
-            Err(RecvTimeoutError::Timeout) => Asked::CutOff,
-            Err(RecvTimeoutError::Disconnected) => Asked::Died,
+            Err(RecvTimeoutError::Timeout) => QueryOutcome::CutOff,
+            Err(RecvTimeoutError::Disconnected) => QueryOutcome::Died,
         }
     }
 }

@@ -23,19 +23,19 @@ use ccd_decomp::TriangleMesh;
 /// The peer libraries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PeerKind {
-    /// [`parry::double::cast`].
+    /// The method [`parry::double::cast`].
     ParryF64,
-    /// [`parry::single::cast`].
+    /// The method [`parry::single::cast`].
     ParryF32,
-    /// [`parry::double::sweep`].
+    /// The method [`parry::double::sweep`].
     ParrySweepF64,
-    /// [`parry::single::sweep`].
+    /// The method [`parry::single::sweep`].
     ParrySweepF32,
-    /// [`rapier::Simulated`].
+    /// The method [`rapier::Simulated`].
     RapierStepF64,
-    /// Never answers: tests the guard.
+    /// A method that never answers, for tests of the guard.
     Hanging,
-    /// Ends its process at every query: tests the guard.
+    /// A method that ends its process at every query, for tests of the guard.
     Dying,
 }
 
@@ -101,8 +101,7 @@ impl PeerKind {
     }
 }
 
-/// Returns a contact at `time`, clamped to the query since rounding may have moved it out. An
-/// invalid time is no answer.
+/// Returns a contact at `time`, clamped to the duration because of rounding. An invalid time is no answer.
 fn contact_at(time: f64, duration: f64) -> Claim {
     if time.is_finite() {
         let time = time.clamp(0.0, duration);

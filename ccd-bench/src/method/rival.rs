@@ -12,10 +12,10 @@
 
 mod c2a;
 mod contact;
-mod course;
 mod dynamic_checker;
 mod interval;
 mod lanes;
+mod motion;
 mod obb_tree;
 mod patience;
 mod principal_axes;
@@ -31,7 +31,7 @@ mod triangles_cross;
 
 pub use c2a::C2a;
 pub use contact::Contact;
-pub use course::{Course, Placement};
 pub use dynamic_checker::DynamicChecker;
+pub use motion::{Placement, RivalMotion};
 pub use screw::{is_screw, screw};
 pub use stepping::Stepping;

@@ -1,4 +1,4 @@
-//! Peer libraries of other languages, which a script asks: `scripts/peers.py answer`.
+//! Peer libraries in other languages, run by a script: `scripts/peers.py answer`.
 
 /// The methods of the script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,7 +19,7 @@ impl ScriptKind {
         ScriptKind::FclSteps,
     ];
 
-    /// Returns the name that the script has for it.
+    /// Returns the script's name of the method.
     pub fn name(self) -> &'static str {
         match self {
             ScriptKind::CoalSteps => "coal-steps",

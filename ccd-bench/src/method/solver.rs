@@ -1,15 +1,14 @@
-//! The interface of all that answers queries: this project's methods, published rivals built here,
-//! peer libraries.
+//! The interface of all solvers: this project's methods, published rivals built here, and peer libraries.
 
 use ccd_core::order::greater;
 use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::time::{Duration, Instant};
 
-/// Answers one query after another about the same two bodies, with the same tolerance.
+/// A solver that answers queries about two bodies, one after another, with the same tolerance.
 pub trait Solver {
-    /// Returns the first contact of the bodies, as far as the solver finds it.
-    fn answer(&mut self, query: &Query) -> Reply;
+    /// Returns the first contact that the solver finds.
+    fn answer(&mut self, query: &Motions) -> Reply;
 }
 
 /// A reply and its time.
@@ -24,11 +23,11 @@ pub struct TimedReply {
 /// The largest number of answers to one query. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
 const REPEATS: usize = 4;
-/// A query is not repeated once its answers have taken this long.
+/// The total time of answers after which a query is not repeated.
 const REPEATED_WITHIN: Duration = Duration::from_millis(40);
 
-/// Asks a query and times it, in the same way for all solvers.
-pub fn timed(solver: &mut dyn Solver, query: &Query) -> TimedReply {
+/// Answers a query and times it, in the same way for all solvers.
+pub fn timed(solver: &mut dyn Solver, query: &Motions) -> TimedReply {
     let mut micros = Vec::with_capacity(REPEATS);
     let first = Instant::now();
     loop {
@@ -58,7 +57,7 @@ pub struct Reply {
     pub steps: u64,
     /// The tolerance of the answer, if the solver states one.
     pub tolerance: Option<f64>,
-    /// Why there is no better answer, if the solver says so.
+    /// The reason for an incomplete answer, if the solver gives one.
     pub reason: Option<String>,
 }
 
@@ -73,8 +72,7 @@ impl Reply {
         }
     }
 
-    /// Returns the tolerance by which the reply to a query with a tolerance is judged: that one, or the one that
-    /// the solver states if it had to raise it.
+    /// Returns the tolerance by which the reply is judged: that of the query, or a higher one that the solver states.
     pub fn judged_by(&self, tolerance: f64) -> f64 {
         greater(tolerance, self.tolerance.unwrap_or(0.0))
     }
@@ -100,7 +98,7 @@ pub enum Claim {
 }
 
 impl Claim {
-    /// Returns the name of its kind.
+    /// Returns the name of the claim's kind.
     pub fn status(self) -> &'static str {
         match self {
             Claim::Contact { .. } => "contact",
@@ -110,7 +108,7 @@ impl Claim {
         }
     }
 
-    /// Returns the time that is claimed, of a contact or until which there is none.
+    /// Returns the claimed time of a contact, or the time until which there is none.
     pub fn time(self) -> Option<f64> {
         match self {
             Claim::Contact { time } | Claim::Unresolved { safe_until: time } => Some(time),

@@ -1,19 +1,19 @@
-//! The protocol between a guard and the process it guards: one line for each query, one for each reply.
+//! The protocol between a guard and the guarded process: one line for each query, and one for each reply.
 
 use super::solver::{Claim, Reply, Solver, TimedReply, timed};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::io::{self, BufRead, Write};
 use std::time::Duration;
 
-/// The line that the process writes once it has prepared its bodies.
+/// The process's first line after it has prepared its bodies.
 pub const READY: &str = "ready";
 
-/// The start of the line that it writes instead if it refuses the bodies or the setting; the reason follows.
+/// The prefix of its first line if it refuses the bodies or the setting; the reason follows.
 pub const REFUSED: &str = "refused: ";
 
-/// Answers queries as they are read, until there are no more.
+/// Answers queries until the input ends.
 ///
 /// # Errors
 /// If a line is no query, or if the reader of the replies is gone.
@@ -35,8 +35,8 @@ pub fn serve(
     Ok(())
 }
 
-/// Formats a query as one line, which is read back to the same bits; the name is left out.
-pub fn format_query(query: &Query) -> String {
+/// Formats a query as one line without its name; parsing gives the same bits.
+pub fn format_query(query: &Motions) -> String {
     let motion = |motion: &Motion| {
         let start = motion.start();
         [
@@ -57,7 +57,7 @@ pub fn format_query(query: &Query) -> String {
 const OF_MOTION: usize = 16;
 
 /// Parses a line as a query; returns `None` if it is invalid.
-pub fn parse_query(line: &str) -> Option<Query> {
+pub fn parse_query(line: &str) -> Option<Motions> {
     let numbers: Vec<f64> = line
         .split(' ')
         .map(|text| text.parse().ok())
@@ -67,7 +67,7 @@ pub fn parse_query(line: &str) -> Option<Query> {
     let &[duration] = rest else {
         return None;
     };
-    Some(Query {
+    Some(Motions {
         id: String::new(),
         a: motion(a)?,
         b: motion(b)?,
@@ -127,24 +127,24 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
     Some(TimedReply { reply, micros })
 }
 
-/// Never answers.
+/// A solver that never answers.
 #[derive(Clone, Copy, Debug)]
 pub struct Hanging;
 
 impl Solver for Hanging {
-    fn answer(&mut self, _: &Query) -> Reply {
+    fn answer(&mut self, _: &Motions) -> Reply {
         loop {
             std::thread::sleep(Duration::from_secs(3600));
         }
     }
 }
 
-/// Ends its process instead of answering.
+/// A solver that ends its process instead of answering.
 #[derive(Clone, Copy, Debug)]
 pub struct Dying;
 
 impl Solver for Dying {
-    fn answer(&mut self, _: &Query) -> Reply {
+    fn answer(&mut self, _: &Motions) -> Reply {
         std::process::exit(3)
     }
 }

@@ -11,7 +11,7 @@ use ccd_core::order::greater;
 pub use journal::{Journal, JournalError, program_stamp};
 pub use session::Session;
 pub use truths::{Truths, TruthsError};
-pub use verdict::{Judged, Verdict, is_near, judge, judge_asked, judge_contact};
+pub use verdict::{Judged, Verdict, is_near, judge, judge_contact, judge_outcome};
 
 use crate::method::rival::screw;
 use crate::method::{Method, MotionKind};
@@ -21,7 +21,7 @@ use crate::truth::{Referee, Surface, Truth};
 use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use session::Answered;
 use std::io;
 use std::sync::Arc;
@@ -31,17 +31,17 @@ use std::time::{Duration, Instant};
 pub struct Contest<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
-    given: Vec<Query>,
+    given: Vec<Motions>,
     /// The same queries with screw motions.
-    screws: Vec<Query>,
+    screws: Vec<Motions>,
 }
 
 /// The limits of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowance {
-    /// The time for one method on one scene at one tolerance; after that, no more queries are asked.
+    /// The time for one method on one scene at one tolerance; no more queries are started after it.
     pub cell: Duration,
-    /// The time for one query of a peer, which is stopped after that.
+    /// The time limit of one query of a peer, which is then stopped.
     pub patience: Duration,
     /// The largest number of queries.
     pub rows: usize,
@@ -52,8 +52,7 @@ pub struct Allowance {
     pub preparation: Duration,
 }
 
-/// The largest number of pairs of pieces for a schedule without a tree, since it processes all
-/// pairs in every step.
+/// The maximum number of pairs of pieces for a schedule without a tree, which processes all pairs in every step.
 pub const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
 
 /// A method could not be run.
@@ -85,7 +84,7 @@ impl<'s> Contest<'s> {
         } else {
             Arc::new(Surface::new(scene.b.mesh()))
         };
-        let screws: Result<Vec<Query>, InputError> = scene.queries.iter().map(screw).collect();
+        let screws: Result<Vec<Motions>, InputError> = scene.queries.iter().map(screw).collect();
         Ok(Contest {
             scene,
             surfaces: [a, b],
@@ -95,7 +94,7 @@ impl<'s> Contest<'s> {
     }
 
     /// Returns the queries with motions of the given kind.
-    pub fn queries(&self, motion: MotionKind) -> &[Query] {
+    pub fn queries(&self, motion: MotionKind) -> &[Motions] {
         match motion {
             MotionKind::Given => &self.given,
             MotionKind::Screw => &self.screws,
@@ -107,8 +106,8 @@ impl<'s> Contest<'s> {
         Referee::new(&self.surfaces[0], &self.surfaces[1])
     }
 
-    /// Returns the rows to ask for if at most `most` are asked. The rows are spread evenly, and so
-    /// is any number of the first ones.
+    /// Returns the order of the rows to run, of which at most `most` are run. The rows are spread evenly, and so is any
+    /// number of the first ones.
     pub fn order(&self, most: usize) -> Vec<usize> {
         let count = self.given.len();
         let stride = (1..=count)
@@ -141,8 +140,7 @@ impl<'s> Contest<'s> {
         session.set_tolerance(tolerance).map_err(failed)
     }
 
-    /// Asks a method the queries, and judges its answers. Returns `None` if it can be asked none of
-    /// the queries.
+    /// Runs a method on the queries, and judges its answers. Returns `None` if it can be asked none of the queries.
     ///
     /// # Errors
     /// If a stopped peer cannot be restarted.
@@ -198,7 +196,7 @@ impl<'s> Contest<'s> {
         Ok(Some((sum_up(&trials), trials)))
     }
 
-    fn judged(&self, query: &Query, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
+    fn judged(&self, query: &Motions, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
         match answered {
             Answered::InTime { reply, .. } => {
                 judge(&self.referee(), query, truth, reply.claim, tolerance)

@@ -50,7 +50,7 @@ pub enum EvaluationError {
     /// A method cannot be run.
     #[error(transparent)]
     Contest(#[from] ContestError),
-    /// The truth cannot be kept.
+    /// The truths cannot be read or written.
     #[error(transparent)]
     Truths(#[from] TruthsError),
     /// Measurements cannot be kept.
@@ -58,14 +58,14 @@ pub enum EvaluationError {
     Journal(#[from] JournalError),
 }
 
-/// The known truths, in the folder of the measurements.
+/// The file of the known truths, in the folder of the measurements.
 const TRUTHS: &str = "truth.csv";
 
 /// The tolerance of methods without a tolerance of their own.
 pub const USUAL_TOLERANCE: f64 = PAPER_TOLERANCE;
 
 impl Plan {
-    /// Returns the measurements in the folder, whatever they were measured with, and measures nothing.
+    /// Returns the measurements in the folder, whatever their settings, and measures nothing.
     ///
     /// # Errors
     /// [`EvaluationError`].
@@ -166,7 +166,7 @@ impl Plan {
         Ok(scenes)
     }
 
-    /// Makes the pieces of all bodies that some method needs, on all processors.
+    /// Prepares the pieces of all bodies that some method needs, on all processors.
     fn make_pieces(&self, scenes: &[Scene]) {
         let mut wanted: Vec<(&SceneBody, Pieces)> = Vec::new();
         for body in scenes.iter().flat_map(|scene| [&scene.a, &scene.b]) {
@@ -206,7 +206,7 @@ impl Plan {
         motions
     }
 
-    /// Describes the settings that all measurements depend on: this program, and the allowances.
+    /// Describes the settings that determine all measurements: this program, and the allowances.
     fn stamp(&self) -> String {
         format!(
             "{}models {}\nmethods {:?}\npeers {:?}\n",

@@ -1,4 +1,4 @@
-//! Exports scenes to other programs, and joins the trials that those measured.
+//! Exports scenes to other programs, and imports the trials that they measured.
 
 use crate::method::solver::Claim;
 use crate::method::{Method, MotionKind};
@@ -8,7 +8,7 @@ use crate::run::measured::{Trial, read};
 use crate::scene::{Listing, Models, Scene};
 use anyhow::{Context, Result, bail, ensure};
 use ccd_decomp::{TriangleMesh, write_obj};
-use rigid_ccd::table::motions::{self, Query};
+use rigid_ccd::table::motions::{self, Motions};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -31,11 +31,11 @@ enum Reported {
     Claim(Claim),
     CutOff,
     Died,
-    /// It measured something else, such as a single distance, and is not judged.
+    /// Another quantity, such as a single distance, which is not judged.
     Static,
 }
 
-/// Writes each scene into a folder of its name: `a.obj`, `b.obj`, `motions.csv`.
+/// Writes each scene into a folder with its name: `a.obj`, `b.obj`, `motions.csv`.
 ///
 /// # Errors
 /// If a scene cannot be made or a file cannot be written.
@@ -59,7 +59,7 @@ pub fn export(listings: &[Listing], models: Option<PathBuf>, folder: &Path) -> R
 pub(crate) fn write_inputs(
     folder: &Path,
     meshes: [&TriangleMesh; 2],
-    queries: &[Query],
+    queries: &[Motions],
 ) -> io::Result<()> {
     for (mesh, name) in meshes.into_iter().zip(["a.obj", "b.obj"]) {
         ccd_file::write(folder.join(name), |out| write_obj(mesh, out))?;

@@ -1,4 +1,4 @@
-//! The table of cells, from which the charts are drawn, and the table of trials that it summarises.
+//! The table of cells, which the charts show, and the table of trials that it summarises.
 
 #[cfg(test)]
 mod tests;
@@ -21,7 +21,7 @@ pub struct Cell {
     pub tolerance: f64,
     /// The number of queries.
     pub rows: usize,
-    /// The median time of a query, in microseconds, as the two times below.
+    /// The median time of a query, in microseconds.
     pub median_us: f64,
     /// The mean time.
     pub mean_us: f64,
@@ -31,10 +31,10 @@ pub struct Cell {
     pub late: usize,
     /// Contacts not reported.
     pub missed: usize,
-    /// Contacts reported that do not happen, not even within the tolerance.
+    /// Contacts reported although the bodies never come within the tolerance.
     #[serde(rename = "false")]
     pub false_contacts: usize,
-    /// Queries given up, including those cut off.
+    /// Queries without a complete answer, including those cut off.
     pub unresolved: usize,
     /// The mean error of the times of contact, as a fraction of the duration; NaN (an empty cell)
     /// if there are none.
@@ -68,22 +68,22 @@ pub struct Trial {
     pub id: String,
     /// The time of this query, in microseconds.
     pub micros: f64,
-    /// Steps in time.
+    /// The number of steps in time.
     pub steps: u64,
     /// The verdict on the claim.
     pub verdict: String,
     /// The error of the time of contact, as a fraction of the duration; NaN if there is no time.
     #[serde(with = "optional")]
     pub error: f64,
-    /// The time of the claim: of the contact, or until which there is none; NaN if there is no time.
+    /// The time of the claimed contact, or until which there is none; NaN without a time.
     #[serde(with = "optional", default = "no_time")]
     pub time: f64,
-    /// What the method says about its answer: a tolerance that it had to raise, why it is no better.
+    /// The method's remark about its answer: a raised tolerance, or the reason for an incomplete answer.
     #[serde(default)]
     pub note: String,
 }
 
-/// Earlier tables have no times.
+/// Returns the default for earlier tables, which have no times.
 fn no_time() -> f64 {
     f64::NAN
 }

@@ -1,8 +1,8 @@
-//! The scenes as data: their models, and their rows in tables of motions.
+//! The list of scenes: their models, and their rows in tables of motions.
 
 use super::{Models, Scene, SceneError};
 use crate::scene::model::Model;
-use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::table::motions::{MotionTable, Motions};
 use serde::Deserialize;
 
 /// The description of a scene.
@@ -19,7 +19,7 @@ pub struct Listing {
     rows: Option<Rows>,
 }
 
-/// Rows of a table, counted from 0.
+/// A range of rows of a table, counted from 0.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Rows {
@@ -84,7 +84,7 @@ impl Listing {
         found.ok_or_else(|| self.unfit(format!("there is no model {name}")))
     }
 
-    fn queries(&self) -> Result<Vec<Query>, SceneError> {
+    fn queries(&self) -> Result<Vec<Motions>, SceneError> {
         let unfit = |problem: String| self.unfit(format!("{}: {problem}", self.motions));
         let text = MOTIONS
             .iter()

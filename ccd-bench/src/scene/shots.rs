@@ -4,7 +4,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ impl Shots {
     ///
     /// # Errors
     /// If a distance is not finite.
-    pub fn queries(&self) -> Result<Vec<Query>, InputError> {
+    pub fn queries(&self) -> Result<Vec<Motions>, InputError> {
         let mut rng = Pcg64::seed_from_u64(self.seed);
         (0..self.count)
             .map(|row| {
@@ -53,7 +53,7 @@ impl Shots {
 ///
 /// # Errors
 /// None: all motions are finite.
-pub fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Query>, InputError> {
+pub fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, InputError> {
     let mut rng = Pcg64::seed_from_u64(seed);
     (0..count)
         .map(|row| {
@@ -71,8 +71,8 @@ pub fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Query>, InputErro
         .collect()
 }
 
-fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Query, InputError> {
-    Ok(Query {
+fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
+    Ok(Motions {
         id: row.to_string(),
         a,
         b: Motion::still(Pose::at(b)?),

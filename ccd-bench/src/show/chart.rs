@@ -13,10 +13,10 @@ mod axis;
 mod grid;
 mod heat_map;
 mod legend;
-mod look;
 mod panel;
 mod pareto;
 mod sheet;
+mod style;
 #[cfg(test)]
 mod tests;
 mod triangles;
@@ -24,14 +24,14 @@ mod triangles;
 pub use heat_map::{HeatCell, HeatKind, HeatMap, HeatRow};
 
 use crate::run::measured::Cell;
-use look::{Fill, Look};
 use std::io;
 use std::path::{Path, PathBuf};
+use style::{Fill, MethodStyle};
 
-/// The paper's tolerance `[FAST06 §6.2]`, at which charts of one tolerance are drawn.
+/// The paper's tolerance `[FAST06 §6.2]`, used by charts of one tolerance.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
 
-/// The remark on medians over other rows.
+/// The remark on medians over different rows.
 const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on \
                          the rows that both were asked.";
 
@@ -51,7 +51,7 @@ pub struct Charts<'a> {
 pub struct SceneFacts<'a> {
     /// The name in the tables.
     pub name: &'a str,
-    /// The moving shape; scenes of one shape are joined by a line over its sizes.
+    /// The moving shape; a line over the sizes joins scenes of the same shape.
     pub shape: &'a str,
     /// The number of triangles of the moving mesh.
     pub triangles: usize,
@@ -77,7 +77,7 @@ pub enum Family {
     Rival,
     /// A library in use.
     Peer,
-    /// This project's method on another model of the same mesh; in tables only.
+    /// This project's method on another model of the same mesh, shown in tables only.
     Model,
 }
 
@@ -96,7 +96,7 @@ pub struct Drawing {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
-    /// The table has no row of a known scene and a known method.
+    /// The table has no row with a known scene and a known method.
     #[error("nothing to draw: no row of the table is of a known scene and a known method")]
     NothingToDraw,
     /// The drawing library failed.
@@ -150,7 +150,7 @@ impl Charts<'_> {
         Ok(drawings)
     }
 
-    /// Returns true if the method was late or missed a contact anywhere.
+    /// Returns true if the method was late or missed a contact in any cell.
     pub fn is_unsafe(&self, method: &str) -> bool {
         self.cells
             .iter()
@@ -180,8 +180,8 @@ impl Charts<'_> {
         cells
     }
 
-    /// Returns the methods of some families that have cells, each with its look.
-    fn shown(&self, families: &[Family]) -> Vec<(&MethodFacts<'_>, Look)> {
+    /// Returns the methods of some families that have cells, each with its style.
+    fn shown(&self, families: &[Family]) -> Vec<(&MethodFacts<'_>, MethodStyle)> {
         let measured = |name: &str| {
             let known = |cell: &&Cell| self.scenes.iter().any(|s| s.name == cell.scene);
             self.cells
@@ -198,14 +198,14 @@ impl Charts<'_> {
         };
         self.methods
             .iter()
-            .zip(look::looks(self.methods, fill))
+            .zip(style::styles(self.methods, fill))
             .filter(|(method, _)| families.contains(&method.family) && measured(method.name))
             .collect()
     }
 }
 
 impl Family {
-    /// The families that are compared with each other.
+    /// The families that charts compare.
     const COMPARED: [Family; 3] = [Family::Ours, Family::Rival, Family::Peer];
 
     /// Returns the heading in the legend.

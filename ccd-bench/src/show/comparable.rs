@@ -1,4 +1,4 @@
-//! Medians that can be compared, of methods that were asked different rows.
+//! Comparable medians of methods that ran on different rows.
 //!
 //! A slow method is stopped after a few rows, which may be the easy ones. Its time is then estimated as that of a
 //! reference that was asked more, times the median ratio of both over the rows that both were asked.
@@ -7,7 +7,7 @@ use crate::run::measured::{Cell, Trial};
 use rigid_ccd::batch::median;
 use std::collections::HashMap;
 
-/// The place of a row: scene, tolerance, number.
+/// The key of a row: scene, tolerance, index.
 type Place<'a> = (&'a str, u64, usize);
 
 /// The times of a reference, by row.
@@ -19,7 +19,7 @@ pub struct Reference<'a> {
 }
 
 impl<'a> Reference<'a> {
-    /// Finds the times of a method.
+    /// Collects the times of a method.
     pub fn new(name: &'a str, trials: &'a [Trial]) -> Self {
         let own = trials.iter().filter(|trial| trial.method == name);
         Reference {
@@ -34,7 +34,7 @@ impl<'a> Reference<'a> {
         self.name
     }
 
-    /// Returns the median ratio of a method's times to those of the reference, over the rows that both were asked; none
+    /// Returns the median ratio of a method's times to those of the reference, over the rows that both ran on; `None`
     /// without such rows.
     pub fn ratio(&self, cell: &Cell) -> Option<f64> {
         let of_cell = |trial: &&Trial| {
@@ -50,7 +50,7 @@ impl<'a> Reference<'a> {
         (!ratios.is_empty()).then(|| median(&mut ratios))
     }
 
-    /// Returns the cells with medians that can be compared. A cell keeps its own where the reference was not asked.
+    /// Returns the cells with comparable medians. A cell keeps its own where the reference was not asked.
     pub fn comparable(&self, cells: &[Cell]) -> Vec<Cell> {
         let at = |cell: &&Cell| cell.method == self.name;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))

@@ -1,4 +1,4 @@
-//! What a page is made of: the template and the style.
+//! The template and the style of a page.
 
 use super::chart::ChartError;
 use std::io;

@@ -11,7 +11,7 @@ use crate::run::measured::Cell;
 use crate::scene::Scene;
 use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;
-use crate::show::sentences::Seen;
+use crate::show::sentences::Measurements;
 use crate::show::tables::{self, TextTable};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
@@ -19,24 +19,24 @@ use std::path::{Path, PathBuf};
 /// Tables, charts and views of one evaluation.
 pub struct Presentation<'e> {
     evaluated: &'e Evaluated,
-    /// What was seen.
+    /// The findings.
     pub sentences: Vec<String>,
     /// The tables for the terminal.
     pub summary: Vec<TextTable>,
     /// The tables for a page or a README.
     pub comparisons: Vec<TextTable>,
     methods: Vec<(String, Family)>,
-    /// The cells, with medians that can be compared.
+    /// The cells, with comparable medians.
     cells: Vec<Cell>,
 }
 
-/// The finer of the two tolerances at which methods are compared.
+/// The finer of the two tolerances of comparisons.
 const FINE_TOLERANCE: f64 = 1e-6;
-/// The method that others are compared with.
+/// The reference method of comparisons.
 const DEFAULT: &str = "best-first direct";
 /// The paper's own method.
 const AS_PUBLISHED: &str = "fast vmarch";
-/// The methods that the paper compares itself with; the factors are in the table's title.
+/// The methods that the paper compares its own with; the factors are in the table's title.
 const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 
 impl<'e> Presentation<'e> {
@@ -120,7 +120,7 @@ impl<'e> Presentation<'e> {
     }
 }
 
-/// Returns the methods that a table of answers lists: others measure something else.
+/// Returns the methods in a table of answers, without those that measure something else.
 fn answering(methods: &[(String, Family)], safety: &TextTable) -> Vec<(String, Family)> {
     let listed = |name: &String| safety.rows.iter().any(|row| row.first() == Some(name));
     let answering = methods.iter().filter(|(name, _)| listed(name));
@@ -135,14 +135,14 @@ fn sentences(
     let triangles: Vec<usize> = (evaluated.scenes.iter())
         .map(|scene| scene.a.triangles())
         .collect();
-    let seen = Seen {
+    let measurements = Measurements {
         triangles: &triangles,
         methods,
         cells: evaluated.journal.cells(),
         reference,
         tolerance: USUAL_TOLERANCE,
     };
-    seen.sentences()
+    measurements.sentences()
 }
 
 /// Returns the family of each method; an unknown method was measured elsewhere.
@@ -172,7 +172,7 @@ fn family(method: Method) -> Family {
     }
 }
 
-/// Returns the moving shape of a scene and its kind of motion, without size and turn.
+/// Returns the moving shape of a scene and its kind of motion, without size and rotation.
 fn shape(scene: &Scene) -> String {
     let plain: String = scene.name.chars().filter(|c| !c.is_ascii_digit()).collect();
     let plain = plain.trim_end_matches(" translating");

@@ -1,4 +1,4 @@
-//! What an evaluation has shown, in a few sentences.
+//! The findings of an evaluation, in a few sentences.
 
 #[cfg(test)]
 mod tests;
@@ -8,22 +8,22 @@ use crate::show::chart::Family;
 use crate::show::comparable::Reference;
 use ccd_core::order::{greater, lesser};
 
-/// What was measured.
+/// The measurements.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<'a> {
+pub struct Measurements<'a> {
     /// The number of triangles of each scene's moving body.
     pub triangles: &'a [usize],
     /// The methods that give answers, in their usual order.
     pub methods: &'a [(String, Family)],
     /// Every method on every scene at every tolerance.
     pub cells: &'a [Cell],
-    /// The method that times are compared with.
+    /// The reference method for times.
     pub reference: &'a Reference<'a>,
     /// The tolerance at which times are compared.
     pub tolerance: f64,
 }
 
-/// The families in the order in which they are told, and what each is called.
+/// The families in the order of the sentences, with their names.
 const FAMILIES: [(Family, &str); 4] = [
     (Family::Ours, "This project"),
     (Family::Model, "This project, bodies of other pieces"),
@@ -31,8 +31,8 @@ const FAMILIES: [(Family, &str); 4] = [
     (Family::Peer, "Libraries"),
 ];
 
-impl Seen<'_> {
-    /// Returns a sentence on what was asked, on the answers of each family, and on their times.
+impl Measurements<'_> {
+    /// Returns sentences on the queries, on the answers of each family, and on their times.
     pub fn sentences(&self) -> Vec<String> {
         let mut told = vec![self.asked()];
         told.extend(
@@ -58,7 +58,7 @@ impl Seen<'_> {
         )
     }
 
-    /// Tells what is wrong with the answers of a family; none if it has no methods.
+    /// Describes the errors in the answers of a family; `None` if it has no methods.
     fn answers(&self, family: Family, name: &str) -> Option<String> {
         let methods = self.methods.iter().filter(|(_, of)| *of == family);
         let (mut count, mut rows, mut open, mut wrong) = (0, 0, 0, Vec::new());
@@ -91,7 +91,7 @@ impl Seen<'_> {
         })
     }
 
-    /// Tells how long a query of the reference takes.
+    /// Describes the time of a query with the reference.
     fn own_time(&self) -> Option<String> {
         let name = self.reference.name();
         let medians = || {
@@ -107,7 +107,7 @@ impl Seen<'_> {
         ))
     }
 
-    /// Tells how many times as long others take, from scene to scene.
+    /// Describes the ratio of the others' times to the reference's, from scene to scene.
     fn other_times(&self) -> Option<String> {
         let others = self
             .methods

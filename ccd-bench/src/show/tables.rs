@@ -21,11 +21,11 @@ pub struct TextTable {
     pub title: String,
     /// The names of the columns.
     pub header: Vec<String>,
-    /// Its rows.
+    /// The rows.
     pub rows: Vec<Vec<String>>,
 }
 
-/// A median of fewer rows than this is shown with their number.
+/// The number of rows below which a median is shown with its number of rows.
 const FEW: usize = 10;
 
 /// The text of a cell without a value.
@@ -79,7 +79,7 @@ impl TextTable {
     }
 }
 
-/// Compares every method on every scene at one tolerance, and with the reference on the rows that both were asked.
+/// Compares every method on every scene at one tolerance, and with the reference on the rows that both ran on.
 pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -> TextTable {
     let ratio = format!("× {}", reference.name());
     let mut table = TextTable::new(

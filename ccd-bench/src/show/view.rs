@@ -4,7 +4,7 @@ use ccd_core::{Answer, Contact, Outcome, Overlap};
 use ccd_decomp::TriangleMesh;
 use ccd_view::{DrawnMesh, Group, Meshes, ShownBody, ShownContact};
 use rigid_ccd::picture::{COLORS, GapOverTime};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// A scene to view.
 #[derive(Clone, Debug)]
@@ -19,14 +19,14 @@ pub struct View<'a> {
     pub shots: Vec<Shot>,
 }
 
-/// A motion of a view, and what is said about it.
+/// A motion of a view, with its description.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The motions.
-    pub query: Query,
+    pub query: Motions,
     /// The name.
     pub name: String,
-    /// What happens, in a sentence.
+    /// The event, in a sentence.
     pub status: String,
     /// The time to show; `None` shows the end.
     pub time: Option<f64>,
@@ -38,7 +38,7 @@ pub struct Shot {
 
 impl Shot {
     /// Returns the shot of a query that was answered.
-    pub fn answered(query: Query, answer: &Answer) -> Self {
+    pub fn answered(query: Motions, answer: &Answer) -> Self {
         let (kind, time, contact) = match &answer.outcome {
             Outcome::Contact { time, contact } => ("contact", Some(*time), Some(*contact)),
             Outcome::Free { .. } => ("free", None, None),

@@ -1,4 +1,4 @@
-//! The families, by what makes them hard.
+//! The families, by the kind of difficulty.
 
 mod accuracy;
 mod gaps;

@@ -3,18 +3,18 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use ccd_decomp::{MeshError, TriangleMesh};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
-/// Scenes of one kind that a parameter makes harder.
+/// Scenes of one kind, with a parameter that makes them harder.
 #[derive(Clone, Debug)]
 pub struct Family {
     /// The name.
     pub name: &'static str,
-    /// What the parameter is.
+    /// The description of the parameter.
     pub parameter: &'static str,
-    /// Its values, the easiest first.
+    /// The values of the parameter, the easiest first.
     pub values: Vec<f64>,
-    /// Makes the scene of a value.
+    /// The function that makes the scene of a value.
     pub make: fn(f64) -> Result<Step, StepError>,
 }
 
@@ -37,19 +37,19 @@ pub struct Step {
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The query.
-    pub query: Query,
-    /// Its answer.
+    pub query: Motions,
+    /// The exact answer.
     pub expected: Expected,
 }
 
-/// The exact answer of a query, where contact means a distance of at most the margin.
+/// The exact answer of a query, in which contact means a distance of at most the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expected {
     /// The first contact is between two times, after the start.
     Contact {
-        /// No contact is before it.
+        /// The time before which there is no contact.
         lo: f64,
-        /// There is a contact by then.
+        /// The time by which there is a contact.
         hi: f64,
     },
     /// There is no contact.
@@ -70,9 +70,9 @@ pub enum StepError {
     Input(#[from] InputError),
 }
 
-/// The motion of one body, with its travel and its turn over the whole duration.
+/// The motion of one body, with its displacement and its rotation over the whole duration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Course {
+pub(super) struct BodyMotion {
     pub(super) at: DVec3,
     pub(super) turned: DQuat,
     pub(super) velocity: DVec3,
@@ -81,18 +81,17 @@ pub(super) struct Course {
     pub(super) centre: DVec3,
 }
 
-/// The turns of the world in which a scene is asked besides its own: about no axis of symmetry.
+/// The rotations of the world in which a scene is repeated, about no axis of symmetry.
 const WORLDS: [(DVec3, f64); 2] = [
     (DVec3::new(0.6, 0.0, 0.8), 1.1),
     (DVec3::new(-0.48, 0.6, 0.64), 2.3),
 ];
 
-/// The tolerance of a step that sets none.
+/// The default tolerance of a step.
 const TOLERANCE: f64 = 1e-6;
 
 impl Expected {
-    /// Returns a contact at a time that is known, and reached by the query's rounded numbers, to within a
-    /// slack.
+    /// Returns a contact at a known time, which the query's rounded numbers reach to within a slack.
     pub(super) fn at(time: f64, slack: f64) -> Self {
         Expected::Contact {
             lo: time - slack,
@@ -102,7 +101,7 @@ impl Expected {
 }
 
 impl Expected {
-    /// Returns the answer of a query of another duration than 1.
+    /// Converts the answer from duration 1 to another duration.
     fn over(self, duration: f64) -> Self {
         match self {
             Expected::Contact { lo, hi } => Expected::Contact {
@@ -114,8 +113,8 @@ impl Expected {
     }
 }
 
-impl Course {
-    pub(super) const STILL: Course = Course {
+impl BodyMotion {
+    pub(super) const STILL: BodyMotion = BodyMotion {
         at: DVec3::ZERO,
         turned: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
@@ -123,33 +122,33 @@ impl Course {
         centre: DVec3::ZERO,
     };
 
-    /// Falls from z = 3 by 4.
-    pub(super) const FALLING: Course = Course {
+    /// A fall from z = 3 by 4.
+    pub(super) const FALLING: BodyMotion = BodyMotion {
         at: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
 
-    /// Rests at z = −1, so that the top of a slab is at 0.
-    pub(super) const UNDER: Course = Course {
+    /// Rest at z = −1, so that the top of a slab is at 0.
+    pub(super) const UNDER: BodyMotion = BodyMotion {
         at: DVec3::NEG_Z,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
 
-    /// Rests at a place.
+    /// Returns the motion of a body at rest.
     pub(super) fn rest(at: DVec3) -> Self {
-        Course {
+        BodyMotion {
             at,
-            ..Course::STILL
+            ..BodyMotion::STILL
         }
     }
 
-    /// Moves straight.
+    /// Returns a motion in a straight line.
     pub(super) fn straight(at: DVec3, velocity: DVec3) -> Self {
-        Course {
+        BodyMotion {
             at,
             velocity,
-            ..Course::STILL
+            ..BodyMotion::STILL
         }
     }
 
@@ -173,21 +172,21 @@ impl Step {
         }
     }
 
-    /// Adds a query with exactly these numbers; the answer is that of a duration of 1.
+    /// Adds a query with exactly these numbers; the answer is for a duration of 1.
     pub(super) fn exactly(
         self,
-        a: Course,
-        b: Course,
+        a: BodyMotion,
+        b: BodyMotion,
         expected: Expected,
     ) -> Result<Self, InputError> {
         self.in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
-    /// Adds the query, and the same one in worlds that are turned. The answer has to bear their rounding.
+    /// Adds the query, and the same one in rotated worlds. The answer has to bear their rounding.
     pub(super) fn turned_too(
         mut self,
-        a: Course,
-        b: Course,
+        a: BodyMotion,
+        b: BodyMotion,
         expected: Expected,
     ) -> Result<Self, InputError> {
         self = self.exactly(a, b, expected)?;
@@ -200,10 +199,10 @@ impl Step {
     fn in_world(
         mut self,
         world: DQuat,
-        [a, b]: [Course; 2],
+        [a, b]: [BodyMotion; 2],
         expected: Expected,
     ) -> Result<Self, InputError> {
-        let query = Query {
+        let query = Motions {
             id: self.cases.len().to_string(),
             a: a.motion(world, self.duration)?,
             b: b.motion(world, self.duration)?,

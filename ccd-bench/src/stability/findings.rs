@@ -1,5 +1,4 @@
-//! What the folder of a survey holds: the families, values and methods that were asked about, and the worst
-//! answers.
+//! The results of a survey: its families, values and methods, and the worst answers.
 
 use super::family::Family;
 use super::survey::step_name;
@@ -25,16 +24,16 @@ pub(super) const VERDICTS: [Verdict; 10] = [
 /// The answers of a journal, by families and methods.
 #[derive(Debug)]
 pub struct Findings<'j> {
-    /// Those that were asked about, each with the values that were.
+    /// The families of the survey, each with its values.
     pub(super) families: Vec<Family>,
-    /// Those that were asked.
+    /// The methods of the survey.
     pub(super) methods: Vec<Method>,
     pub(super) journal: &'j Journal,
-    /// The worst answer to each step by each method, and how bad it is.
+    /// The worst answer to each step by each method, with the index of its verdict.
     worst: HashMap<(&'j str, &'j str), (usize, &'j Trial)>,
 }
 
-/// An answer to a step that is not right.
+/// A wrong answer to a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limit {
     pub(super) value: f64,
@@ -42,19 +41,19 @@ pub(super) struct Limit {
     pub(super) verdict: Verdict,
 }
 
-/// How far a method followed a family.
+/// The reach of a method in a family.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     /// The share of the steps, from the easiest, before the first limit.
     pub(super) share: f64,
-    /// The first step that is not right.
+    /// The first step with a wrong answer.
     pub(super) first: Option<Limit>,
     /// The first step with the worst verdict of all.
     pub(super) worst: Option<Limit>,
 }
 
 impl<'j> Findings<'j> {
-    /// Sorts the answers of a journal to `methods` and `families`; those without answers are left out.
+    /// Sorts the answers of a journal by `methods` and `families`; those without answers are left out.
     pub fn new(families: Vec<Family>, methods: Vec<Method>, journal: &'j Journal) -> Self {
         let mut worst = HashMap::new();
         for trial in journal.trials() {
@@ -89,7 +88,7 @@ impl<'j> Findings<'j> {
         self.families.is_empty() || self.methods.is_empty()
     }
 
-    /// Returns how far a method followed a family; none if it was not asked.
+    /// Returns the reach of a method in a family; `None` without answers.
     pub(super) fn reach(&self, family: &Family, method: &str) -> Option<Reach> {
         let answer = |&value: &f64| {
             let step = step_name(family, value);

@@ -1,18 +1,18 @@
 //! Judges the outcome of a query against its exact answer.
 
 use super::family::{Case, Expected, Step};
-use crate::method::guarded::Asked;
+use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
 use crate::run::contest::{self, Judged, Verdict, is_near, judge_contact};
 use crate::truth::{Referee, Truth};
 
-/// The time up to which a contact at the start is reported at the start, as a fraction of the duration.
+/// The latest time that counts as the start for bodies in contact at the start, as a fraction of the duration.
 const AT_START: f64 = 1e-12;
 
-/// Judges the outcome of a case of a step, by the tolerance that the method states for its answer if it had to
-/// raise the one of the step. The referee measures distances; it is not asked for the answer.
-pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: &Asked) -> Judged {
-    contest::judge_asked(asked, |reply| judge_reply(step, case, referee, reply))
+/// Judges the outcome of a case of a step by the tolerance of the step, or by a higher one that the method states for
+/// its answer. The referee measures distances; it is not asked for the answer.
+pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, outcome: &QueryOutcome) -> Judged {
+    contest::judge_outcome(outcome, |reply| judge_reply(step, case, referee, reply))
 }
 
 fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judged {
@@ -59,7 +59,7 @@ mod tests {
         Claim::Unresolved { safe_until }
     }
 
-    /// The easiest step of a family: a contact at 0.5 with a margin of 0.01, a gap of 0.1, a start inside.
+    /// The easiest step of each family: a contact at 0.5 with a margin of 0.01, a gap of 0.1, a start inside.
     #[rstest]
     #[case("margin", contact(0.5), Verdict::Right)]
     #[case("margin", contact(0.5 - 1e-7), Verdict::Right)]
@@ -82,17 +82,17 @@ mod tests {
         let family = families().into_iter().find(|f| f.name == family).unwrap();
         let step = (family.make)(family.values[1]).unwrap();
         let [a, b] = step.meshes.each_ref().map(Surface::new);
-        let asked = Asked::Answered {
+        let outcome = QueryOutcome::Answered {
             reply: Reply::new(claim, 1),
             micros: 1.0,
         };
         for case in &step.cases {
-            let judged = judge(&step, case, &Referee::new(&a, &b), &asked);
+            let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
             assert_eq!(judged.verdict, verdict, "{claim:?}");
         }
     }
 
-    /// The bodies approach each other by 4: 0.01 in time is 0.04 away.
+    /// The bodies approach at speed 4, so that 0.01 in time is 0.04 in distance.
     #[rstest]
     #[case(None, Verdict::Early)]
     #[case(Some(0.02), Verdict::Early)]
@@ -114,8 +114,8 @@ mod tests {
             tolerance,
             ..Reply::new(contact(lo - 0.01), 1)
         };
-        let asked = Asked::Answered { reply, micros: 1.0 };
-        let judged = judge(&step, case, &Referee::new(&a, &b), &asked);
+        let outcome = QueryOutcome::Answered { reply, micros: 1.0 };
+        let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
         assert_eq!(judged.verdict, verdict);
     }
 }

@@ -6,7 +6,7 @@ use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
 
-/// Returns a box about the origin, by half its extents.
+/// Returns a box about the origin, given by its half extents.
 pub(super) fn cuboid(x: f64, y: f64, z: f64) -> Result<TriangleMesh, MeshError> {
     Board {
         half_extents: dvec3(x, y, z),
@@ -25,7 +25,7 @@ pub(super) fn cube() -> Result<TriangleMesh, MeshError> {
     cuboid(0.5, 0.5, 0.5)
 }
 
-/// Returns a wide box whose top is at z = 1 and contains all that falls here.
+/// Returns a wide box with its top at z = 1, larger than any body that falls here.
 pub(super) fn slab() -> Result<TriangleMesh, MeshError> {
     cuboid(9.0, 9.0, 1.0)
 }
@@ -79,7 +79,7 @@ pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
     })
 }
 
-/// Returns the solid of the cells of a grid across y that are filled, of the given half depth.
+/// Returns the solid of the filled cells of a grid across y, of the given half depth.
 pub(super) fn extruded(
     x: &[f64],
     z: &[f64],
@@ -121,7 +121,7 @@ pub(super) fn extruded(
     used(&vertices, faces)
 }
 
-/// Returns the mesh of the vertices that the faces use.
+/// Returns the mesh with only the vertices that the faces use.
 fn used(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
     let mut numbers = vec![None; vertices.len()];
     let mut kept = Vec::new();
@@ -136,13 +136,14 @@ fn used(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshEr
     TriangleMesh::new(kept, &faces)
 }
 
-/// Returns a plate across x, from x = −0.1 to 0.1 and 3 wide, with a slit across its middle by its half height.
+/// Returns a plate across x, from x = −0.1 to 0.1 and 3 wide, with a slit across its middle; `slit` is the slit's half
+/// height.
 pub(super) fn slit_plate(slit: f64) -> Result<TriangleMesh, MeshError> {
     let levels = [-3.0, -slit, slit, 3.0];
     extruded(&[-0.1, 0.1], &levels, 3.0, |_, level| level != 1)
 }
 
-/// Returns a flank of a thread about z between two radii: an open ribbon that rises by the pitch a turn.
+/// Returns a flank of a thread about z between two radii: an open ribbon that rises by the pitch per turn.
 pub(super) fn ribbon(
     radii: [f64; 2],
     pitch: f64,
@@ -190,8 +191,8 @@ pub(super) fn turned(mesh: &TriangleMesh, by: DQuat) -> Result<TriangleMesh, Mes
     TriangleMesh::new(vertices, mesh.faces())
 }
 
-/// Returns the wide box of [`slab`] with a vertex on its top, so near the diagonal of the two triangles there
-/// that one of the three triangles around it is a sliver.
+/// Returns the wide box of [`slab`] with a vertex on its top close to the diagonal, so that one of the three triangles
+/// around it is a sliver.
 pub(super) fn sliver_slab(width: f64) -> Result<TriangleMesh, MeshError> {
     let slab = slab()?;
     let place = |v: u32| slab.vertices()[v as usize];
@@ -234,7 +235,7 @@ pub(super) fn field_of_cubes(count: u32) -> Result<TriangleMesh, MeshError> {
     together(&cubes?)
 }
 
-/// Returns a plate from z = −0.1 to 0.1 that reaches to 3, with a square hole about the origin.
+/// Returns a plate from z = −0.1 to 0.1 with half side 3, and with a square hole about the origin.
 pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
     let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
     // Four rings of four: the hole below and above, the rim below and above.
@@ -262,7 +263,7 @@ pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices, &faces.collect::<Vec<_>>())
 }
 
-/// Returns a mesh with some of its faces repeated, every other time turned over, and as many without area.
+/// Returns a mesh with some of its faces repeated, half of them reversed, and as many degenerate faces.
 pub(super) fn with_bad_faces(mesh: &TriangleMesh, count: usize) -> Result<TriangleMesh, MeshError> {
     let mut faces = mesh.faces().to_vec();
     let repeated: Vec<[u32; 3]> = faces.iter().copied().cycle().take(count).collect();

@@ -1,4 +1,4 @@
-//! A survey in tables and a map: how often each method was right, and how far it followed each family.
+//! A survey as tables and a map: how often each method was right, and its reach in each family.
 
 use super::family::Family;
 use super::findings::{Findings, VERDICTS};
@@ -69,7 +69,7 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
     }
 }
 
-/// Returns the map of how far each method followed each family.
+/// Returns the map of the reach of each method in each family.
 pub fn reach_map(findings: &Findings<'_>) -> HeatMap {
     map(findings, HeatKind::Reach, |family, method| {
         let reach = findings.reach(family, method)?;
@@ -82,7 +82,7 @@ pub fn reach_map(findings: &Findings<'_>) -> HeatMap {
     })
 }
 
-/// Returns the map of how the cost of each method grew over each family.
+/// Returns the map of the growth of each method's cost over each family.
 pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     // A query takes no step if a look at the whole bodies is enough.
     let cost = |cell: &Cell| {
@@ -107,7 +107,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     })
 }
 
-/// Makes a map, with a function of the family and the method.
+/// Makes a map from a function of the family and the method.
 fn map(
     findings: &Findings<'_>,
     kind: HeatKind,

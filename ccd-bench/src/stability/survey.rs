@@ -1,8 +1,8 @@
-//! Asks methods about all steps of families, each in a process that can be stopped, into a journal.
+//! Runs methods on all steps of families, each in a process that can be stopped, and records the answers in a journal.
 
 use super::family::{Family, Step, StepError};
 use super::judge::judge;
-use crate::method::guarded::{Asked, Guarded, Programs, Setting};
+use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::rival::is_screw;
 use crate::method::solver::{Claim, Reply};
 use crate::method::{Method, MotionKind};
@@ -16,22 +16,22 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// What is asked of whom.
+/// The plan of a survey.
 #[derive(Clone, Debug)]
 pub struct Survey {
     /// The families.
     pub families: Vec<Family>,
     /// The methods.
     pub methods: Vec<Method>,
-    /// How much is asked.
+    /// The extent of each family.
     pub extent: Extent,
-    /// The programs that answer.
+    /// The programs that run the methods.
     pub programs: Programs,
     /// The folder of the journal.
     pub folder: PathBuf,
 }
 
-/// How much of each family is asked.
+/// The extent of a survey within each family.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// The easiest value, the hardest, and one between.
@@ -67,17 +67,17 @@ pub enum SurveyError {
     Journal(#[from] JournalError),
 }
 
-/// The time for one query.
+/// The time limit of one query.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// The time to prepare the bodies of a step.
+/// The time limit for preparing the bodies of a step.
 const PREPARATION: Duration = Duration::from_secs(20);
 
-/// The steps in a row at which a method is stopped before it is asked no harder ones.
+/// The number of consecutive steps at which a method is stopped before its harder steps are skipped.
 const CHANCES: usize = 2;
 
 impl Extent {
-    /// Returns the values of a family that are asked.
+    /// Returns the values of a family to survey.
     fn values(self, family: &Family) -> Vec<f64> {
         let all = &family.values;
         match self {
@@ -91,13 +91,13 @@ impl Extent {
     }
 }
 
-/// Returns the name of a step, as the tables have it.
+/// Returns the name of a step in the tables.
 pub(super) fn step_name(family: &Family, value: f64) -> String {
     format!("{} {value:e}", family.name)
 }
 
 impl Survey {
-    /// Asks whatever is missing in the folder.
+    /// Runs the steps that the folder does not have yet.
     ///
     /// # Errors
     /// [`SurveyError`]; earlier answers are kept.
@@ -169,7 +169,7 @@ impl Survey {
     }
 }
 
-/// A step that is ready to be asked about.
+/// A step with its prepared meshes.
 struct Ready<'s> {
     step: &'s Step,
     name: &'s str,
@@ -186,7 +186,7 @@ impl<'s> Ready<'s> {
         }
     }
 
-    /// Asks a method all queries of the step, up to the first at which it is stopped.
+    /// Runs a method on all queries of the step, up to the first at which it is stopped.
     fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
         let setting = Setting {
@@ -198,7 +198,7 @@ impl<'s> Ready<'s> {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
-                let trial = self.trial(method, 0, &Asked::Died, not_started(error)?);
+                let trial = self.trial(method, 0, &QueryOutcome::Died, not_started(error)?);
                 return Ok(vec![Trial { note, ..trial }]);
             }
         };
@@ -206,27 +206,32 @@ impl<'s> Ready<'s> {
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
             if method.motion_kind() == MotionKind::Screw && !is_screw(&case.query) {
-                let trial = self.trial(method, row, &Asked::Died, Judged::plain(Verdict::Refused));
+                let trial = self.trial(
+                    method,
+                    row,
+                    &QueryOutcome::Died,
+                    Judged::plain(Verdict::Refused),
+                );
                 let note = "bodies move along screws only".to_owned();
                 trials.push(Trial { note, ..trial });
                 continue;
             }
-            let asked = guarded.ask(&case.query, PATIENCE)?;
-            let judged = judge(step, case, &Referee::new(a, b), &asked);
-            trials.push(self.trial(method, row, &asked, judged));
-            if asked == Asked::CutOff {
+            let outcome = guarded.ask(&case.query, PATIENCE)?;
+            let judged = judge(step, case, &Referee::new(a, b), &outcome);
+            trials.push(self.trial(method, row, &outcome, judged));
+            if outcome == QueryOutcome::CutOff {
                 break;
             }
         }
         Ok(trials)
     }
 
-    fn trial(&self, method: Method, row: usize, asked: &Asked, judged: Judged) -> Trial {
+    fn trial(&self, method: Method, row: usize, outcome: &QueryOutcome, judged: Judged) -> Trial {
         let silent = Reply::new(Claim::Refused, 0);
-        let (reply, micros) = match asked {
-            Asked::Answered { reply, micros } => (reply, *micros),
-            Asked::CutOff => (&silent, PATIENCE.as_secs_f64() * 1e6),
-            Asked::Died => (&silent, f64::NAN),
+        let (reply, micros) = match outcome {
+            QueryOutcome::Answered { reply, micros } => (reply, *micros),
+            QueryOutcome::CutOff => (&silent, PATIENCE.as_secs_f64() * 1e6),
+            QueryOutcome::Died => (&silent, f64::NAN),
         };
         Trial {
             scene: self.name.to_owned(),
@@ -243,7 +248,7 @@ impl<'s> Ready<'s> {
         }
     }
 
-    /// Returns what the method says about its answer.
+    /// Returns the method's remark about its answer.
     fn note(&self, reply: &Reply) -> String {
         let raised = reply
             .tolerance
@@ -254,7 +259,7 @@ impl<'s> Ready<'s> {
     }
 }
 
-/// Judges a method that does not get as far as the first query.
+/// Judges a method that ends before its first query.
 fn not_started(error: io::Error) -> io::Result<Judged> {
     Ok(Judged::plain(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
@@ -264,7 +269,7 @@ fn not_started(error: io::Error) -> io::Result<Judged> {
     }))
 }
 
-/// Describes what all answers depend on.
+/// Describes the settings that determine all answers.
 fn stamp() -> String {
     let program = program_stamp();
     format!("{program}patience {PATIENCE:?} {PREPARATION:?}\n")

@@ -54,7 +54,7 @@ impl Matrix {
         Matrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
     }
 
-    /// Returns the rotation of the normalised quaternion; `q` is a unit one or nearly.
+    /// Returns the rotation of the normalised quaternion; `q` has about unit length.
     pub(super) fn from_quaternion(q: DQuat) -> Self {
         let [x, y, z, w] = q.to_array().map(exact);
         let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];
@@ -93,7 +93,7 @@ impl Matrix {
     }
 }
 
-/// The square of radians per unit of time, well above where squares lose digits.
+/// The least squared angular speed, in radians per unit of time, well above the values at which squares lose digits.
 const FAINTEST_SPIN: f64 = 1e-250;
 
 fn delta(i: usize, j: usize) -> Interval {
@@ -165,7 +165,7 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     }
 }
 
-/// Radians beyond π/4; for wider arguments a polynomial is useless.
+/// The largest argument for the polynomial, in radians, a little over π/4.
 const WIDEST_REST: f64 = 1.6;
 /// 2⁵⁰: multiples of π/2 up to this one are exact integers, and so is their number modulo 4.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;

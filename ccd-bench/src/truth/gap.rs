@@ -59,7 +59,8 @@ fn bound_of(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f64 {
     snapshot.boxes_distance(a, b)
 }
 
-/// Any two points bound the distance from above; the gap along any direction bounds it from below.
+/// Brackets the distance of two triangles: any two points bound it from above, and the gap along any direction from
+/// below.
 fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket {
     let Some([a, b]) = search.triangles(pair) else {
         return Bracket {

@@ -1,5 +1,4 @@
-//! Intervals of real numbers: each operation returns one that holds all results for numbers of its
-//! operands.
+//! Interval arithmetic: each operation returns an interval that holds all results for numbers of its operands.
 //!
 //! Floats are computed to nearest, then moved outward if they are not exact. A result rounded to
 //! nearest has the exact one strictly between its two neighbours, or equals it: between f64::MAX and
@@ -15,7 +14,7 @@ use super::rounding::larger;
 use ccd_core::order::{greater, lesser};
 use std::ops::{Add, Div, Mul, Neg, RangeInclusive, Sub};
 
-/// All real numbers between two bounds, which belong to it unless they are infinite.
+/// All real numbers between two bounds, including the finite bounds.
 ///
 /// The bounds are in order, neither is NaN, and a real number is between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +34,7 @@ impl Interval {
         inf: f64::NEG_INFINITY,
         sup: f64::INFINITY,
     };
-    /// π/2, which is 6.1e-17 above the float that is nearest to it.
+    /// π/2, which exceeds the nearest float by 6.1e-17.
     pub(super) const FRAC_PI_2: Interval = Interval {
         inf: std::f64::consts::FRAC_PI_2,
         sup: std::f64::consts::FRAC_PI_2.next_up(),
@@ -94,22 +93,22 @@ impl Interval {
         Interval::new(greater(least, 0.0), most)
     }
 
-    /// Returns the square roots of the numbers that have one; all numbers if none has. Roots grow
-    /// with their operand.
+    /// Returns the square roots of the nonnegative numbers; the whole line if there are none. Roots grow with their
+    /// operand.
     pub(super) fn sqrt(self) -> Self {
         let ([least, _], [_, most]) = (root(greater(self.inf, 0.0)), root(self.sup));
         // `most` is NaN if all numbers are negative.
         Interval::new(least, most)
     }
 
-    /// Returns the numbers of both; all numbers if there are none, since both should hold the number
-    /// that is sought. Nothing is rounded.
+    /// Returns the common numbers of both; the whole line if there are none, which cannot happen for enclosures of one
+    /// number. Nothing is rounded.
     pub(super) fn intersection(self, other: Self) -> Self {
         Interval::new(greater(self.inf, other.inf), lesser(self.sup, other.sup))
     }
 
-    /// Multiplies by numbers that are not negative. The least product is of the lower bound: with the
-    /// least factor, or with the greatest if that bound is negative. The greatest product likewise.
+    /// Multiplies two intervals without negative numbers. The least product is of the lower bound: with the least
+    /// factor, or with the greatest if that bound is negative. The greatest product likewise.
     fn times(self, factor: Self) -> Self {
         let least = if self.inf >= 0.0 {
             factor.inf
@@ -125,8 +124,7 @@ impl Interval {
         Interval::new(inf, sup)
     }
 
-    /// Divides by positive numbers, which is to multiply by their inverses: the greatest divisor takes
-    /// the place of the least factor.
+    /// Divides by positive numbers: the greatest divisor takes the place of the least factor.
     fn over(self, divisor: Self) -> Self {
         let least = if self.inf >= 0.0 {
             divisor.sup
@@ -146,7 +144,7 @@ impl Interval {
 impl Neg for Interval {
     type Output = Interval;
 
-    /// Nothing is rounded.
+    /// Negates exactly, without rounding.
     fn neg(self) -> Interval {
         Interval::new(-self.sup, -self.inf)
     }
@@ -155,7 +153,7 @@ impl Neg for Interval {
 impl Add for Interval {
     type Output = Interval;
 
-    /// A sum grows with both operands.
+    /// Adds the bounds: a sum is increasing in both operands.
     fn add(self, other: Interval) -> Interval {
         let ([inf, _], [_, sup]) = (sum(self.inf, other.inf), sum(self.sup, other.sup));
         Interval::new(inf, sup)
@@ -165,7 +163,7 @@ impl Add for Interval {
 impl Sub for Interval {
     type Output = Interval;
 
-    /// A difference grows with its first operand and falls with its second.
+    /// Subtracts the bounds: a difference is increasing in its first operand and decreasing in its second.
     fn sub(self, other: Interval) -> Interval {
         self + -other
     }
@@ -174,8 +172,8 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Interval;
 
-    /// A product is linear in each operand, so it is least and greatest at bounds: at two of them,
-    /// unless both operands have numbers on both sides of 0.
+    /// Multiplies intervals. A product is linear in each operand, so that it is least and greatest at bounds: at two of
+    /// them, unless both operands have numbers on both sides of 0.
     fn mul(self, other: Interval) -> Interval {
         if other.inf >= 0.0 {
             return self.times(other);
@@ -198,7 +196,7 @@ impl Mul for Interval {
 impl Div for Interval {
     type Output = Interval;
 
-    /// A quotient is monotone in each operand while the divisor keeps its sign.
+    /// Divides intervals: a quotient is monotone in each operand while the divisor keeps its sign.
     fn div(self, other: Interval) -> Interval {
         if other.inf > 0.0 {
             self.over(other)
@@ -210,8 +208,8 @@ impl Div for Interval {
     }
 }
 
-/// Returns bounds of an exact result: the rounded one, moved to the side that `rest` is on, which has
-/// the sign of the exact result less the rounded one. Moved to both sides if `rest` is NaN.
+/// Returns bounds of an exact result: the rounded result, moved towards the side of `rest`, which has the sign of the
+/// exact result minus the rounded one. Moved to both sides if `rest` is NaN.
 fn outward(rounded: f64, rest: f64) -> [f64; 2] {
     [
         if rest >= 0.0 {
@@ -266,8 +264,7 @@ fn root(x: f64) -> [f64; 2] {
     outward(root, remainder(x, root, root))
 }
 
-/// Returns w − xy with the right sign, for a w within a factor of 2 of xy; NaN if the sign might be
-/// wrong.
+/// Returns w − xy with the right sign, for a w within a factor of 2 of xy; NaN if the sign might be wrong.
 ///
 /// Dekker's product is exact: xy is the rounded product and an error, without a fused operation. The
 /// halves have 26 bits, so their products are exact. w less the rounded product is exact by Sterbenz.

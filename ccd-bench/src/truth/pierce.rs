@@ -29,8 +29,8 @@ impl Instant {
     }
 }
 
-/// Checks five signs, each of which must be certain: the ends lie on two sides of the triangle's
-/// plane, and the line passes all its edges on the same side.
+/// Checks five signs, each of which must be certain: the ends lie on both sides of the triangle's plane, and the line
+/// passes all its edges on the same side.
 fn pierces([from, to]: [&Vector; 2], [a, b, c]: &[Vector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
     let before = sign(normal.dot(&(*from - *a)));

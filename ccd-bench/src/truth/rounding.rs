@@ -2,12 +2,12 @@
 
 /// 2⁻⁵³: the largest relative error of a float operation.
 pub(super) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
-/// More than the relative error of forty roundings.
+/// A bound on the relative error of forty roundings.
 pub(super) const ROUNDED: f64 = 1e-14;
-/// The factor that compensates the rounding down of as many operations.
+/// The factor that compensates for up to forty roundings.
 pub(super) const ROUNDED_UP: f64 = 1.0 + ROUNDED;
 
-/// Returns the larger of two, or NaN if one is NaN, so that an unbounded value excludes nothing.
+/// Returns the larger of two numbers, or NaN if one is NaN, so that an unknown value excludes nothing.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

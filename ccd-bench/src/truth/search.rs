@@ -8,7 +8,7 @@ use super::track::Track;
 use super::triangle::{gap, nearest, normals};
 use super::{Referee, Truth};
 use ccd_core::order::{greater, lesser};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
@@ -28,25 +28,24 @@ pub(super) struct Search<'a> {
 /// The number of tests of pairs after which a query is left undecided. It would take minutes, while
 /// a hard query takes a second.
 pub(super) const BUDGET: u64 = 30_000_000;
-/// A span of this fraction of the duration is not halved any more: 2⁻⁴⁶, 1.4e-14.
+/// The shortest span, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
 const SHORTEST: f64 = 1.0 / (1_u64 << 46) as f64;
-/// After a time that cannot be excluded, the search for a proof of contact extends to that fraction
-/// of the duration times 2³⁶: about a thousandth of the duration.
+/// The number of doublings in the search for a proof of contact after a time that cannot be excluded: it extends to
+/// about a thousandth of the duration.
 const DOUBLINGS: u32 = 36;
-/// From this doubling on, and at every multiple, all triangles are tested, not only those that came
-/// near first.
+/// The period, in doublings, at which all triangles are tested, not only those that came near first.
 const WIDER_EVERY: u32 = 6;
-/// Nodes are split while they are larger than this multiple of their travel in the span.
+/// The largest size of nodes that are not split, as a multiple of their displacement in the span.
 const COARSE: f64 = 1.0;
-/// Triangles smaller than this fraction of their travel are separated as well by their boxes.
+/// The size below which triangles are separated as well by their boxes, as a fraction of their displacement.
 const SMALL: f64 = 0.25;
 
-/// The number of normals that belong to faces.
+/// The number of face normals.
 const FACES: usize = 2;
-/// Triangles nearer than this fraction of their edges are also tested along the normals of their edges.
+/// The distance below which triangles are also tested along the normals of their edges, as a fraction of the edges.
 const CLOSE: f64 = 1e-3;
 
-/// The remainder of a span.
+/// The pairs that remain of a span.
 #[derive(Debug, PartialEq)]
 enum Sifted {
     /// The pairs that are not excluded.
@@ -56,7 +55,7 @@ enum Sifted {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(referee: &Referee<'a>, query: &Query) -> Self {
+    pub(super) fn new(referee: &Referee<'a>, query: &Motions) -> Self {
         let surfaces = [referee.a, referee.b];
         Search {
             surfaces,
@@ -98,9 +97,9 @@ impl<'a> Search<'a> {
         };
         let shortest = SHORTEST * self.duration;
         let mut pending = vec![(whole, Rc::new(vec![roots]))];
-        let mut doubt = Doubt::default();
+        let mut undecided = UndecidedTimes::default();
         while let Some((span, pairs)) = pending.pop() {
-            let Some(span) = span.from(doubt.over) else {
+            let Some(span) = span.from(undecided.over) else {
                 continue;
             };
             let snapshot = self.snapshot(span);
@@ -109,7 +108,7 @@ impl<'a> Search<'a> {
                 Sifted::Left(left) => left,
                 Sifted::Spent => {
                     return Truth::Undecided {
-                        lo: doubt.first.unwrap_or(span.start),
+                        lo: undecided.first.unwrap_or(span.start),
                     };
                 }
             };
@@ -121,13 +120,13 @@ impl<'a> Search<'a> {
                 pending.push((early, left));
                 continue;
             }
-            let lo = *doubt.first.get_or_insert(span.start);
-            if let Some(hi) = self.proof_after(span.start, roots, &left, doubt.met) {
+            let lo = *undecided.first.get_or_insert(span.start);
+            if let Some(hi) = self.proof_after(span.start, roots, &left, undecided.met) {
                 return Truth::Hit { lo, hi };
             }
-            doubt.pass(span, shortest);
+            undecided.pass(span, shortest);
         }
-        match doubt.first {
+        match undecided.first {
             None => Truth::Free,
             Some(lo) => Truth::Graze { lo },
         }
@@ -138,7 +137,7 @@ impl<'a> Search<'a> {
         Snapshot::new([a, b], self.farthest, span)
     }
 
-    /// Returns the pairs that may meet within the span, of nodes no larger than their travel.
+    /// Returns the pairs that may meet within the span, of nodes no larger than their displacement.
     fn sift(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> Sifted {
         let mut left = Vec::new();
         if snapshot.is_far() {
@@ -315,7 +314,7 @@ pub(super) struct Split {
 /// The proof required for surfaces to count as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Proof {
-    /// They cannot be shown to be apart.
+    /// The surfaces cannot be shown to be apart.
     NotApart,
     /// An edge certainly passes through a triangle.
     Pierced,
@@ -328,9 +327,9 @@ enum Touch {
     Spent,
 }
 
-/// Times that could neither be excluded nor shown to be after the first contact.
+/// Times that could neither be excluded nor proven to follow the first contact.
 #[derive(Debug, Default)]
-struct Doubt {
+struct UndecidedTimes {
     /// The first of these times.
     first: Option<f64>,
     /// The end of the time that is skipped.
@@ -339,9 +338,9 @@ struct Doubt {
     met: u32,
 }
 
-impl Doubt {
-    /// Skips ahead after one of them, twice as far each time. Surfaces that slide on each other all
-    /// the time are left after about as many steps as the duration has halvings.
+impl UndecidedTimes {
+    /// Skips time after one of them, with the length doubled each time. Surfaces that slide on each other all the time
+    /// are left after about as many steps as the duration has halvings.
     fn pass(&mut self, span: Span, shortest: f64) {
         let ahead = shortest * 2.0_f64.powi(self.met.min(1000) as i32);
         self.over = span.end + ahead;

@@ -37,11 +37,11 @@ pub(super) struct Snapshot {
     rate_b: Affine,
     /// h: the time to either end of the span.
     half: f64,
-    /// The least certain gap: rounding, and the deviation of the motion from a straight one.
+    /// The least certain gap: a bound on the rounding, and on the motion's deviation from a straight one.
     slack: f64,
     /// The part of `slack` that is due to the motion.
     bend: f64,
-    /// The same for boxes, along the axes of B, and of A.
+    /// The bounds for boxes, along the axes of B and of A.
     along_b: Extents,
     along_a: Extents,
     /// The vector from B's centre of rotation to A's, and its rate of change.
@@ -51,7 +51,7 @@ pub(super) struct Snapshot {
     reaches: f64,
 }
 
-/// An upper bound of a box's reach along the axes of a frame over the span: `A halfₐ + B half_b`.
+/// An upper bound on a box's extent along the axes of a frame over the span: `A halfₐ + B half_b`.
 #[derive(Clone, Copy, Debug)]
 struct Extents {
     a: DMat3,
@@ -61,9 +61,9 @@ struct Extents {
 /// The relation of two boxes over the span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
-    /// They stay apart.
+    /// The boxes stay apart.
     Apart,
-    /// They may meet; `travel` bounds their relative motion.
+    /// The boxes may meet; `travel` bounds their relative displacement.
     Near { travel: f64 },
 }
 
@@ -102,8 +102,7 @@ impl Snapshot {
         }
     }
 
-    /// Returns true if the bodies stay apart for any rotation, since their centres are far from
-    /// each other.
+    /// Returns true if the bodies stay apart for any rotation, because their centres are far from each other.
     pub(super) fn is_far(&self) -> bool {
         let (d, w) = (self.centres, self.half * self.centres_rate);
         // The point of the segment from d − w to d + w that is nearest to 0.
@@ -168,7 +167,7 @@ impl Snapshot {
 }
 
 impl Extents {
-    /// Returns the gap of two boxes along each axis, at the end of the span where it is less.
+    /// Returns the gap of two boxes along each axis, at the end of the span with the smaller gap.
     fn gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
         apart.abs() - moved.abs() - self.a * a.half - self.b * b.half
     }
@@ -196,7 +195,7 @@ struct Affine {
 }
 
 impl Affine {
-    /// Each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at
+    /// Creates the map: each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at
     /// most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(Matrix, Vector), farthest: f64) -> Self {
         let rows = matrix
@@ -256,11 +255,10 @@ impl Enclosed {
     }
 }
 
-/// An upper bound of the number of roundings of a gap relative to the sizes that enter it: the sum
-/// of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its
-/// difference (1), for each of A and B; n itself, of length 1 to 4 roundings; for boxes √3 times
-/// the 4 roundings of an extent on each side, and twice as many along A's axes, which are rounded
-/// themselves. The total is doubled.
+/// An upper bound on the number of roundings of a gap, relative to the sizes that enter it. For each of A and B these
+/// are the sum of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its difference
+/// (1); n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each side, and twice
+/// as many along A's axes, which are rounded themselves. The total is doubled.
 const ROUNDINGS: f64 = 96.0;
 /// √3, rounded up.
 const SQRT_3: f64 = 1.732_050_807_568_878;

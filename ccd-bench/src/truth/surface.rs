@@ -7,7 +7,7 @@ use ccd_decomp::TriangleMesh;
 /// The triangles of a mesh, prepared for the referee.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// The nodes: the root is the first; children follow their parents.
+    /// The nodes, the root first, and children after their parents.
     nodes: Vec<Node>,
     triangles: Vec<Triangle>,
 }
@@ -19,7 +19,7 @@ pub(super) type Triangle = [DVec3; 3];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) centre: DVec3,
-    /// Half the extents; all triangles lie within, despite rounding.
+    /// Half the extents; the box contains all triangles despite rounding.
     pub(super) half: DVec3,
     /// Half the diagonal.
     pub(super) size: f64,
@@ -29,9 +29,9 @@ pub(super) struct Node {
 /// The content of a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Content {
-    /// Two nodes.
+    /// The two child nodes.
     Children([u32; 2]),
-    /// One triangle.
+    /// The triangle of a leaf.
     Triangle(u32),
 }
 

@@ -11,7 +11,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use rand::{Rng, RngExt};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// Returns a box about the origin by its half extents.
 fn cuboid(x: f64, y: f64, z: f64) -> Surface {
@@ -27,8 +27,8 @@ fn at(position: DVec3, rotation: DQuat) -> Pose {
     Pose::new(position, rotation).unwrap()
 }
 
-fn query(a: Motion, b: Motion, duration: f64) -> Query {
-    Query {
+fn query(a: Motion, b: Motion, duration: f64) -> Motions {
+    Motions {
         id: "query".to_owned(),
         a,
         b,
@@ -36,7 +36,7 @@ fn query(a: Motion, b: Motion, duration: f64) -> Query {
     }
 }
 
-fn judge([a, b]: [&Surface; 2], query: &Query) -> Truth {
+fn judge([a, b]: [&Surface; 2], query: &Motions) -> Truth {
     Referee::new(a, b).first_contact(query)
 }
 

@@ -10,17 +10,17 @@ use ccd_core::glam::{DMat3, DVec3};
 /// A body's motion: x(t) = c₀ + v t + R(ω t) R₀ (p − c).
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// c, in the body's frame.
+    /// The centre of rotation c, in the body's frame.
     pub(super) centre: Vector,
-    /// v.
+    /// The velocity v.
     pub(super) velocity: Vector,
-    /// ω.
+    /// The angular velocity ω.
     pub(super) spin: Vector,
-    /// ω as floats.
+    /// The angular velocity ω as floats.
     turning: DVec3,
-    /// R₀.
+    /// The orientation R₀ at the start.
     orientation: Matrix,
-    /// c₀: where c is at the start.
+    /// The position c₀ of the centre at the start.
     from: Vector,
     /// An upper bound of the distance of the body's points from c.
     pub(super) reach: f64,

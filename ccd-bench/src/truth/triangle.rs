@@ -27,8 +27,7 @@ pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3>
     })
 }
 
-/// Returns a point of each of two triangles of any shape, nearest to each other except for
-/// rounding; the same point if they intersect.
+/// Returns the nearest points of two triangles of any shape, up to rounding; the same point if they intersect.
 pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest_of_edges(a, b);
     let mut consider = |p: DVec3, q: DVec3| {
@@ -47,7 +46,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// Does the same as [`nearest`], and also checks whether an edge pierces the other triangle.
+/// Like [`nearest`], and also checks whether an edge pierces the other triangle.
 pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest(a, b);
     let mut consider = |p: DVec3, q: DVec3| {
@@ -79,8 +78,7 @@ fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// Minimises |p + s u − q − t v| over s and t in 0..1: first for the lines, then with one parameter
-/// held at its end.
+/// Minimises |p + s u − q − t v| over s and t in 0..1: first for the lines, then with one parameter fixed at its end.
 fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3, DVec3) {
     let (u, v, r) = (p_end - p, q_end - q, p - q);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));

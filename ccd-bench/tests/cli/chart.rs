@@ -66,7 +66,7 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     assert_eq!(fs::read(folder.join("chart.csv")).unwrap(), table);
 }
 
-/// Returns what happens in the view with which a page opens.
+/// Returns the description of the first view of a page.
 fn first_view(page: &str) -> String {
     let (_, views) = page.split_once(r#"id="views">"#).unwrap();
     let (views, _) = views.split_once("</script>").unwrap();

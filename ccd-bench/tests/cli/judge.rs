@@ -1,10 +1,10 @@
-//! Tests `ccd-bench judge` on the kept failures of other methods: their verdicts are as recorded, and the default
-//! answers every one of them right.
+//! Tests `ccd-bench judge` on the recorded failures of other methods: the verdicts are unchanged, and the default
+//! answers all of them right.
 
 use std::path::Path;
 use std::process::Command;
 
-/// Folder, method, tolerance, and the verdict that is recorded in `failures/README.md`.
+/// The folder, the method, the tolerance, and the verdict recorded in `failures/README.md`.
 const FAILURES: [(&str, &str, &str, &str); 11] = [
     (
         "fast-vmarch-published-late",
@@ -29,7 +29,7 @@ const FAILURES: [(&str, &str, &str, &str); 11] = [
     ("rapier-step-f64-early", "rapier-step-f64", "1e-6", "false"),
 ];
 
-/// The failures of methods that run in Python: only the default is asked about them here.
+/// The failures of methods in Python, on which only the default is run here.
 const OF_PYTHON: [(&str, &str); 5] = [
     ("coal-steps-late", "1e-2"),
     ("fcl-ca-late", "1e-3"),

@@ -1,18 +1,18 @@
 //! Tests peers behind a guard: one that hangs is cut off, one that dies is restarted.
 
 use ccd_bench::method::Method;
-use ccd_bench::method::guarded::{Asked, Guarded, Setting};
+use ccd_bench::method::guarded::{Guarded, QueryOutcome, Setting};
 use ccd_bench::method::peer::PeerKind;
 use ccd_bench::method::solver::Claim;
 use ccd_bench::scene::model::Board;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
 
-/// A time that no query here takes.
+/// A time limit that no query here reaches.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn cube() -> TriangleMesh {
@@ -21,9 +21,9 @@ fn cube() -> TriangleMesh {
 }
 
 /// Returns a query in which one cube falls onto another, 2 below it, at speed 4.
-fn drop() -> Query {
+fn drop() -> Motions {
     let above = Pose::at(3.0 * DVec3::Z).unwrap();
-    Query {
+    Motions {
         id: "drop".into(),
         a: Motion::new(above, -4.0 * DVec3::Z, DVec3::ZERO).unwrap(),
         b: Motion::still(Pose::IDENTITY),
@@ -39,9 +39,9 @@ fn guarded_with(setting: Setting) -> Guarded {
     Guarded::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
-fn assert_answered(asked: Asked) {
-    let Asked::Answered { reply, micros } = asked else {
-        panic!("{asked:?}");
+fn assert_answered(outcome: QueryOutcome) {
+    let QueryOutcome::Answered { reply, micros } = outcome else {
+        panic!("{outcome:?}");
     };
     let Claim::Contact { time } = reply.claim else {
         panic!("{reply:?}");
@@ -68,11 +68,11 @@ fn a_margin_is_kept_or_refused() {
         guarded.ask(&drop(), PATIENCE)
     };
     for method in Method::all() {
-        let asked = ask(method);
+        let outcome = ask(method);
         match method {
             Method::Ours(..) => {
-                let Ok(Asked::Answered { reply, .. }) = asked else {
-                    panic!("{method}: {asked:?}");
+                let Ok(QueryOutcome::Answered { reply, .. }) = outcome else {
+                    panic!("{method}: {outcome:?}");
                 };
                 let Claim::Contact { time } = reply.claim else {
                     panic!("{method}: {reply:?}");
@@ -84,7 +84,7 @@ fn a_margin_is_kept_or_refused() {
                 );
             }
             Method::Rival(_) | Method::Peer(_) | Method::Script(_) => {
-                let error = asked.unwrap_err();
+                let error = outcome.unwrap_err();
                 assert_eq!(error.kind(), ErrorKind::Unsupported, "{method}");
                 assert!(error.to_string().contains("margin"), "{method}: {error}");
             }
@@ -97,8 +97,8 @@ fn a_hanging_peer_is_cut_off_and_asked_again() {
     let mut hanging = guarded(PeerKind::Hanging);
     let start = Instant::now();
     for _ in 0..2 {
-        let asked = hanging.ask(&drop(), Duration::from_millis(50)).unwrap();
-        assert_eq!(asked, Asked::CutOff);
+        let outcome = hanging.ask(&drop(), Duration::from_millis(50)).unwrap();
+        assert_eq!(outcome, QueryOutcome::CutOff);
     }
     assert!(start.elapsed() < PATIENCE);
 }
@@ -106,7 +106,10 @@ fn a_hanging_peer_is_cut_off_and_asked_again() {
 #[test]
 fn the_query_after_a_cut_off_one_is_answered() {
     let mut peer = guarded(PeerKind::ParryF64);
-    assert_eq!(peer.ask(&drop(), Duration::ZERO).unwrap(), Asked::CutOff);
+    assert_eq!(
+        peer.ask(&drop(), Duration::ZERO).unwrap(),
+        QueryOutcome::CutOff
+    );
     assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
     assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
 }
@@ -115,7 +118,7 @@ fn the_query_after_a_cut_off_one_is_answered() {
 fn a_dying_peer_is_reported_and_restarted() {
     let mut dying = guarded(PeerKind::Dying);
     for _ in 0..2 {
-        assert_eq!(dying.ask(&drop(), PATIENCE).unwrap(), Asked::Died);
+        assert_eq!(dying.ask(&drop(), PATIENCE).unwrap(), QueryOutcome::Died);
     }
 }
 
@@ -123,7 +126,7 @@ fn a_dying_peer_is_reported_and_restarted() {
 fn a_tolerance_is_passed_on() {
     let mut peer = guarded(PeerKind::ParrySweepF64);
     peer.restart_with(1e-6).unwrap();
-    let Asked::Answered { reply, .. } = peer.ask(&drop(), PATIENCE).unwrap() else {
+    let QueryOutcome::Answered { reply, .. } = peer.ask(&drop(), PATIENCE).unwrap() else {
         panic!("no answer");
     };
     let Claim::Contact { time } = reply.claim else {

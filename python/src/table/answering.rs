@@ -1,8 +1,8 @@
-//! The rows of a table, answered on all cores.
+//! Answers the rows of a table on all cores.
 
 use super::batch::{Names, id_field};
 use super::input::Reader;
-use super::pieces::{Pace, Piece, Pieces, check};
+use super::pieces::{Piece, PieceSize, Pieces, check};
 use super::results;
 use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
@@ -17,29 +17,29 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// What is asked about the rows of a table.
+/// A question about the rows of a table, with its settings.
 #[derive(Clone, Copy)]
-pub(crate) struct Asked<'a> {
+pub(crate) struct TableQuestion<'a> {
     pub(crate) bodies: Bodies<'a>,
     pub(crate) question: Question,
     pub(crate) settings: &'a Settings,
-    /// The number of threads; none for one on each core.
+    /// The number of threads; `None` is one for each core.
     pub(crate) threads: Option<u16>,
     pub(crate) micros: Micros,
 }
 
-/// Whether the time of each query is told.
+/// Whether the results have the time of each query.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Micros {
-    Told,
+    Measured,
     LeftOut,
 }
 
-/// The results of a table's rows, up to the first that was not answered, and what went wrong after them.
+/// The results of a table's rows up to the first one without an answer, and the error after them.
 pub(crate) struct Answered {
     pub(crate) results: RecordBatch,
     pub(crate) fault: Option<TableError>,
-    /// What is odd about the rows.
+    /// The remarks about the rows.
     pub(crate) remarks: Vec<Remark>,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct Answered {
 /// # Errors
 /// The columns cannot be used.
 pub(crate) fn answer(
-    asked: Asked<'_>,
+    asked: TableQuestion<'_>,
     reader: Reader,
     stop: &Arc<AtomicBool>,
     done: &AtomicUsize,
@@ -57,18 +57,18 @@ pub(crate) fn answer(
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable)?);
     let settings = stopped_by(asked, stop);
-    let asked = Asked {
+    let asked = TableQuestion {
         settings: &settings,
         ..asked
     };
     let mut solver = on_threads(asked.threads, Solver::new);
-    let (pace, source) = (Pace::new(solver.threads()), (reader, columns.form()));
-    let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &pace, stop)?;
+    let (size, source) = (PieceSize::new(solver.threads()), (reader, columns.form()));
+    let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = rows(asked, &piece, &columns, solver, stop);
         done.fetch_add(found.len(), Ordering::Relaxed);
-        pace.adapt(piece.rows(), start.elapsed());
+        size.adapt(piece.rows(), start.elapsed());
         let is_whole = found.len() == piece.rows();
         let found = results::batch(asked.question, piece.ids(found.len()), &found);
         found.map(|found| (found, is_whole))
@@ -97,33 +97,36 @@ pub(crate) fn answer(
 /// All rows are read before the first is asked about, and results are made after the last: in turn, each of the three
 /// would start with cold caches.
 fn rows(
-    asked: Asked<'_>,
+    asked: TableQuestion<'_>,
     piece: &Piece,
     columns: &Columns,
     solver: &mut Solver,
     stop: &AtomicBool,
 ) -> Vec<ResultRow> {
     let rows: Vec<CourseRow> = piece.courses(columns).collect();
-    let told: Vec<Told<'_>> = (rows.iter())
+    let answered: Vec<RowAnswer<'_>> = (rows.iter())
         .take_while(|_| !stop.load(Ordering::Relaxed))
-        .map_while(|row| tell(asked, row, solver))
+        .map_while(|row| answer_row(asked, row, solver))
         .collect();
-    told.iter().map(|told| result(asked, told)).collect()
+    answered
+        .iter()
+        .map(|answered| result(asked, answered))
+        .collect()
 }
 
-/// Answers some rows of a table, by their numbers, one after another, until the flag is set.
+/// Answers some rows of a table, by their indices, one after another, until the flag is set.
 pub(crate) fn each(
-    asked: Asked<'_>,
+    asked: TableQuestion<'_>,
     reader: Reader,
     wanted: &HashSet<usize>,
     stop: &Arc<AtomicBool>,
     mut take: impl FnMut(&Course, &ResultRow),
 ) -> Result<(), TableError> {
     let columns = check(&reader)?;
-    let (pace, source) = (Pace::new(1), (reader, columns.form()));
-    let mut pieces = Pieces::of(source, asked.question, Names::Read, &pace, stop)?;
+    let (size, source) = (PieceSize::new(1), (reader, columns.form()));
+    let mut pieces = Pieces::of(source, asked.question, Names::Read, &size, stop)?;
     let settings = stopped_by(asked, stop);
-    let asked = Asked {
+    let asked = TableQuestion {
         settings: &settings,
         ..asked
     };
@@ -134,9 +137,9 @@ pub(crate) fn each(
             let is_wanted = wanted.contains(&number) && !stop.load(Ordering::Relaxed);
             if let Ok((_, course)) = &row
                 && is_wanted
-                && let Some(told) = tell(asked, &row, &mut solver)
+                && let Some(answered) = answer_row(asked, &row, &mut solver)
             {
-                take(course, &result(asked, &told));
+                take(course, &result(asked, &answered));
             }
             number += 1;
         }
@@ -144,8 +147,8 @@ pub(crate) fn each(
     pieces.fault.map_or(Ok(()), Err)
 }
 
-/// Returns the settings with a flag that ends queries.
-fn stopped_by(asked: Asked<'_>, stop: &Arc<AtomicBool>) -> Settings {
+/// Returns the settings with a flag that stops queries.
+fn stopped_by(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
     Settings {
         stop: Some(Arc::clone(stop)),
         ..asked.settings.clone()
@@ -156,18 +159,22 @@ fn unreadable(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
 
-/// What a solver tells about a row, or why it is not valid.
-type Told<'r> = Result<Timed<'r>, &'r RowError>;
+/// The answer of a valid row, or the error of an invalid one.
+type RowAnswer<'r> = Result<Timed<'r>, &'r RowError>;
 
-/// An answer, and what it took.
+/// An answer and its time.
 struct Timed<'r> {
     course: &'r Course,
     answer: Result<Answer, InputError>,
     micros: f64,
 }
 
-/// Asks about a row; none where the query is stopped.
-fn tell<'r>(asked: Asked<'_>, row: &'r CourseRow, solver: &mut Solver) -> Option<Told<'r>> {
+/// Answers a row; `None` if the query was stopped.
+fn answer_row<'r>(
+    asked: TableQuestion<'_>,
+    row: &'r CourseRow,
+    solver: &mut Solver,
+) -> Option<RowAnswer<'r>> {
     let course = match row {
         Ok((_, course)) => course,
         Err(error) => return Some(Err(error)),
@@ -186,16 +193,16 @@ fn tell<'r>(asked: Asked<'_>, row: &'r CourseRow, solver: &mut Solver) -> Option
     }
 }
 
-/// Makes the results of a row.
-fn result(asked: Asked<'_>, told: &Told<'_>) -> ResultRow {
-    let timed = match told {
+/// Makes the row of results of a row.
+fn result(asked: TableQuestion<'_>, answered: &RowAnswer<'_>) -> ResultRow {
+    let timed = match answered {
         Ok(timed) => timed,
         Err(error) => return ResultRow::error(&error.id, &error.problem),
     };
     let compared = Compared::of(asked.bodies, asked.settings.clearance);
     match &timed.answer {
         Ok(answer) => ResultRow {
-            micros: (asked.micros == Micros::Told).then_some(timed.micros),
+            micros: (asked.micros == Micros::Measured).then_some(timed.micros),
             ..ResultRow::new(
                 timed.course,
                 (asked.question, answer),

@@ -1,4 +1,4 @@
-//! Rows of Arrow columns, as the library reads them.
+//! Rows of Arrow columns, in the form that the library reads.
 
 use super::input::{ID, Reader, TIME};
 use arrow_array::cast::AsArray;
@@ -18,13 +18,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Consecutive rows of a table.
 #[derive(Debug)]
 pub(crate) struct Batch {
-    /// The number of the first row.
+    /// The index of the first row.
     pub(crate) first: usize,
     pub(crate) rows: usize,
-    /// The column `id` as it came.
+    /// The column `id`, unchanged.
     id: Option<ArrayRef>,
     names: Names,
-    /// The other columns, none in the place of `id`.
+    /// The other columns; `None` in the place of `id`.
     columns: Vec<Option<Numbers>>,
 }
 
@@ -32,11 +32,11 @@ pub(crate) struct Batch {
 #[derive(Debug)]
 struct Numbers {
     values: Float64Array,
-    /// Whole numbers of more digits than a float64 has, by their rows; none if there are none.
+    /// Whole numbers that float64 cannot represent exactly, by row index; `None` without any.
     inexact: Option<HashMap<usize, String>>,
 }
 
-/// Whether ids are read as text: results have them as they came.
+/// Whether ids are read as text; results always have the original ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Names {
     Read,
@@ -47,7 +47,7 @@ pub(crate) enum Names {
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) batch: Arc<Batch>,
-    /// The number of the row in the batch.
+    /// The index of the row in the batch.
     pub(crate) at: usize,
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
         .collect()
 }
 
-/// Refuses columns that have no numbers, and names of paths whose texts might be the same.
+/// Refuses columns without numbers, and types of ids whose texts may collide.
 pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME).is_ok();
     for field in schema.fields() {
@@ -78,7 +78,7 @@ pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the column of ids that results of a table have: those that came, or the rows' numbers.
+/// Returns the column of ids in the results: the original one, or the row indices.
 pub(crate) fn id_field(schema: &Schema) -> Field {
     match schema.field_with_name(ID) {
         Ok(field) => field
@@ -89,7 +89,8 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
     }
 }
 
-/// The type of values: dictionaries of parts of a table may not fit into one, and NumPy knows neither them nor runs.
+/// Returns the type of a column's values without dictionary or run encoding, which NumPy cannot read; the dictionaries
+/// of parts may not fit into one.
 fn unpacked(kind: &DataType) -> &DataType {
     match kind {
         DataType::Dictionary(_, values) => unpacked(values),
@@ -98,7 +99,8 @@ fn unpacked(kind: &DataType) -> &DataType {
     }
 }
 
-/// Makes an array of that type. One of nulls, or of runs, says how long it is in a few bytes, and becomes longer.
+/// Converts a column to the type `kind`. One of nulls, or of runs, says how long it is in a few bytes, and becomes
+/// longer.
 fn flat(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
     if column.data_type() == kind {
         return Ok(Arc::clone(column));
@@ -133,7 +135,7 @@ fn unreadable(error: ArrowError) -> TableError {
 }
 
 impl Batch {
-    /// Takes a batch whose columns have been checked. Columns of float64 are not copied.
+    /// Creates a batch from checked columns. Columns of float64 are not copied.
     fn new(batch: &RecordBatch, first: usize, names: Names) -> Result<Self, TableError> {
         let schema = batch.schema();
         let (mut id, mut columns) = (None, Vec::new());
@@ -155,7 +157,7 @@ impl Batch {
         })
     }
 
-    /// Returns the ids of rows; their numbers where there is no column.
+    /// Returns the ids of rows, or the row indices without a column of ids.
     pub(crate) fn ids(&self, at: usize, rows: usize) -> ArrayRef {
         match &self.id {
             Some(id) => id.slice(at, rows),
@@ -195,7 +197,7 @@ impl Numbers {
     }
 }
 
-/// Returns the numbers of a column that are not exact as float64, by their rows.
+/// Returns the numbers of a column that float64 cannot represent exactly, by row index.
 fn inexact<T: ArrowPrimitiveType<Native: std::fmt::Display>>(
     column: &ArrayRef,
     is_exact: fn(T::Native) -> bool,
@@ -292,14 +294,14 @@ pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, Ar
     concat_batches(&schema, &batches)
 }
 
-/// Makes values of dictionaries: those of several batches may be too many for the type of their keys.
+/// Decodes dictionaries, which may not fit into one after concatenation.
 fn unpacked_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let columns = schema.fields().iter().zip(batch.columns());
     let columns = columns.map(|(field, column)| flat(column, field.data_type()));
     RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 
-/// The rows of a batch one by one, as paths are read.
+/// An iterator over the rows of a batch, for reading paths.
 pub(crate) struct Rows {
     header: Vec<String>,
     current: Row,
@@ -308,7 +310,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Takes all rows of a table.
+    /// Creates the iterator over all rows of a table.
     pub(crate) fn of(table: &RecordBatch) -> Result<Self, TableError> {
         let batch = Arc::new(Batch::new(table, 0, Names::Read)?);
         Ok(Rows {
@@ -318,7 +320,7 @@ impl Rows {
         })
     }
 
-    /// All of the rows.
+    /// Returns all of the rows.
     pub(crate) fn batch(&self) -> Arc<Batch> {
         Arc::clone(&self.current.batch)
     }

@@ -1,4 +1,4 @@
-//! Tables of motions, as Python has them.
+//! Tables of motions from Python objects.
 
 use super::capsule;
 use crate::arrays::{kind, plain};
@@ -15,11 +15,11 @@ use std::iter::from_fn;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-/// A table, batch by batch.
+/// A reader of a table, batch by batch.
 pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 
-/// Opens anything that speaks the Arrow PyCapsule protocol, or a dict of arrays. Columns are not copied, except for
-/// arrays that are not contiguous float64.
+/// Opens any object with the Arrow PyCapsule protocol, or a dict of arrays. Columns are not copied, except for arrays
+/// that are not contiguous float64.
 pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     guarded("motions", || opened(motions))
 }
@@ -51,7 +51,8 @@ fn opened(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-/// Ends a stream with an error where a batch does not fit its schema, or an error has no words: the reader panics.
+/// Returns a stream that ends with an error where the inner reader would panic: if a batch does not fit its schema, or
+/// an error has no message.
 fn steady(mut reader: Reader) -> Reader {
     let schema = reader.schema();
     let next = move || {
@@ -65,7 +66,7 @@ fn steady(mut reader: Reader) -> Reader {
     Box::new(RecordBatchIterator::new(from_fn(next), schema))
 }
 
-/// Returns the library of a table that is a frame, or of a class made from one.
+/// Returns the library of a data frame, also of a derived class.
 fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     for class in motions.get_type().mro() {
         let module: String = class.getattr("__module__")?.extract()?;
@@ -77,8 +78,8 @@ fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok(None)
 }
 
-/// Gives columns of a frame of polars that hold nothing a type: Arrow arrays of nulls have no buffers, and polars makes
-/// them with one.
+/// Gives the columns of a polars frame that contain only nulls a type: Arrow arrays of nulls have no buffers, and
+/// polars makes them with one.
 fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let polars = frame.py().import("polars")?;
     let types = PyDict::new(frame.py());
@@ -96,7 +97,7 @@ fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     }
 }
 
-/// Drops the index of a frame of pandas, which would be a column, unless it has a name.
+/// Drops the index of a pandas frame, which would be a column, unless it has a name.
 fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
@@ -105,8 +106,7 @@ fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     frame.call_method("reset_index", (), Some(&how))
 }
 
-/// Returns the number of answers that there will be, where the table knows it beforehand: as many as rows, unless they
-/// are poses of paths.
+/// Returns the number of answers if the table knows its number of rows; `None` for a table of paths.
 pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize> {
     if reader.schema().field_with_name(TIME).is_ok() {
         return None;
@@ -117,9 +117,9 @@ pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize>
     }
 }
 
-/// The column of the names of rows.
+/// The name of the column of ids.
 pub(crate) const ID: &str = "id";
-/// The column of times that a table of paths has.
+/// The name of the column of times in a table of paths.
 pub(crate) const TIME: &str = "t";
 
 fn one(batch: RecordBatch) -> Reader {
@@ -171,7 +171,7 @@ fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     }
 }
 
-/// Reads ids: all texts, or all whole numbers; None is a row without one.
+/// Reads ids: all texts, or all whole numbers; None is a row without an id.
 fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let (mut texts, mut numbers) = (Vec::new(), Vec::new());
     for id in values.try_iter()? {
@@ -206,7 +206,7 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     }
 }
 
-/// Returns an array of that type, without a copy where it is one already.
+/// Returns a contiguous array of the type `dtype`, without a copy if possible.
 fn contiguous(array: &Bound<'_, PyAny>, dtype: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let numpy = array.py().import("numpy")?;
     let plain = numpy.call_method1("require", (array, dtype, ["C", "A"]))?;

@@ -1,4 +1,4 @@
-//! A column as an array of NumPy.
+//! Conversion of a column to a NumPy array.
 
 use crate::errors::{caused, input as refuse};
 use arrow_array::cast::AsArray;
@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3_arrow::PyArray;
 use pyo3_arrow::buffer::PyArrowBuffer;
 
-/// Makes an array of a column: of numbers a view, of text and other values an array of objects.
+/// Converts a column to an array: numbers to a view, other values to an array of objects.
 ///
 /// Empty cells of float64 are NaN, and so are those of whole numbers, unless some have more digits than a float64.
 pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
@@ -49,7 +49,7 @@ fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, P
     Ok(numpy::PyArray1::from_vec(py, values).into_any())
 }
 
-/// Returns a view of values, whatever is valid.
+/// Returns a view of the values, ignoring validity.
 fn view<'py, T: ArrowPrimitiveType>(
     py: Python<'py>,
     column: &ArrayRef,
@@ -112,7 +112,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
     Ok(objects)
 }
 
-/// Returns the part of a type whose values `to_pylist` makes no objects of.
+/// Returns the nested type whose values `to_pylist` cannot convert.
 fn without_objects(kind: &DataType) -> Option<&DataType> {
     match kind {
         DataType::ListView(_)

@@ -13,61 +13,61 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Rows that one thread answers in one go.
+/// The rows that a thread answers at a time.
 pub(crate) enum Piece {
     /// Rows of motions.
     Motions(Arc<Batch>, Range<usize>),
-    /// A path, and its id.
+    /// A path and its id.
     Path(Box<CourseRow>, ArrayRef),
 }
 
 /// The pieces of a table, in order, until the flag is set.
 pub(crate) struct Pieces<'p> {
     source: Source,
-    pace: &'p Pace,
+    size: &'p PieceSize,
     stop: &'p AtomicBool,
-    /// What is wrong with the table after the last piece.
+    /// The error of the table after the last piece.
     pub(crate) fault: Option<TableError>,
 }
 
 enum Source {
     Motions {
         batches: Batches,
-        /// What is left of the batch that was read last.
+        /// The remaining rows of the last batch.
         rest: Option<(Arc<Batch>, Range<usize>)>,
     },
     Paths(Box<Courses<Rows>>, Arc<Batch>),
 }
 
-/// The number of rows that one thread answers in one go.
+/// The number of rows that a thread answers at a time.
 ///
 /// Many rows in one go keep caches warm: with a quarter of them, a table of bunnies takes 1.5 % more time. Towards the
 /// end of a batch pieces get smaller, so that no thread waits long for the others.
-pub(crate) struct Pace {
+pub(crate) struct PieceSize {
     rows: AtomicUsize,
     threads: usize,
 }
 
-/// The time that a piece should take.
+/// The target duration of a piece.
 const PIECE: Duration = Duration::from_millis(20);
 
-/// The most rows of a piece.
+/// The maximum number of rows of a piece.
 const MOST_ROWS: usize = 512;
 
-impl Pace {
+impl PieceSize {
     /// Starts with one row.
     pub(crate) fn new(threads: usize) -> Self {
         let rows = AtomicUsize::new(1);
-        Pace { rows, threads }
+        PieceSize { rows, threads }
     }
 
-    /// Returns how many of the rows that are left the next piece takes.
-    fn take_of(&self, left: usize) -> usize {
+    /// Returns the number of rows of the next piece, out of `left` remaining ones.
+    fn next_rows(&self, left: usize) -> usize {
         let share = left.div_ceil(2 * self.threads);
         self.rows.load(Ordering::Relaxed).min(share)
     }
 
-    /// Adapts the pieces that follow to the time that one has taken.
+    /// Adapts the size of later pieces to the duration of one.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
         // A small piece at the end of a batch says nothing against larger ones.
         if taken < PIECE / 2 {
@@ -79,7 +79,7 @@ impl Pace {
     }
 }
 
-/// Refuses a table by its columns.
+/// Checks the columns of a table.
 pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
     let schema = reader.schema();
     let columns = Columns::of(&header(&schema))?;
@@ -88,12 +88,12 @@ pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
 }
 
 impl<'p> Pieces<'p> {
-    /// Begins to read a table whose columns have been checked. One of paths is read to its end, or until the flag is set.
+    /// Starts to read a table with checked columns. One of paths is read to its end, or until the flag is set.
     pub(crate) fn of(
         (reader, form): (Reader, Form),
         question: Question,
         names: Names,
-        pace: &'p Pace,
+        size: &'p PieceSize,
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
         let source = match form {
@@ -111,7 +111,7 @@ impl<'p> Pieces<'p> {
         };
         Ok(Pieces {
             source,
-            pace,
+            size,
             stop,
             fault: None,
         })
@@ -119,7 +119,7 @@ impl<'p> Pieces<'p> {
 }
 
 impl Pieces<'_> {
-    /// Returns what is odd about the rows read so far; those of motions are read by their columns.
+    /// Returns the remarks about the rows read so far; those about motions come from `columns`.
     pub(crate) fn remarks(&self, columns: &Columns) -> Vec<Remark> {
         match &self.source {
             Source::Motions { .. } => columns.remarks(),
@@ -135,7 +135,7 @@ impl Iterator for Pieces<'_> {
         if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
             return None;
         }
-        let piece = self.source.next(self.pace);
+        let piece = self.source.next(self.size);
         piece.unwrap_or_else(|fault| {
             self.fault = Some(fault);
             None
@@ -144,8 +144,8 @@ impl Iterator for Pieces<'_> {
 }
 
 impl Source {
-    /// Returns a piece of at least one row, unless a batch has none.
-    fn next(&mut self, pace: &Pace) -> Result<Option<Piece>, TableError> {
+    /// Returns the next piece, which is empty only for an empty batch.
+    fn next(&mut self, size: &PieceSize) -> Result<Option<Piece>, TableError> {
         match self {
             Source::Motions { batches, rest } => {
                 let (batch, rows) = match rest.take() {
@@ -158,7 +158,7 @@ impl Source {
                         None => return Ok(None),
                     },
                 };
-                let end = rows.start + pace.take_of(rows.len());
+                let end = rows.start + size.next_rows(rows.len());
                 *rest = Some((Arc::clone(&batch), end..rows.end));
                 Ok(Some(Piece::Motions(batch, rows.start..end)))
             }

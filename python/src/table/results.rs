@@ -9,7 +9,7 @@ use rigid_ccd::batch::Question;
 use rigid_ccd::table::results::{COLUMNS, LAST_TIME, ResultRow};
 use std::sync::Arc;
 
-/// Returns the columns of the results of a question about rows with such ids: those of the command.
+/// Returns the columns of the results of a question, as in the command, for a given column of ids.
 pub(crate) fn schema(question: Question, id: Field) -> Result<Schema, ArrowError> {
     let batch = batch(question, new_empty_array(id.data_type()), &[])?;
     let mut fields = batch.schema().fields().to_vec();
@@ -17,7 +17,7 @@ pub(crate) fn schema(question: Question, id: Field) -> Result<Schema, ArrowError
     Ok(Schema::new(fields))
 }
 
-/// Puts results one after another. Ids too long for one column of their type become those of the type for long ones.
+/// Concatenates results. Ids too long for one column of their type become those of the type for long ones.
 pub(crate) fn joined(
     schema: &Arc<Schema>,
     batches: &[RecordBatch],
@@ -42,7 +42,7 @@ pub(crate) fn joined(
     })
 }
 
-/// Makes columns of rows.
+/// Converts rows to columns.
 ///
 /// The values of empty cells are NaN, so that the buffers can be read without their validity.
 pub(crate) fn batch(

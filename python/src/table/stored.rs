@@ -1,4 +1,4 @@
-//! Tables as pickle keeps them: an Arrow stream of one batch.
+//! The pickled form of a table: an Arrow stream of one batch.
 
 use crate::errors::input as refuse;
 use arrow_array::RecordBatch;
@@ -14,12 +14,12 @@ pub(super) fn write(batch: &RecordBatch) -> PyResult<Vec<u8>> {
     writer.into_inner().map_err(refuse)
 }
 
-/// Returns the checksum that is kept beside the bytes: CRC-32.
+/// Returns the checksum of the bytes: CRC-32.
 pub(super) fn checksum(stored: &[u8]) -> u32 {
     crc32fast::hash(stored)
 }
 
-/// Reads a table, if its bytes are those that were written.
+/// Reads a table, if the checksum of the bytes is right.
 ///
 /// Where even the checksum was forged, nothing is allocated for what is announced and not there.
 pub(super) fn read(stored: &[u8], checksum: u32) -> PyResult<RecordBatch> {

@@ -1,4 +1,4 @@
-//! In which direction two convex pieces that overlap part soonest.
+//! The direction of least penetration of two overlapping convex pieces.
 
 use crate::Prepared;
 use crate::form::Form;
@@ -9,10 +9,10 @@ use ccd_core::vector::unit;
 use ccd_core::{Piece, Pose};
 use rigid_ccd::Solver;
 
-/// The most products of edges that are tried.
+/// The maximum number of cross products of edges that are tried.
 const MOST_EDGES: usize = 4096;
 
-/// Returns a unit vector, from the first piece to the second one, along which they overlap least.
+/// Returns the unit vector from the first piece to the second along which they overlap least.
 ///
 /// For rounded pieces whose cores are apart it is the direction between these. Otherwise it is the best of the normals
 /// of facets, the products of edges, and the direction between the middles. Where pieces have too many edges for all
@@ -51,7 +51,7 @@ pub(super) fn direction(
     best.map(|(_, axis)| axis)
 }
 
-/// Returns the direction between the cores of rounded pieces, if these are apart.
+/// Returns the direction between the cores of rounded pieces, if the cores are apart.
 fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) -> Option<DVec3> {
     if pieces.iter().all(|piece| piece.radius == 0.0) {
         return None;
@@ -118,7 +118,7 @@ impl Placed {
         }
     }
 
-    /// Returns how far it reaches along a unit vector.
+    /// Returns the extent of the piece along a unit vector.
     fn reach(&self, axis: DVec3) -> f64 {
         let heights = self.points.iter().map(|p| axis.dot(*p));
         heights.fold(f64::NEG_INFINITY, crate::order::greater) + self.radius

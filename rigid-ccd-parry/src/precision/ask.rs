@@ -1,4 +1,4 @@
-//! parry's arguments as a question.
+//! Conversion of parry's arguments to a cast.
 
 use super::CONTACT;
 use super::convert::{motion, point, pose};
@@ -13,18 +13,18 @@ use crate::{CastError, Options};
 use ccd_core::{InputError, Motion, StartPolicy};
 use rigid_ccd::Solver;
 
-/// What is asked about two bodies: all of parry's arguments but the shapes.
+/// The arguments of a cast except the shapes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Question {
     motions: [Motion; 2],
-    /// None if it holds no time.
+    /// The interval, or `None` if it contains no time.
     interval: Option<Interval>,
     target: f64,
     start: StartPolicy,
 }
 
 impl Question {
-    /// Takes the arguments of `cast_shapes_nonlinear`.
+    /// Creates the cast from the arguments of `cast_shapes_nonlinear`.
     pub(super) fn nonlinear(
         motions: [&NonlinearRigidMotion; 2],
         [start_time, end_time]: [Real; 2],
@@ -32,14 +32,14 @@ impl Question {
     ) -> Result<Self, CastError> {
         let [a, b] = motions.map(motion);
         Ok(Question {
-            motions: [of(1, a)?, of(2, b)?],
+            motions: [named_error(1, a)?, named_error(2, b)?],
             interval: Interval::new(f64::from(start_time), f64::from(end_time))?,
             target: 0.0,
             start: policy(stop_at_penetration),
         })
     }
 
-    /// Takes the arguments of `cast_shapes`.
+    /// Creates the cast from the arguments of `cast_shapes`.
     pub(super) fn linear(
         bodies: [(&Pose, Vector); 2],
         options: ShapeCastOptions,
@@ -48,14 +48,14 @@ impl Question {
             |(at, velocity): (&Pose, Vector)| Motion::new(pose(at)?, point(velocity), [0.0; 3]);
         let [a, b] = bodies.map(slides);
         Ok(Question {
-            motions: [of(1, a)?, of(2, b)?],
+            motions: [named_error(1, a)?, named_error(2, b)?],
             interval: Interval::new(0.0, f64::from(options.max_time_of_impact))?,
             target: f64::from(options.target_distance),
             start: policy(options.stop_at_penetration),
         })
     }
 
-    /// Answers it about two shapes.
+    /// Runs the cast on two shapes.
     pub(super) fn answer(
         &self,
         shapes: [&Ready; 2],
@@ -69,7 +69,7 @@ impl Question {
         Ok(found.as_ref().map(hit))
     }
 
-    /// Takes it down.
+    /// Records the cast of two shapes.
     #[cfg(feature = "record")]
     pub(super) fn recorded(
         &self,
@@ -94,7 +94,7 @@ impl Question {
     }
 }
 
-fn of(which: u8, motion: Result<Motion, InputError>) -> Result<Motion, CastError> {
+fn named_error(which: u8, motion: Result<Motion, InputError>) -> Result<Motion, CastError> {
     motion.map_err(|error| CastError::Motion { which, error })
 }
 

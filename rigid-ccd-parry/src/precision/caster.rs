@@ -1,4 +1,4 @@
-//! Casts that keep the bodies of shapes.
+//! Casts that cache the bodies of shapes.
 
 use super::ask::Question;
 use super::library::math::{Pose, Real, Vector};
@@ -13,7 +13,7 @@ use rigid_ccd::Solver;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Casts that keep the bodies of shapes from call to call: for simulations and games, that cast each frame.
+/// A caster that caches the bodies of shapes, for simulations and games that cast in each frame.
 ///
 /// A body is known by the address of its [`SharedShape`]. The caster holds a clone of it: while it does, the address
 /// belongs to that shape, and `SharedShape::make_mut` makes a copy at another one. A shape that is let go by everyone
@@ -40,7 +40,7 @@ pub struct Caster {
     options: Options,
     solver: Solver,
     shapes: HashMap<usize, (SharedShape, Ready)>,
-    /// The number of bodies after the last look for those that nobody else holds.
+    /// The number of bodies after the last removal of unused ones.
     seen: usize,
 }
 
@@ -77,7 +77,7 @@ impl Caster {
         self.answer(&question, [g1, g2])
     }
 
-    /// Finds when two shapes that move straight first touch: `query::cast_shapes`, with the same arguments.
+    /// Finds when two shapes in linear motion first touch: `query::cast_shapes`, with the same arguments.
     ///
     /// # Guarantee
     /// That of [`Caster::cast_shapes_nonlinear`].
@@ -99,8 +99,8 @@ impl Caster {
         self.answer(&question, [g1, g2])
     }
 
-    /// Takes down a cast as files that the command `ccd` reads, to ask other questions about it, and to see it: with the
-    /// arguments of [`Caster::cast_shapes_nonlinear`].
+    /// Records a cast as files for the command `ccd`, which can answer other questions about it and show it. The
+    /// arguments are those of [`Caster::cast_shapes_nonlinear`].
     ///
     /// # Errors
     /// [`CastError`]; [`CastError::NoTime`] for an end before the start.
@@ -139,7 +139,7 @@ impl Caster {
         question.recorded([&a, &b], &self.options)
     }
 
-    /// Returns the body of a shape, for other questions, and to have it made ahead.
+    /// Returns the body of a shape, for other questions, or to prepare it in advance.
     ///
     /// # Errors
     /// [`ShapeError`]; [`ShapeError::HalfSpace`] for half-spaces, which have no body.
@@ -150,12 +150,12 @@ impl Caster {
         }
     }
 
-    /// The number of bodies kept.
+    /// Returns the number of cached bodies.
     pub fn kept(&self) -> usize {
         self.shapes.len()
     }
 
-    /// Lets go of the bodies of shapes that nobody else holds.
+    /// Removes the bodies of shapes that have no other owner.
     pub fn forget_unused(&mut self) {
         self.shapes
             .retain(|_, (shape, _)| Arc::strong_count(&shape.0) > 1);
@@ -196,7 +196,7 @@ impl Caster {
     }
 }
 
-/// The number of bodies for which nobody looks whether they are still used.
+/// The number of bodies below which unused ones are not searched for.
 const FEW: usize = 32;
 
 fn address(shape: &SharedShape) -> usize {

@@ -53,7 +53,7 @@ pub fn cast_shapes_nonlinear(
         .map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes_nonlinear`], and tells why it has no answer; `times` are the start and the end.
+/// Like [`cast_shapes_nonlinear`], but returns an error if there is no answer; `times` are the start and the end.
 ///
 /// # Errors
 /// [`CastError`].
@@ -69,7 +69,7 @@ pub fn try_cast_shapes_nonlinear(
     answer(&question, [g1, g2])
 }
 
-/// Finds when two shapes that move straight first touch: `query::cast_shapes`, never late.
+/// Finds when two shapes in linear motion first touch: `query::cast_shapes`, never late.
 ///
 /// # Guarantee
 /// That of [`cast_shapes_nonlinear`].
@@ -105,7 +105,7 @@ pub fn cast_shapes(
     try_cast_shapes((pos1, vel1, g1), (pos2, vel2, g2), options).map_err(|_| Unsupported)
 }
 
-/// Like [`cast_shapes`], and tells why it has no answer; each shape comes with its pose and velocity.
+/// Like [`cast_shapes`], but returns an error if there is no answer; each shape comes with its pose and velocity.
 ///
 /// # Errors
 /// [`CastError`].
@@ -118,29 +118,29 @@ pub fn try_cast_shapes(
     answer(&question, [g1, g2])
 }
 
-/// What is kept from call to call.
+/// The solver and the bodies that a thread reuses from call to call.
 #[derive(Default)]
-struct Kept {
+struct ThreadMemory {
     shelf: Shelf,
     solver: Solver,
 }
 
 thread_local! {
-    /// Taken away while a call uses it.
-    static KEPT: Cell<Option<Box<Kept>>> = const { Cell::new(None) };
+    /// The thread's memory, taken out while a call uses it.
+    static MEMORY: Cell<Option<Box<ThreadMemory>>> = const { Cell::new(None) };
 }
 
 fn answer(question: &Question, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
     let options = Options::default();
     // A thread that ends keeps nothing any more.
-    let kept = KEPT.try_with(Cell::take).ok().flatten();
-    let mut kept = kept.unwrap_or_default();
-    let found = kept.answer(question, shapes, &options);
-    let _ = KEPT.try_with(|place| place.set(Some(kept)));
+    let memory = MEMORY.try_with(Cell::take).ok().flatten();
+    let mut memory = memory.unwrap_or_default();
+    let found = memory.answer(question, shapes, &options);
+    let _ = MEMORY.try_with(|place| place.set(Some(memory)));
     found
 }
 
-impl Kept {
+impl ThreadMemory {
     fn answer(
         &mut self,
         question: &Question,

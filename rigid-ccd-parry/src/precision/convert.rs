@@ -1,11 +1,11 @@
-//! Numbers, vectors, poses and motions, from parry's types and back.
+//! Conversion of numbers, vectors, poses and motions between parry's types and the engine's.
 
 use super::library::math::{Pose as ParryPose, Real, Vector};
 use super::library::query::NonlinearRigidMotion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 
-/// Returns the motion of a body in double precision: the same path, of the same numbers.
+/// Returns the motion of a body in double precision, with exactly the same path.
 ///
 /// parry's motion turns about `local_center`, a point in the shape's frame, which moves by `linvel`; `angvel` is along
 /// the world's axes. A [`Motion`] about that centre is the same. Its orientation is that of the quaternion made a unit
@@ -33,24 +33,24 @@ pub fn motion(motion: &NonlinearRigidMotion) -> Result<Motion, InputError> {
     )
 }
 
-/// Returns the placement in double precision.
+/// Converts a pose to double precision.
 pub(super) fn pose(pose: &ParryPose) -> Result<Pose, InputError> {
     let q = pose.rotation;
     let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
     Pose::new(point(pose.translation), DQuat::from_xyzw(x, y, z, w))
 }
 
-/// Returns the point in double precision.
+/// Converts a point to double precision.
 pub(super) fn point(v: Vector) -> DVec3 {
     DVec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
 }
 
-/// Returns the vector in parry's precision, rounded to nearest.
+/// Converts a vector to parry's precision, rounded to nearest.
 pub(super) fn vector(v: DVec3) -> Vector {
     Vector::new(v.x as Real, v.y as Real, v.z as Real)
 }
 
-/// Returns the time in parry's precision, rounded down.
+/// Converts a time to parry's precision, rounded down.
 pub(super) fn time(time: f64) -> Real {
     let near = time as Real;
     if f64::from(near) > time {

@@ -1,11 +1,11 @@
-//! What is found, in parry's types.
+//! Conversion of hits to parry's types.
 
 use super::convert::{time, vector};
 use super::library::query::{ShapeCastHit, ShapeCastStatus};
-use crate::scene::{Ending, Found};
+use crate::scene::{CastHit, Ending};
 
-/// Returns the hit in parry's terms: the time rounded down.
-pub(super) fn hit(found: &Found) -> ShapeCastHit {
+/// Converts a hit to parry's type, with the time rounded down.
+pub(super) fn hit(found: &CastHit) -> ShapeCastHit {
     let [witness1, witness2] = found.witnesses.map(vector);
     let [normal1, normal2] = found.normals.map(vector);
     let [subshape1, subshape2] = found.numbers;

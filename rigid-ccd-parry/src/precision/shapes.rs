@@ -1,4 +1,4 @@
-//! Forms of parry's shapes.
+//! Conversion of parry's shapes.
 
 use super::convert::{point, pose};
 use super::library::math::{IVector, Real};
@@ -52,12 +52,12 @@ pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeEr
     }
 }
 
-/// Returns a half-space.
+/// Converts a half-space.
 pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError> {
     HalfSpace::new(point(shape.normal))
 }
 
-/// Returns the geometry of a shape that is that deep in others.
+/// Returns the geometry of a shape at nesting depth `depth`.
 fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
     let mut form = Form::EMPTY;
     match shape.as_typed_shape() {

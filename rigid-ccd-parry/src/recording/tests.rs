@@ -27,7 +27,7 @@ impl Drop for Folder {
     }
 }
 
-/// Answers what a folder holds, as the command does: the time of the contact, if there is one.
+/// Answers the recording in a folder as the command does; returns the time of the contact, if any.
 fn answered(folder: &Path, command: &str) -> Option<f64> {
     let words: Vec<&str> = command.split(' ').collect();
     let option = |name: &str| {

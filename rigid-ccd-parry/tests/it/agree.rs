@@ -1,4 +1,4 @@
-//! The casts beside the engine itself, for bodies made by other means.
+//! Casts compared with the engine, on bodies that are made in other ways.
 
 use crate::double::make;
 use crate::scenes::{Moves, Recipe, motions, number, random, shape, vector};
@@ -10,7 +10,7 @@ fn wide(v: [f32; 3]) -> [f64; 3] {
     v.map(f64::from)
 }
 
-/// Makes a body by the engine's own means.
+/// Makes a body with the engine's own constructors.
 fn body(recipe: &Recipe) -> Body {
     let points = |points: &[[f32; 3]]| -> Vec<DVec3> {
         points.iter().map(|p| DVec3::from_array(wide(*p))).collect()

@@ -1,4 +1,4 @@
-//! Nothing touches before a hit, as parry's distances in double precision see it.
+//! No contact before a hit, according to parry's distances in double precision.
 //!
 //! `CCD_TEST_CASES` in the environment multiplies the number of cases.
 
@@ -12,15 +12,15 @@ use ccd_core::order::{greater, lesser};
 use rand::RngExt;
 use rigid_ccd_parry::{Options, f32 as ours32, f64 as ours64};
 
-/// A scene in numbers of single precision.
+/// A scene with single-precision numbers.
 struct Scene {
     recipes: [Recipe; 2],
     moves: [Moves; 2],
-    /// All lengths are multiplied by this, a power of two.
+    /// The factor on all lengths, a power of two.
     scale: f32,
     shapes: [SharedShape; 2],
     motions: [NonlinearRigidMotion; 2],
-    /// Without voxels, for which parry has no distances.
+    /// The parts of both shapes, without voxels, for which parry has no distances.
     parts: [Vec<Part>; 2],
 }
 
@@ -46,7 +46,7 @@ impl Scene {
         }
     }
 
-    /// Returns the shapes and motions of single precision.
+    /// Returns the shapes and motions in single precision.
     fn single(
         &self,
     ) -> (
@@ -57,14 +57,14 @@ impl Scene {
         (shapes, self.moves.map(|moves| single::make::motion(&moves)))
     }
 
-    /// The distance at a time; parry's is 0 for shapes that intersect.
+    /// Returns the distance at a time; parry's distance of intersecting shapes is 0.
     fn distance(&self, time: Real) -> Real {
         let [a, b] = &self.parts;
         self.distances(time, [a, b]).0
     }
 
-    /// The least distance at a time, pair by pair of convex parts: parry's distance of many parts may be wrong by
-    /// far, as may that of two in one of their orders. It is between these two.
+    /// Returns the least distance at a time over all pairs of convex parts. parry's distance of many parts may be far
+    /// off, as may that of two in one of their orders. It is between these two.
     fn bracket(&self, time: Real) -> (Real, Real) {
         let [a, b] = self.parts.each_ref().map(|parts| {
             let of_part = |(at, shape): &Part| triangles(*at, shape);
@@ -74,7 +74,7 @@ impl Scene {
         (lesser(there, least), greater(there, least))
     }
 
-    /// The least distances of all pairs, and those in the other order.
+    /// Returns the least distance over all pairs, in both orders of the shapes.
     fn distances(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
         let [p, q] = self.motions.map(|motion| motion.position_at_time(time));
         let mut least = (Real::INFINITY, Real::INFINITY);
@@ -89,7 +89,7 @@ impl Scene {
         least
     }
 
-    /// Returns whether the bodies are farther apart than that at sampled times before the end.
+    /// Returns whether the bodies are more than `by` apart at sampled times before the end.
     fn is_apart(&self, [start, end]: [Real; 2], by: Real) -> bool {
         let at = |k: i32| start + (end - start) * Real::from(k) / 60.0;
         (0..60)
@@ -97,15 +97,15 @@ impl Scene {
             .all(|time| self.distance(time) > by || self.bracket(time).1 > by)
     }
 
-    /// How far both bodies may exceed their shapes.
+    /// Bounds the sum of both bodies' excess over their shapes.
     fn excess(&self) -> f64 {
         let options = Options::default();
         let of = |shape: &SharedShape| ours64::body(&**shape, &options).expect("served").excess();
         self.shapes.iter().map(of).sum()
     }
 
-    /// How far parry's distances may be off, of shapes about one large or smaller: for round shapes its search ends as
-    /// soon as that.
+    /// Bounds the error of parry's distances, for shapes of size 1 or less: the search for round shapes ends at that
+    /// error.
     fn blur(&self) -> f64 {
         let kinds = self.recipes.each_ref().map(Recipe::name);
         let round = ["Round", "Capsule", "Cylinder", "Cone", "Compound"];
@@ -119,7 +119,7 @@ impl Scene {
     }
 }
 
-/// Returns the parts of a shape, and voxels as boxes.
+/// Returns the parts of a shape, with voxels as boxes.
 fn parts(at: Pose, shape: &SharedShape) -> Vec<Part> {
     match shape.as_typed_shape() {
         TypedShape::Compound(compound) => {
@@ -152,7 +152,7 @@ fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
     }
 }
 
-/// The counts of what was found.
+/// The numbers of hits and misses.
 #[derive(Debug, Default)]
 struct Count {
     hits: u64,
@@ -161,7 +161,7 @@ struct Count {
 }
 
 impl Count {
-    /// Checks a hit, or that there is none, of an interval and a target distance.
+    /// Checks the hit, or its absence, for an interval and a target distance.
     fn check(
         &mut self,
         scene: &Scene,

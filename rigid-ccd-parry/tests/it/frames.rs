@@ -1,4 +1,4 @@
-//! Witnesses, normals and sub-shapes are those of parry's casts, in the same frames.
+//! Witnesses, normals and sub-shapes equal those of parry's casts, in the same frames.
 
 use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, ShapeCastHit, ShapeCastOptions, ShapeCastStatus};
@@ -7,7 +7,7 @@ use crate::double::make;
 use crate::scenes::{Moves, motions, random, shape};
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
-/// Counts hits of both casts at about one time, and how many of them have the same points, directions and sub-shapes.
+/// The numbers of hits of both casts at about the same time, and of those with equal points, directions and sub-shapes.
 #[derive(Debug, Default)]
 struct Count {
     hits: u32,
@@ -41,7 +41,7 @@ impl Count {
         );
     }
 
-    /// Nearest points are not unique on edges that are parallel, or beside each other: a few may differ.
+    /// Checks the shares. A few hits may differ: the nearest points of parallel edges are not unique.
     fn check(&self) {
         let most = self.hits * 9 / 10;
         assert!(self.hits > 100, "{self:?}");
@@ -52,7 +52,7 @@ impl Count {
     }
 }
 
-/// Returns the distance of a point from a sub-shape: of the whole for shapes that have none, whose number is 0.
+/// Returns the distance of a point from a sub-shape, or from the whole shape if it has no sub-shapes.
 fn distance_of(shape: &make::SharedShape, number: u32, point: Vector) -> f64 {
     let mut found = f64::INFINITY;
     let mut measure = |at: Option<&Pose>, part: &dyn Shape| {

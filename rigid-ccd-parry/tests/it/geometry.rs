@@ -1,4 +1,4 @@
-//! Bodies are as large as parry's shapes in every direction.
+//! Bodies have the extent of parry's shapes in every direction.
 
 use crate::double;
 use crate::scenes::{KINDS, Recipe, random, shape, turn};
@@ -8,7 +8,7 @@ use parry3d_f64::shape::{Shape, SharedShape, TypedShape};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd_parry::{Options, Prepared};
 
-/// Returns how far a body reaches in a direction.
+/// Returns the extent of a body in a direction.
 fn reach(body: &Prepared, direction: DVec3) -> f64 {
     let pieces = body.body().pieces();
     let of_piece = |piece: rigid_ccd::Piece<'_>| {
@@ -18,7 +18,7 @@ fn reach(body: &Prepared, direction: DVec3) -> f64 {
     pieces.iter().map(of_piece).fold(f64::NEG_INFINITY, greater)
 }
 
-/// Returns how far a shape of parry's reaches, by its own means.
+/// Returns the extent of a parry shape in a direction, computed by parry.
 fn reach_of(shape: &dyn Shape, at: &Pose, direction: Vector) -> f64 {
     if let Some(map) = shape.as_support_map() {
         return map.support_point(at, direction).dot(direction);

@@ -1,4 +1,4 @@
-//! Inputs that break casts: no panic, no hang, no hit outside of the interval, no error without a name.
+//! Hostile inputs cause no panic, no endless loop, no hit outside the interval and no unnamed error.
 
 use ccd_core::order::greater;
 use parry3d::math::{Pose, Rotation, Vector};

@@ -1,4 +1,4 @@
-//! The casts beside parry, and beside the engine itself.
+//! Casts compared with parry and with the engine.
 
 mod agree;
 mod apart;
@@ -19,7 +19,7 @@ mod single {
     pub(crate) use parry3d as library;
     use rigid_ccd_parry::f32 as ours;
 
-    /// Numbers that casts go wrong at.
+    /// Numbers for which casts tend to fail.
     const ODD: [f32; 20] = [
         0.0,
         -0.0,
@@ -43,7 +43,7 @@ mod single {
         f32::NAN,
     ];
 
-    /// Orientations stay as they are given: this crate makes them units in double precision.
+    /// Returns the orientation unchanged: this crate normalises it in double precision.
     pub(crate) fn unit(rotation: library::math::Rotation) -> library::math::Rotation {
         rotation
     }
@@ -61,7 +61,7 @@ mod double {
     pub(crate) use parry3d_f64 as library;
     use rigid_ccd_parry::f64 as ours;
 
-    /// Numbers that casts go wrong at.
+    /// Numbers for which casts tend to fail.
     const ODD: [f64; 24] = [
         0.0,
         -0.0,
@@ -89,7 +89,7 @@ mod double {
         f64::NAN,
     ];
 
-    /// Orientations are units, for parry's own arithmetic.
+    /// Normalises the orientation, for parry's own arithmetic.
     pub(crate) fn unit(rotation: library::math::Rotation) -> library::math::Rotation {
         rotation.normalize()
     }

@@ -1,4 +1,4 @@
-//! parry's types of recipes, in one precision.
+//! Conversion of recipes to parry's types, in one precision.
 
 use super::library::math::{IVector, Pose, Real, Rotation, Vector};
 use super::library::query::NonlinearRigidMotion;

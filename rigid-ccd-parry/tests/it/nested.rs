@@ -1,4 +1,4 @@
-//! Compounds within compounds, which parry itself refuses unless it does not see them.
+//! Nested compounds, which parry refuses unless their type is hidden.
 
 use parry3d::bounding_volume::{Aabb, BoundingSphere};
 use parry3d::mass_properties::MassProperties;
@@ -37,7 +37,7 @@ fn parts_of_compounds_may_nest_and_not_without_end() {
     assert_eq!(error, ShapeError::Nested);
 }
 
-/// A compound that parry does not know for one, and so takes as a part of others.
+/// A compound with a hidden type, which parry accepts as a part of another one.
 #[derive(Clone)]
 struct Wrapped(Compound);
 

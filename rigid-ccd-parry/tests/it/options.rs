@@ -1,4 +1,4 @@
-//! What parry's arguments mean here: the table in the crate's documentation.
+//! The meaning of parry's arguments, as tabulated in the crate's documentation.
 
 use parry3d::math::{Pose, Vector};
 use parry3d::query::{NonlinearRigidMotion, ShapeCastOptions, ShapeCastStatus};
@@ -14,7 +14,7 @@ fn slides(x: f32, speed: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(at(x), Vector::ZERO, speed * Vector::X, Vector::ZERO)
 }
 
-/// Casts a ball of radius 1 from `x` at a ball of radius 1 in the origin.
+/// Casts a ball of radius 1 from `x` at a ball of radius 1 at the origin.
 fn balls(x: f32, speed: f32, options: ShapeCastOptions) -> Option<(f32, ShapeCastStatus)> {
     let ball = Ball::new(1.0);
     let hit = cast_shapes(

@@ -1,4 +1,4 @@
-//! Bodies that overlap at the start, and are to be let go if they part.
+//! Bodies that overlap at the start, and are ignored while they part.
 
 use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{
@@ -22,7 +22,7 @@ fn at(x: f64, y: f64, z: f64) -> Pose {
     Pose::translation(x, y, z)
 }
 
-/// Casts a shape from a pose at one that rests in the origin.
+/// Casts a shape from a pose at one that rests at the origin.
 fn cast(
     a: &dyn Shape,
     from: Pose,

@@ -1,11 +1,11 @@
-//! The engine's motions are parry's.
+//! The engine's motions equal parry's.
 
 use crate::scenes::{Moves, motions, number, random, vector};
 use crate::{double, single};
 use ccd_core::order::greater;
 use rigid_ccd::{Motion, glam::DVec3};
 
-/// Returns the largest distance of points of the body from where parry has them, relative to all lengths.
+/// Returns the largest distance of the body's points from parry's positions, relative to all lengths.
 fn worst(rounds: u64, error: impl Fn(&Moves, f32, [f32; 3]) -> f64) -> f64 {
     let mut rng = random(1);
     let mut worst = 0.0;

@@ -1,9 +1,9 @@
-//! Random scenes of all shapes, in numbers of single precision: both precisions have the same scene, exactly.
+//! Random scenes of all shapes, with single-precision numbers, so that both precisions have exactly the same scene.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// A shape, in numbers.
+/// The parameters of a shape.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Recipe {
     Ball(f32),
@@ -16,22 +16,22 @@ pub(crate) enum Recipe {
     /// The hull of points, grown by a radius.
     Hull(Vec<[f32; 3]>, f32),
     Mesh(Vec<[f32; 3]>, Vec<[u32; 3]>),
-    /// Heights by rows, the number of rows, the scale.
+    /// The heights by rows, the number of rows, and the scale.
     Heights(Vec<f32>, usize, [f32; 3]),
-    /// Half height and radius, and the radius that it is grown by.
+    /// The half height, the radius, and the radius by which the cylinder is grown.
     Cylinder(f32, f32, f32),
     Cone(f32, f32, f32),
     Voxels([f32; 3], Vec<[i32; 3]>),
     Polyline(Vec<[f32; 3]>),
-    /// Each part with its place and a quaternion.
+    /// The parts, each with its position and quaternion.
     Compound(Vec<([f32; 3], [f32; 4], Recipe)>),
 }
 
-/// A motion, in numbers.
+/// The parameters of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Moves {
     pub(crate) place: [f32; 3],
-    /// Of length one, up to rounding.
+    /// The orientation, a unit quaternion up to rounding.
     pub(crate) turned: [f32; 4],
     pub(crate) centre: [f32; 3],
     pub(crate) velocity: [f32; 3],
@@ -39,7 +39,7 @@ pub(crate) struct Moves {
 }
 
 impl Recipe {
-    /// Returns it with all lengths multiplied by a power of two.
+    /// Returns the motion with all lengths multiplied by a power of two.
     pub(crate) fn scaled(self, by: f32) -> Self {
         let v = |v: [f32; 3]| v.map(|x| x * by);
         match self {
@@ -66,7 +66,7 @@ impl Recipe {
         }
     }
 
-    /// Returns its kind in one word.
+    /// Returns the name of the shape's kind.
     pub(crate) fn name(&self) -> String {
         let text = format!("{self:?}");
         text.split('(').next().unwrap_or_default().to_owned()
@@ -74,7 +74,7 @@ impl Recipe {
 }
 
 impl Moves {
-    /// Returns it with all lengths multiplied by a power of two.
+    /// Returns the shape with all lengths multiplied by a power of two.
     pub(crate) fn scaled(self, by: f32) -> Self {
         let v = |v: [f32; 3]| v.map(|x| x * by);
         Moves {
@@ -111,7 +111,7 @@ pub(crate) fn turn(rng: &mut impl Rng) -> [f32; 4] {
 /// The number of kinds of shapes.
 pub(crate) const KINDS: u32 = 16;
 
-/// Returns a shape of a kind, about one large.
+/// Returns a random shape of a kind, of size about 1.
 pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
     let size = |rng: &mut _| number(rng, 0.1, 0.5);
     let points = |rng: &mut _| vector(rng, 0.5);
@@ -152,7 +152,7 @@ pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
     }
 }
 
-/// Returns a torus of a few triangles, not closed in one of four.
+/// Returns a torus of a few triangles; one in four is not closed.
 fn mesh(rng: &mut impl Rng) -> Recipe {
     let (rings, sides) = (7, 5);
     let thick = number(rng, 0.1, 0.25);
@@ -174,7 +174,7 @@ fn mesh(rng: &mut impl Rng) -> Recipe {
     Recipe::Mesh((0..rings * sides).map(vertex).collect(), faces)
 }
 
-/// Returns two motions of bodies that start some way apart, the first one aimed at the second one in most cases.
+/// Returns two motions of bodies that start apart; in most cases the first one is aimed at the second one.
 pub(crate) fn motions(rng: &mut impl Rng) -> [Moves; 2] {
     let moves = |rng: &mut _, place, velocity| {
         let fast = [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize];

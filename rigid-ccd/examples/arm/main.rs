@@ -1,4 +1,5 @@
-//! Edges of a planner for an arm of seven joints among obstacles: certified, beside checks at equal steps.
+//! The edges of a planner for an arm of seven joints among obstacles: certified, and compared with checks at equal
+//! steps.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example arm -- [EDGES [STEPS]]
@@ -21,7 +22,7 @@ use std::time::Instant;
 const CLEARANCE: f64 = 0.005;
 const OBSTACLES: usize = 20;
 
-/// Returns whether an edge of the planner's graph is free: each joint goes from one position to another.
+/// Returns whether an edge of the planner's graph is free, on which each joint goes from one position to another.
 fn edge_is_free(
     solver: &mut Solver,
     scene: &Scene,
@@ -79,7 +80,7 @@ fn steps_are_free(
     Ok(true)
 }
 
-/// Draws edges that begin where the arm is free.
+/// Draws random edges that start at a free position.
 fn draw(
     scene: &Scene,
     solver: &mut Solver,

@@ -1,4 +1,4 @@
-//! The arm of a URDF file, among obstacles.
+//! An arm from a URDF file, among obstacles.
 
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -8,18 +8,18 @@ use rigid_ccd::{Body, Error, InputError, Motion, Pose, Solver, load};
 use std::path::Path;
 use urdf_rs::{Geometry, JointType, Robot};
 
-/// An arm, and what it may hit.
+/// An arm and its obstacles.
 pub(crate) struct Scene {
     pub(crate) chain: Chain,
     /// The bodies of the links, in the frames of the links.
     pub(crate) links: Vec<Body>,
-    /// For each link, the links below it that it may hit: those that are apart from it at home.
+    /// For each link, the links below it that it may hit: those that are apart from it in the home position.
     pub(crate) others: Vec<Vec<usize>>,
     pub(crate) obstacles: Vec<(Body, Motion)>,
 }
 
 impl Scene {
-    /// Reads an arm, and puts it among obstacles that are drawn.
+    /// Reads an arm, and adds random obstacles.
     pub(crate) fn load(urdf: &Path, obstacles: usize, random: &mut Pcg64) -> anyhow::Result<Self> {
         let robot = urdf_rs::read_file(urdf)?;
         let chain = Chain::new(
@@ -58,7 +58,7 @@ impl Scene {
         vec![0.0; self.chain.joints().len()]
     }
 
-    /// Finds the pairs of links that are apart at home: neighbours touch all the time.
+    /// Finds the pairs of links that are apart in the home position; neighbouring links always touch.
     fn pair_links(&mut self) -> Result<(), Error> {
         let (home, mut solver) = (self.home(), Solver::new());
         for high in 0..self.links.len() {

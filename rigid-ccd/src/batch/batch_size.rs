@@ -1,4 +1,4 @@
-//! The number of rows that are answered between two times of saving.
+//! The batch size: the number of rows answered between two checkpoints.
 
 use std::time::Duration;
 
@@ -8,14 +8,14 @@ use std::time::Duration;
 /// items, so that memory is bounded.
 pub struct BatchSize {
     items: usize,
-    /// One item for each thread.
+    /// The minimum size: one item for each thread.
     least: usize,
 }
 
-/// The time that a batch should take: an interruption loses about as much work.
+/// The target time of a batch, which is about the work lost by an interruption.
 const BATCH: Duration = Duration::from_millis(500);
 
-/// The most items in a batch.
+/// The maximum number of items in a batch.
 const MAX_ITEMS: usize = 4096;
 
 impl BatchSize {
@@ -27,7 +27,7 @@ impl BatchSize {
         }
     }
 
-    /// Returns the number of items that the next batch should have.
+    /// Returns the number of items for the next batch.
     pub fn items(&self) -> usize {
         self.items
     }

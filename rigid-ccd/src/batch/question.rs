@@ -53,12 +53,12 @@ impl Question {
         }
     }
 
-    /// Returns whether the answer is a distance that is compared with one to be kept.
+    /// Returns whether the answer is a distance that can be compared with a clearance.
     pub fn is_for_a_clearance(self) -> bool {
         self.is_for_a_distance() && self != Question::GreatestDistance
     }
 
-    /// Returns whether the answer has one time at which all contacts can be listed.
+    /// Returns whether the answer has a single time at which all contacts can be listed.
     pub fn is_for_one_contact(self) -> bool {
         match self {
             Question::FirstContact | Question::IsFree => true,
@@ -69,7 +69,7 @@ impl Question {
         }
     }
 
-    /// Returns the rows of a table that make one path.
+    /// Returns which rows of a table form one path.
     pub fn grouping(self) -> Grouping {
         match self {
             Question::Distance => Grouping::EachRow,

@@ -29,7 +29,7 @@ pub enum ScheduleKind {
     /// Advances the pair whose proof expires first.
     #[default]
     BestFirst,
-    /// FAST, as published: one step for all pairs at which the distance query over hull trees stops.
+    /// FAST, as published: one step for all pairs in the front of the distance query over hull trees.
     Fast,
     /// One step for all pairs of pieces: slow, for comparison on small bodies.
     Naive,
@@ -38,10 +38,10 @@ pub enum ScheduleKind {
 /// The bound on the motion over a step of all pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum BoundKind {
-    /// Holds for any rotation.
+    /// A bound that holds for any rotation.
     #[default]
     Sound,
-    /// As published: times may be late, and contacts may be missed.
+    /// The published bound: times may be late, and contacts may be missed.
     Published,
 }
 
@@ -109,7 +109,7 @@ impl SolverKind {
         })
     }
 
-    /// Creates a solver whose backend computes with these instructions.
+    /// Creates a solver whose backend uses the given instruction set.
     pub fn solver(self, instructions: Instructions) -> Box<dyn Solve> {
         match self.oracle {
             OracleKind::Direct => self.with_oracle(ClosedForm::new(instructions).or_else(Gjk)),
@@ -118,7 +118,7 @@ impl SolverKind {
         }
     }
 
-    /// Prepares a body for the backend, so that its first queries are not slower than later ones.
+    /// Prepares a body for the backend, so that its first query is as fast as later ones.
     pub fn prepare(self, body: &Body) {
         match self.oracle {
             OracleKind::Direct => Direct::prepare(body),
@@ -198,7 +198,7 @@ impl fmt::Display for OracleKind {
     }
 }
 
-/// Writes the name of a value on the command line.
+/// Writes the command-line name of a value.
 fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     match value.to_possible_value() {
         Some(value) => f.pad(value.get_name()),

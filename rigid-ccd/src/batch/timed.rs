@@ -1,4 +1,4 @@
-//! Queries answered by a method that is chosen at run time, each with its time.
+//! Queries answered and timed with a method chosen at run time.
 
 use super::{Bodies, Question, Solve, SolverKind, median};
 use crate::table::courses::Course;
@@ -7,7 +7,7 @@ use ccd_core::{Answer, Settings};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-/// What is asked of each row, and how it is timed.
+/// The question for each row, and how its answer is timed.
 #[derive(Clone, Debug)]
 pub(crate) struct Timing {
     /// The question that every row answers.
@@ -40,7 +40,7 @@ pub(crate) struct Timed {
     pub(crate) micros: f64,
 }
 
-/// Answers a query as often as the timing says.
+/// Answers a query `repeat` times and returns the median time.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
 /// caches and memory, and each may take longer.

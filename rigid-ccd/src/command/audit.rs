@@ -77,10 +77,10 @@ proven free are counted, and left out. The others are:
 
 Exit code: 0 if all rows are proven free, 3 if some are not, 2 for bad input, 1 if nothing can be written.";
 
-/// The tolerance by default: nobody is blamed for what passes closely.
+/// The default tolerance: small, so that close passes are not reported as contacts.
 const SHARP: f64 = 1e-6;
 
-/// The column of the pages; it follows those of the results.
+/// The name of the column of pages; it follows the columns of the results.
 const PAGE: &str = "page";
 
 /// Certifies all rows.
@@ -144,7 +144,7 @@ fn timing(args: &AuditArgs) -> Timing {
     }
 }
 
-/// Pages in a folder that no other run writes to meanwhile.
+/// Pages and the claim of their folder, which excludes other runs.
 type Folder<'a> = (Pages<'a>, ccd_file::Claim);
 
 fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, CannotWrite> {
@@ -274,7 +274,7 @@ impl Audit<'_> {
     }
 }
 
-/// Returns the path of a page as text; none for a row that cannot be shown.
+/// Returns the path of a page as text; `None` for a row that cannot be shown.
 fn page(written: Result<PathBuf, PagesError>) -> Result<Option<String>, CannotWrite> {
     match written {
         Ok(path) => Ok(Some(path.display().to_string())),

@@ -11,11 +11,11 @@ pub struct BadRows {
     count: usize,
 }
 
-/// The number of bad rows that are printed.
+/// The maximum number of bad rows printed.
 const PRINTED: usize = 5;
 
 impl BadRows {
-    /// Creates a counter for a table of that name.
+    /// Creates a counter for the table named `input`.
     pub fn new(input: String) -> Self {
         BadRows { input, count: 0 }
     }

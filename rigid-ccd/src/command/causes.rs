@@ -20,7 +20,7 @@ pub(super) fn message(error: &anyhow::Error) -> String {
 /// The text before the error number of the operating system.
 const NUMBER: &str = " (os error ";
 
-/// Removes the error numbers of the operating system; their messages are in the text already.
+/// Removes the error numbers of the operating system, whose messages the text already has.
 fn without_numbers(text: &str) -> String {
     let mut parts = text.split(NUMBER);
     let mut out = parts.next().unwrap_or_default().to_owned();

@@ -1,4 +1,4 @@
-//! Tables read: files, or the standard streams; and names of files.
+//! Input tables from files or standard input, and the names of files in messages.
 
 use super::output::{RESUME, is_standard, is_standard_output};
 use crate::table::courses::Courses;
@@ -87,7 +87,7 @@ pub fn input_name(path: &Path) -> String {
     }
 }
 
-/// Returns whether two paths lead to one file, or would if it existed.
+/// Returns whether two paths refer to one file, or would if it existed.
 pub fn same_file(a: &Path, b: &Path) -> bool {
     a == b || real_path(a).is_some_and(|a| Some(a) == real_path(b))
 }

@@ -28,7 +28,7 @@ pub(super) fn run(args: &ManArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Writes the pages of a command and of all below it.
+/// Writes the pages of a command and of all its subcommands.
 fn write(command: Command, folder: &Path) -> Result<(), CannotWrite> {
     for below in command.get_subcommands().filter(|c| !c.is_hide_set()) {
         write(below.clone(), folder)?;

@@ -1,11 +1,11 @@
-//! The options of how mesh files are taken, for every subcommand that reads some.
+//! The options for reading mesh files, shared by the subcommands.
 
 use super::pieces::{NOT_GIVEN, value_name};
 use crate::text::Number;
 use ccd_decomp::{Adjustments, Axis, Unit};
 use clap::{Args, ValueEnum};
 
-/// How mesh files are taken.
+/// The options for reading mesh files.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
     /// Unit of all lengths: files in another one (glTF: metres; 3MF; part.stl@mm) are converted to it, all other numbers
@@ -29,7 +29,7 @@ fn factor(text: &str) -> Result<f64, String> {
     allowed.map(|_| factor).map_err(|error| error.to_string())
 }
 
-/// The axes.
+/// A coordinate axis.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum AxisArg {
     /// Change the signs of x
@@ -40,7 +40,7 @@ enum AxisArg {
     Z,
 }
 
-/// The units, by their signs.
+/// A unit of length, by its symbol.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum UnitArg {
     /// Micrometre
@@ -90,7 +90,7 @@ impl MeshArgs {
         })
     }
 
-    /// Returns the options with their values.
+    /// Returns the options with their values, as the journal records them.
     pub(super) fn recorded(&self) -> [(&'static str, String); 4] {
         let scale = self.scale.map(|factor| Number(factor).to_string());
         let surface = self.surface.then(|| "given".to_owned());

@@ -1,10 +1,10 @@
-//! Outputs: files, each claimed for this process and written beside its name, or streams.
+//! Outputs: streams, and files that are claimed by this process and written to a temporary file.
 
 use ccd_file::{Claim, Destination};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// An output that cannot be written; the input is not at fault.
+/// An output cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {place}: {source}")]
 pub struct CannotWrite {
@@ -21,19 +21,20 @@ impl CannotWrite {
     }
 }
 
-/// The ending of the name of a query's journal, which is beside its results.
+/// The file extension of a query's journal, which lies beside its results.
 pub(super) const RESUME: &str = ".resume";
 
 /// An output before it is written.
 pub(super) enum Output {
-    /// A file, by the path that was given, which other processes cannot claim meanwhile. An older file of its name is kept until it is complete.
+    /// A file, by the given path, claimed against other processes. An older file of its name is kept until it is
+    /// complete.
     File(Claim, PathBuf),
     /// Standard output, a pipe, a terminal or a device.
     Stream(PathBuf),
 }
 
 impl Output {
-    /// Claims an output: what takes long is not done for a file that cannot be written, or that another run writes.
+    /// Claims an output before the work starts, so that an output that cannot be written fails at once.
     pub(super) fn claim(path: &Path) -> Result<Self, CannotWrite> {
         let claim = || {
             if is_standard_output(path) {
@@ -47,7 +48,7 @@ impl Output {
         claim().map_err(|source| CannotWrite::at(path, source))
     }
 
-    /// Claims an output for a table that is not that of a query's results, which would be lost.
+    /// Claims an output for a table other than a query's results; refuses to overwrite an interrupted query.
     pub(super) fn claim_table(path: &Path) -> Result<Self, CannotWrite> {
         let output = Output::claim(path)?;
         match &output {
@@ -63,7 +64,7 @@ impl Output {
         }
     }
 
-    /// The name for messages.
+    /// Returns the name for messages.
     pub(super) fn name(&self) -> String {
         match self {
             Output::File(_, path) | Output::Stream(path) => output_name(path),
@@ -74,7 +75,7 @@ impl Output {
         matches!(self, Output::Stream(_))
     }
 
-    /// Writes all of it in one go.
+    /// Writes the whole output at once.
     pub(super) fn write(
         self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -89,7 +90,7 @@ impl Output {
     }
 }
 
-/// Returns whether a path stands for standard output, whatever that is: a file behind it is not replaced.
+/// Returns whether a path stands for standard output, even one redirected to a file: such a file is not replaced.
 pub(super) fn is_standard_output(path: &Path) -> bool {
     is_standard(path) || path == Path::new("/dev/stdout")
 }

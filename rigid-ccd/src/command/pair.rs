@@ -7,7 +7,7 @@ use crate::batch::{Bodies, SolverKind};
 use crate::command::files::same_file;
 use crate::command::progress::Progress;
 use crate::command::size::Size;
-use crate::command::{complain, tell};
+use crate::command::{complain, print_line};
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
@@ -48,20 +48,20 @@ impl BodiesArgs {
     }
 }
 
-/// What bodies are loaded for.
+/// How bodies are loaded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Loading<'a> {
     pub(super) bodies: &'a BodiesArgs,
     pub(super) method: SolverKind,
-    /// Whether nothing is printed about them.
+    /// Whether messages about the bodies are suppressed.
     pub(super) quiet: bool,
 }
 
-/// Both bodies; `b` is none when both come from the same file or primitive.
+/// Both bodies; `b` is `None` when both come from the same file or primitive.
 pub(super) struct Pair {
     a: Body,
     b: Option<Body>,
-    /// Checksums of their files, by option.
+    /// The checksums of the bodies' files, by option.
     pub(super) checksums: [(&'static str, String); 2],
 }
 
@@ -91,7 +91,7 @@ impl Pair {
         Ok(Pair { a, b, checksums })
     }
 
-    /// Remarks upon a tolerance that is large against the smaller body.
+    /// Returns a remark if the tolerance is large relative to the smaller body.
     pub(super) fn remark(&self, tolerance: f64) -> Option<Remark> {
         let Bodies { a, b } = self.bodies();
         Remark::of_tolerance(tolerance, [a, b].map(Remark::size))
@@ -136,14 +136,14 @@ fn load(
     if !quiet {
         let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
         let unit = unit.unwrap_or_default();
-        tell(&format!("{option} {text}: {report}, size {size}{unit}"));
+        print_line(&format!("{option} {text}: {report}, size {size}{unit}"));
     } else if !remarks.is_empty() {
         complain(&format!("{option} {text}: {remarks}"));
     }
     Ok((body, unit))
 }
 
-/// Says that two files are in different units, or that the unit of only one is known. Shapes have none: their numbers are
+/// Warns if two files have different units, or if the unit of only one is known. Shapes have none: their numbers are
 /// the user's own.
 fn mixed_units([(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2]) -> Option<String> {
     let (known, unit, other) = match (a, b) {
@@ -182,7 +182,7 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
     }
 }
 
-/// Returns the files that a body comes from; none for a primitive.
+/// Returns the files of a body; empty for a primitive.
 fn files(source: &BodySource) -> Vec<PathBuf> {
     // A file that cannot be read is reported when its body is made.
     source.files().unwrap_or_else(|_| match source {

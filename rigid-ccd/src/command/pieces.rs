@@ -1,4 +1,4 @@
-//! The options `--pieces` and `--hulls`, for every subcommand.
+//! The options `--pieces` and `--hulls`, shared by the subcommands.
 
 use anyhow::{Result, bail};
 use ccd_decomp::{Detail, Order};
@@ -15,7 +15,7 @@ pub(super) struct PiecesArgs {
     hulls: Option<u32>,
 }
 
-/// The recorded value of an option that is not given.
+/// The recorded value of an option that was not given.
 pub(super) const NOT_GIVEN: &str = "not given";
 
 const DEFAULT_HULLS: u32 = 32;
@@ -37,7 +37,7 @@ enum PiecesArg {
     Vhacd,
 }
 
-/// Returns the name of a value on the command line.
+/// Returns the command-line name of a value.
 pub(super) fn value_name(value: &impl ValueEnum) -> String {
     let value = value.to_possible_value();
     value.map_or_else(String::new, |value| value.get_name().to_owned())

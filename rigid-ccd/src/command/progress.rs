@@ -10,14 +10,13 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// The progress of work that takes longer than a second: a moving bar where standard error is a terminal,
-/// else a line every few seconds.
+/// The progress of work longer than a second: a bar on a terminal, otherwise a line every few seconds.
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,
     steps: Arc<AtomicU64>,
     total: Total,
-    /// The bytes of a step, and where the steps end that have begun, where the total is in bytes.
+    /// For a total in bytes: the input bytes of a step, and the ends of the steps that have begun.
     bytes_of_step: AtomicU64,
     end: AtomicU64,
     /// The end of a channel that closes when the work is done.
@@ -38,7 +37,7 @@ pub enum Total {
     One,
 }
 
-/// The time before anything is shown.
+/// The delay before anything is shown.
 const DELAY: Duration = Duration::from_secs(1);
 
 /// The time between two frames of a bar.
@@ -48,7 +47,7 @@ const FRAME: Duration = Duration::from_millis(120);
 const LINE: Duration = Duration::from_secs(5);
 
 impl Progress {
-    /// Starts to show progress, until it is dropped.
+    /// Starts to show progress; dropping the value ends it.
     pub fn new(total: Total) -> Self {
         let mut progress = Progress::hidden();
         progress.total = total;
@@ -83,7 +82,7 @@ impl Progress {
         progress
     }
 
-    /// Starts to show one long step.
+    /// Starts to show one long step with a message.
     pub fn of(message: &str) -> Self {
         let progress = Progress::new(Total::One);
         progress.say(message);
@@ -113,7 +112,7 @@ impl Progress {
         }
     }
 
-    /// Begins as many steps, which answer the rows that end at that byte of the input; all rows before are answered.
+    /// Begins `steps` steps, which answer the rows up to byte `end` of the input; all earlier rows are answered.
     pub fn answering(&self, steps: usize, end: u64) {
         if let Total::Bytes(_) = self.total {
             let begin = self.end.swap(end, Ordering::Relaxed);
@@ -178,7 +177,7 @@ fn line(bar: &ProgressBar, total: Total, steps: &AtomicU64) -> String {
     }
 }
 
-/// Returns the number of rows answered, and how fast they are.
+/// Returns the number of rows answered and their rate.
 fn rate(steps: &AtomicU64, elapsed: Duration) -> String {
     let steps = steps.load(Ordering::Relaxed);
     let seconds = elapsed.as_secs_f64();

@@ -1,4 +1,4 @@
-//! `ccd query`: reads two bodies and a table of motions, writes a table of results.
+//! `ccd query`: reads two bodies and a table of motions, and writes a table of results.
 
 mod answering;
 mod args;
@@ -30,7 +30,7 @@ use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use summary::Summary;
 
-/// Answers all valid rows; the results say what is wrong with the others.
+/// Answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
@@ -103,7 +103,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     })
 }
 
-/// Writes the page of the rows that were chosen, if there is to be one.
+/// Writes the page of the chosen rows, if a page was requested.
 fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> Result<Exit> {
     let Some((chosen, html)) = page else {
         return Ok(Exit::AllAnswered);
@@ -111,13 +111,13 @@ fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> 
     let subject = Drawn {
         title: &title(&args.bodies),
         pair,
-        asked: asked(args),
+        asked: page_context(args),
     };
     write_rows(subject, chosen, html, args.quiet)
 }
 
-/// Returns what a page may say of the answers.
-fn asked(args: &QueryArgs) -> Asked {
+/// Returns the context in which a page interprets the answers.
+fn page_context(args: &QueryArgs) -> Asked {
     let claim = match (args.bound, args.ask) {
         (Some(BoundKind::Published), _) => Claim::Published,
         (_, Question::IsFree) => Claim::Any,
@@ -167,7 +167,7 @@ fn check_bound(args: &QueryArgs) -> Result<()> {
     }
 }
 
-/// Refuses options that the question has no use for.
+/// Refuses options that do not apply to the question.
 fn check_question(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
     if args.clearance.is_some() && ask == Question::GreatestDistance {
@@ -197,7 +197,7 @@ fn check_question(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
-/// Refuses to check what proves nothing.
+/// Refuses `--check` with options under which no answer is a proof.
 fn check_check(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
     if !args.check {
@@ -217,7 +217,7 @@ fn check_check(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
-/// Refuses options that are for tables of motions, where the table is one of paths.
+/// Refuses options for tables of motions if the table contains paths.
 fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
     match rows {
         Rows::Motions(_) => Ok(()),
@@ -238,7 +238,7 @@ fn leaves(args: &QueryArgs) -> bool {
     StartPolicy::from(args.start) == StartPolicy::Leave
 }
 
-/// Returns everything that the tables depend on, except for the motions.
+/// Returns all settings that determine the tables, except the motions.
 fn recorded(args: &QueryArgs, pair: &Pair) -> Recorded {
     let owned = |(option, value): (&str, String)| (option.to_owned(), value);
     let mut recorded = vec![owned(("ccd", env!("CARGO_PKG_VERSION").to_owned()))];
@@ -275,7 +275,7 @@ fn timing(args: &QueryArgs) -> Timing {
     }
 }
 
-/// Warns that there was no row to answer: this is hardly what the user meant.
+/// Warns that no row was answered.
 fn report_no_rows(args: &QueryArgs, skipped: usize) {
     let input = input_name(&args.motions);
     if args.rows.is_all() {
@@ -299,7 +299,7 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
     }
 }
 
-/// Returns the end of a run with these rows; says how many a check is not satisfied with.
+/// Returns the exit of a run, and prints how many rows failed a check.
 fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
     let counts = Status::ALL.into_iter().zip(end.counts);
     let failed: usize = counts

@@ -105,7 +105,7 @@ struct Row<'a> {
     reason: Option<String>,
 }
 
-/// Lists the contacts.
+/// Runs `ccd scene`.
 pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     refuse_overwriting(("the scene", &args.scene), ("--out", &args.out))?;
     let table = scene_table::read(

@@ -1,10 +1,10 @@
-//! The table of a scene: a row for each body.
+//! The table of a scene: one row for each body.
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
-use super::{complain, complain_of, tell};
+use super::{complain, complain_of, print_line};
 use crate::picture::Shown;
-use crate::table::motions::{MotionTable, Query, RowPosition, TableError};
+use crate::table::motions::{MotionTable, Motions, RowPosition, TableError};
 use crate::text::Number;
 use crate::{Impact, PairError, Remark, Scene};
 use anyhow::{Context, Result, bail};
@@ -17,45 +17,45 @@ use std::path::{Path, PathBuf};
 /// The column that names a body.
 const BODY: &str = "body";
 
-/// The end of all motions, where none is given.
+/// The default end of all motions.
 const DURATION: f64 = 1.0;
 
-/// How the bodies of a scene are loaded, and how long they move.
+/// The options for loading a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
     pub(super) meshes: &'a MeshArgs,
     pub(super) pieces: &'a PiecesArgs,
-    /// The end of all motions, if it is given.
+    /// The end of all motions, if given.
     pub(super) duration: Option<f64>,
 }
 
 /// The bodies of a scene.
 pub(super) struct SceneTable {
-    /// By description.
+    /// The bodies, by their descriptions.
     bodies: HashMap<String, Body>,
     files: Vec<PathBuf>,
-    /// What was found about each.
+    /// The messages from loading the bodies.
     reports: Vec<String>,
-    /// What is odd about the motions.
+    /// The remarks about the motions.
     remarks: Vec<Remark>,
     rows: Vec<Row>,
     /// The end of all motions.
     pub(super) duration: f64,
-    /// Whether nobody has given it.
+    /// Whether the duration is the default.
     is_usual: bool,
 }
 
 /// A body of a scene.
 struct Row {
-    /// What it is.
+    /// The description of the body.
     text: String,
     id: String,
-    /// The id, with what it is if the id is a number.
+    /// The id, with the description if the id is a number.
     name: String,
     motion: Motion,
 }
 
-/// Reads a table, and loads each body once.
+/// Reads a table, and loads each distinct body once.
 pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     let name = || path.display().to_string();
     let duration = how.duration.unwrap_or(DURATION);
@@ -63,7 +63,7 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     if table.rows.is_empty() {
         bail!("{}: has no bodies", name());
     }
-    if let Some(problem) = twice(&table.rows) {
+    if let Some(problem) = duplicate_ids(&table.rows) {
         bail!("{}: {problem}", name());
     }
     let mut scene = SceneTable {
@@ -93,8 +93,8 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
     Ok(scene)
 }
 
-/// Says which rows have the same id: a contact would not tell which of them touches.
-fn twice(rows: &[(RowPosition, Query)]) -> Option<String> {
+/// Names the rows with the same id, which contacts could not distinguish.
+fn duplicate_ids(rows: &[(RowPosition, Motions)]) -> Option<String> {
     let mut known: HashMap<&str, RowPosition> = HashMap::new();
     rows.iter().find_map(|(position, query)| {
         let first = known.insert(&query.id, *position)?;
@@ -107,7 +107,7 @@ fn twice(rows: &[(RowPosition, Query)]) -> Option<String> {
     })
 }
 
-/// Reads a table as descriptions of bodies beside motions.
+/// Reads a table as descriptions of bodies and their motions.
 fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)> {
     let name = || path.display().to_string();
     let mut reader = csv::ReaderBuilder::new()
@@ -155,34 +155,34 @@ fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)
     }
     let table = match MotionTable::read(motions.into_inner()?.as_slice()) {
         Ok(table) => table,
-        Err(error) => bail!("{}: {}", name(), worded(&error)),
+        Err(error) => bail!("{}: {}", name(), reworded(&error)),
     };
     if let Some(error) = table.errors.first() {
-        bail!("{}: {}", name(), plain(&error.to_string()));
+        bail!("{}: {}", name(), without_prefix(&error.to_string()));
     }
     Ok((described, table))
 }
 
-/// What a column of times may be called, which a scene does not have.
+/// Likely names of a column of times, which a scene does not have.
 const TIMES: [&str; 3] = ["duration", "t", "time"];
 
-/// Words an error of a table of motions for one of a scene.
-fn worded(error: &TableError) -> String {
+/// Rewords an error of a table of motions for the table of a scene.
+fn reworded(error: &TableError) -> String {
     match error {
         TableError::UnknownColumn {
             column,
             nearest: None,
             ..
-        } => plain(&format!(
+        } => without_prefix(&format!(
             "header: unknown column `{column}`; known columns of a scene are body, id, px py pz, qw qx qy qz, vx vy vz, \
              wx wy wz, end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
         )),
-        error => plain(&error.to_string()),
+        error => without_prefix(&error.to_string()),
     }
 }
 
-/// Takes the prefix of body A from the names of columns, which have none in a scene; its duration is an option.
-fn plain(error: &str) -> String {
+/// Removes the prefix of body A from column names in a message, because a scene has none.
+fn without_prefix(error: &str) -> String {
     let error = error.replace("column duration", "--duration");
     let words = error.split_inclusive([' ', '`']);
     words
@@ -204,16 +204,16 @@ impl SceneTable {
         Ok(())
     }
 
-    /// Returns the files that were read, each with what names it.
+    /// Returns the files that were read, each with its option or body.
     pub(super) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let files = self.files.iter();
         files.map(|path| ("a body of the scene", path.as_path()))
     }
 
-    /// Prints what was found about each body, until when they move, and what is odd about it.
+    /// Prints the messages about the bodies, the duration and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
         for report in &self.reports {
-            tell(report);
+            print_line(report);
         }
         if self.is_usual {
             complain(&format!(

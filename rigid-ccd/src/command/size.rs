@@ -1,4 +1,4 @@
-//! Sizes of bodies, to detect different units of length.
+//! The sizes of bodies, for detecting different units of length.
 
 use super::complain;
 use crate::text::Number;
@@ -11,8 +11,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug)]
 pub struct Size(DVec3);
 
-/// The ratio of sizes above which the command warns: a part in millimetres is a thousand times as large as
-/// the same part in metres.
+/// The ratio of sizes above which the command warns; millimetres and metres differ by 1000.
 const RATIO: f64 = 100.0;
 
 impl Size {
@@ -42,7 +41,7 @@ impl Size {
         self.0.to_array().into_iter().fold(0.0, greater)
     }
 
-    /// Warns when two bodies may have different units of length.
+    /// Warns if two bodies may have different units of length.
     pub fn compare(a: Size, b: Size) {
         let (of_a, of_b) = (a.largest(), b.largest());
         let (large, small, ratio) = if of_a > of_b {

@@ -17,14 +17,14 @@ pub struct Table {
     claim: Option<Claim>,
 }
 
-/// What has been written: its length in bytes, and its checksum.
+/// The length in bytes and the checksum of what has been written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Written {
     pub(super) bytes: u64,
     pub(super) checksum: u32,
 }
 
-/// A writer that measures what it writes.
+/// A writer that counts and checksums the bytes written.
 pub struct Measured {
     to: Box<dyn Write>,
     bytes: u64,
@@ -32,12 +32,12 @@ pub struct Measured {
 }
 
 impl Table {
-    /// Creates a table with its header; an existing file of that name is kept until the table is complete.
+    /// Creates a table with its header; an existing file is kept until the new table is complete.
     pub fn create(path: &Path, header: &[&str]) -> Result<Self, CannotWrite> {
         Table::start(Output::claim_table(path)?, header)
     }
 
-    /// Starts a table in an output, whatever an earlier run left there.
+    /// Starts a table in an output, and discards what an earlier run left there.
     pub(super) fn start(output: Output, header: &[&str]) -> Result<Self, CannotWrite> {
         let name = output.name();
         let opened = match output {
@@ -67,8 +67,8 @@ impl Table {
         Ok(table)
     }
 
-    /// Continues a table behind what is written of it, and drops the rest. Returns none if that is not there any more
-    /// as it was written.
+    /// Continues a table after its first `written` bytes, and truncates the rest. Returns none if that is not there any
+    /// more as it was written.
     pub(super) fn resume(mut claim: Claim, written: Written) -> Result<Option<Self>, CannotWrite> {
         let name = claim.target().display().to_string();
         let opened = (|| {
@@ -112,12 +112,12 @@ impl Table {
         row(&mut self.writer).map_err(|error| self.failed(csv_cause(error)))
     }
 
-    /// Flushes all rows, which are kept from then on if the run is interrupted.
+    /// Flushes all rows; they survive an interruption from then on.
     pub fn flush(&mut self) -> Result<(), CannotWrite> {
         self.written().map(|_| ())
     }
 
-    /// Flushes all rows, and returns what there is of the table.
+    /// Flushes all rows, and returns the length and checksum of the table.
     pub(super) fn written(&mut self) -> Result<Written, CannotWrite> {
         let flushed = self.writer.flush();
         flushed.map_err(|source| self.failed(source))?;
@@ -167,7 +167,7 @@ fn file_of(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
     Ok(Box::new(claim.file().try_clone()?))
 }
 
-/// Measures the first bytes of a table, or all of a shorter one.
+/// Measures up to `bytes` bytes of a table.
 pub(super) fn measure(table: impl Read, bytes: u64) -> io::Result<(Written, crc32fast::Hasher)> {
     let mut measured = Measured {
         to: Box::new(io::sink()),

@@ -24,10 +24,10 @@ use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-/// The most rows that are looked at for a choice of some.
-const LOOKED_AT: usize = 10_000;
+/// The maximum number of rows read to choose some for the page.
+const MOST_READ: usize = 10_000;
 
-/// Writes the page.
+/// Runs `ccd view`.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
     match args.subject() {
         Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
@@ -65,7 +65,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         clearance: None,
     };
     let mut solver = timing.method.solver(Instructions::Best);
-    for row in rows.by_ref().take(LOOKED_AT) {
+    for row in rows.by_ref().take(MOST_READ) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {
@@ -103,7 +103,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     write_rows(subject, chosen, out, args.quiet)
 }
 
-/// Says what is odd about the rows, unless they are shown as another run has answered them.
+/// Prints the remarks about the rows, unless a table of results is shown.
 fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
     if args.results.is_none() && !args.quiet {
         let of_tolerance = pair.remark(args.tolerance);
@@ -111,7 +111,7 @@ fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
     }
 }
 
-/// What a page of rows is about.
+/// The subject of a page of rows.
 #[derive(Clone, Copy)]
 pub(super) struct Drawn<'a> {
     pub(super) title: &'a str,
@@ -133,7 +133,7 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }
 
-/// Returns the row of the results for a row of motions or paths.
+/// Returns the row of results for a row of motions or paths.
 pub(super) fn answered(
     bodies: Bodies<'_>,
     course: &Course,
@@ -151,7 +151,7 @@ pub(super) fn answered(
     }
 }
 
-/// Writes the page of chosen rows. Without any there is none, which is told.
+/// Writes the page of the chosen rows. Without any there is none, which is told.
 pub(super) fn write_rows(
     Drawn { title, pair, asked }: Drawn<'_>,
     mut chosen: Chosen,

@@ -12,13 +12,13 @@ fn capsule() -> Body {
     Body::capsule(0.1, 0.6).unwrap()
 }
 
-/// A turning motion that comes nearer than the one before.
+/// A rotating motion that comes nearer with each `k`.
 fn flies(k: u32) -> Motion {
     let from = Pose::at([-3.0, 1.5 - 0.01 * f64::from(k), 0.1]).unwrap();
     Motion::new(from, [5.0, 0.0, 0.0], [0.3, 2.0, f64::from(k)]).unwrap()
 }
 
-/// What identifies an answer to the last bit.
+/// The bits that identify answers.
 fn bits(found: &[Result<Answer, QueryError>]) -> Vec<String> {
     found.iter().map(|found| format!("{found:?}")).collect()
 }
@@ -137,7 +137,7 @@ fn limits_are_those_of_each_solver() {
     }
 }
 
-/// Says that a panic is past its message, which may take long.
+/// Sets a flag once a panic has printed its message.
 struct Unwinds<'f>(&'f AtomicBool);
 
 impl Drop for Unwinds<'_> {

@@ -1,4 +1,4 @@
-//! The motions of a row as a page has them.
+//! Conversion of a row's motions to those of a page.
 
 use crate::table::courses::Course;
 use ccd_core::{InputError, Trajectory};

@@ -1,4 +1,4 @@
-//! Bodies as triangles to draw.
+//! Bodies as triangles for drawing.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -8,7 +8,7 @@ use parry3d_f64::transformation::try_convex_hull;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
-/// The number of directions in which a rounded piece is drawn from each of its points.
+/// The number of directions in which each point of a rounded piece is sampled.
 const DIRECTIONS: u32 = 320;
 
 /// Returns the surface of a body: the faces of its mesh, or the hulls of its pieces.
@@ -29,8 +29,8 @@ pub fn drawn(body: &Body) -> DrawnMesh {
     sketch.mesh
 }
 
-/// Returns the corners of a feature that a point of the surface is on, in the world: one of a vertex, two of an edge,
-/// three of each triangle of a face.
+/// Returns the corners of a feature to highlight, in the world: one for a vertex, two for an edge, three for each
+/// triangle of a face.
 pub(super) fn lit(body: &Body, pose: &Pose, feature: &str, witness: DVec3) -> Vec<DVec3> {
     let here = pose.inverse().transform_point(witness);
     let triangles = || {
@@ -64,7 +64,7 @@ fn distance(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
     point.distance(from + share.clamp(0.0, 1.0) * along)
 }
 
-/// A mesh whose equal vertices, and faces, are one.
+/// A mesh under construction, with duplicate vertices and faces merged.
 #[derive(Default)]
 struct Sketch {
     mesh: DrawnMesh,
@@ -92,7 +92,7 @@ impl Sketch {
         })
     }
 
-    /// Adds the hull of a piece's points, grown by its radius. A flat one without a radius is not drawn.
+    /// Adds the hull of a piece's points, grown by the piece's radius. A flat one without a radius is not drawn.
     fn push_hull(&mut self, piece: &Piece<'_>) {
         let around: Vec<DVec3> = if piece.radius > 0.0 {
             directions()
@@ -120,7 +120,7 @@ impl Sketch {
     }
 }
 
-/// Returns directions all around, evenly spread: a spiral from pole to pole.
+/// Returns evenly distributed directions: a spiral from pole to pole.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
     (0..DIRECTIONS).map(move |k| {

@@ -1,4 +1,4 @@
-//! The gap between two bodies over time, and a line that is proven to be under it.
+//! The distance of two bodies over time, and a proven lower bound of it.
 
 use crate::Solver;
 use crate::batch::Bodies;
@@ -8,23 +8,23 @@ use ccd_core::{Body, InputError, Settings, Stretch, Trajectory};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
-/// The most ghosts that are drawn of one query, but for the first.
+/// The maximum number of ghosts of one query, besides the first.
 const GHOSTS: f64 = 12.0;
-/// The number of times at which the gap is measured.
+/// The number of times at which the distance is measured.
 const TIMES: usize = 96;
-/// The most steps of conservative advancement.
+/// The maximum number of steps of conservative advancement.
 const STEPS: usize = 48;
-/// The longest that the gap of one query is measured, but for one measurement.
-const PATIENCE: Duration = Duration::from_secs(1);
-/// The most visits of one measurement.
+/// The time limit for measuring one query, checked after each measurement.
+const TIME_LIMIT: Duration = Duration::from_secs(1);
+/// The budget of one measurement.
 const BUDGET: u64 = 100_000;
-/// What a speed and a stray are multiplied by, so that their rounding is covered many times over.
+/// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
 const ROUNDED_UP: f64 = 1.0 + 1e-9;
 
-/// What is proven about all times.
+/// A lower bound that is proven for all times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reached {
-    /// Nothing.
+    /// No bound.
     Nothing,
     /// The bodies are at least this far apart.
     Throughout(f64),
@@ -33,20 +33,20 @@ pub enum Reached {
 /// The gap over time, and the steps of conservative advancement.
 #[derive(Clone, Debug)]
 pub struct GapOverTime {
-    /// The gap.
+    /// The curve of the distance and its lower bound.
     pub gap: Gap,
-    /// The times of the steps, from 0 on: after each the bodies stay apart at least until the next.
+    /// The times of the steps, starting with 0: after each, the bodies stay apart until the next.
     pub steps: Vec<f64>,
 }
 
 impl GapOverTime {
-    /// Returns the least gap of the proven line.
+    /// Returns the least value of the proven lower bound.
     pub(super) fn least(&self) -> Option<f64> {
         let gaps = self.gap.proven.iter().map(|[_, gap]| *gap);
         gaps.reduce(lesser)
     }
 
-    /// Returns the steps that are drawn: not too near to each other.
+    /// Returns the steps to draw, thinned out.
     pub fn ghosts(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
         for &step in &self.steps {
@@ -60,7 +60,7 @@ impl GapOverTime {
         drawn
     }
 
-    /// Returns the time of the least gap that was measured.
+    /// Returns the time of the least measured distance.
     pub fn nearest(&self) -> f64 {
         let points = self.gap.points.iter();
         let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
@@ -68,8 +68,8 @@ impl GapOverTime {
     }
 }
 
-/// Measures the gap at some times, most where the proven line is far below, and connects what is proven at these: from
-/// each time the gap shrinks at most as fast as the bodies' points approach.
+/// Samples the distance, most densely where the proven bound is loose. Between two samples the bound follows from a
+/// bound on the bodies' closing speed.
 ///
 /// # Errors
 /// If the motions are out of range.
@@ -92,7 +92,7 @@ pub fn gap(
         bodies,
         course,
         floor,
-        patience: Instant::now() + PATIENCE,
+        time_limit: Instant::now() + TIME_LIMIT,
     };
     let (mut points, steps) = survey.advance()?;
     survey.refine(&mut points)?;
@@ -110,29 +110,29 @@ struct Survey<'a> {
     bodies: Bodies<'a>,
     course: &'a Course,
     floor: f64,
-    patience: Instant,
+    time_limit: Instant,
 }
 
-/// How fast the gap may shrink between two times, and how far off the bodies may be.
+/// The maximum closing speed between two times, and the bodies' deviation from their motions.
 #[derive(Clone, Copy, Debug)]
 struct Shrinking {
     speed: f64,
-    off: f64,
+    deviation: f64,
 }
 
 impl Survey<'_> {
-    /// Advances conservatively from the start, until the bodies may touch; then measures at the end.
+    /// Advances conservatively from the start until the bodies may touch, then measures at the end.
     fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
         let end = self.course.duration();
         let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
-        while points.len() < STEPS && Instant::now() < self.patience {
+        while points.len() < STEPS && Instant::now() < self.time_limit {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let Shrinking { speed, off } = self.shrinking(time, end)?;
-            let next = time + (point.lower - off) / speed;
+            let Shrinking { speed, deviation } = self.shrinking(time, end)?;
+            let next = time + (point.lower - deviation) / speed;
             // At the bodies' contact steps become shorter than rounding.
-            if !(point.lower > off && next > time && next < end) {
+            if !(point.lower > deviation && next > time && next < end) {
                 break;
             }
             time = next;
@@ -143,13 +143,13 @@ impl Survey<'_> {
         Ok((points, steps))
     }
 
-    /// Adds measurements, each in the middle of the worst interval.
+    /// Adds measurements, each in the middle of the interval with the most to gain.
     fn refine(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
             worths.push(self.worth(points[k - 1], points[k])?);
         }
-        while points.len() < TIMES && Instant::now() < self.patience {
+        while points.len() < TIMES && Instant::now() < self.time_limit {
             let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
             let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
                 return Ok(());
@@ -163,14 +163,14 @@ impl Survey<'_> {
         Ok(())
     }
 
-    /// Returns how much is gained by a measurement between two others: the area under the gap that is not proven.
+    /// Returns the gain of a measurement between two others: the area between the distance and the proven bound.
     fn worth(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
         let time = after.time - before.time;
         if !(time > 1e-6 * self.course.duration()) {
             return Ok(0.0);
         }
-        let Shrinking { speed, off } = self.shrinking(before.time, after.time)?;
-        let least = 0.5 * (before.lower + after.lower - speed * time) - off;
+        let Shrinking { speed, deviation } = self.shrinking(before.time, after.time)?;
+        let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
     }
@@ -184,31 +184,32 @@ impl Survey<'_> {
         Ok(GapPoint { time, lower, upper })
     }
 
-    /// Bounds how fast points of the bodies approach each other between two times.
+    /// Bounds the closing speed of the bodies' points between two times.
     fn shrinking(&self, from: f64, to: f64) -> Result<Shrinking, InputError> {
         let (a, b) = match self.course {
             Course::Motions(query) => (query.a.stretch(from, to)?, query.b.stretch(from, to)?),
             Course::Path(path) => (path.a.stretch(from, to)?, path.b.stretch(from, to)?),
         };
-        let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(reach);
+        let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(Shrinking {
             speed: (shift + turns + gains) * ROUNDED_UP,
             // Both where it is measured, and in between.
-            off: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
+            deviation: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
         })
     }
 
-    /// Returns the line: from each measurement down on both sides, but never below what is proven about all times.
+    /// Returns the lower bound as a polyline: it falls on both sides of each measurement, but not below what is proven
+    /// for all times.
     fn proven(&self, points: &[GapPoint]) -> Result<Vec<[f64; 2]>, InputError> {
         let floor = self.floor;
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let Shrinking { speed, off } = self.shrinking(one.time, two.time)?;
-            let height = |point: GapPoint| greater(point.lower - off, floor);
+            let Shrinking { speed, deviation } = self.shrinking(one.time, two.time)?;
+            let height = |point: GapPoint| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);
             // Where both lines meet, or where each meets the floor.
@@ -230,7 +231,7 @@ impl Survey<'_> {
     }
 }
 
-/// Bounds the distance of a body's points from the centre of a stretch's motion.
-fn reach((stretch, body): (&Stretch, &Body)) -> f64 {
+/// Bounds the distance of a body's points from the centre of a segment's motion.
+fn extent((stretch, body): (&Stretch, &Body)) -> f64 {
     body.span() + stretch.motion.centre().length()
 }

@@ -1,4 +1,4 @@
-//! A page for each of some rows, in a folder.
+//! A folder with one page for each of some rows.
 
 use super::{Asked, PageError, Painter, ViewError};
 use crate::batch::Bodies;
@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Pages in a folder, one for each row, with the id of the row as their name.
+/// A folder of pages, one for each row, named by the row's id.
 pub struct Pages<'a> {
     painter: Painter<'a>,
     title: String,
@@ -28,7 +28,7 @@ pub enum PagesError {
 }
 
 impl<'a> Pages<'a> {
-    /// Creates the folder, if there is none.
+    /// Creates the folder if it does not exist.
     ///
     /// # Errors
     /// The folder cannot be created.
@@ -71,7 +71,7 @@ impl<'a> Pages<'a> {
         Ok(path)
     }
 
-    /// Returns a name that no other page has, on file systems that ignore case, too.
+    /// Returns a unique name, also on file systems that ignore case.
     fn name(&mut self, id: &str) -> String {
         let plain = |c: char| {
             if c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') {

@@ -1,4 +1,4 @@
-//! A scene of many bodies as a view.
+//! The view of a scene of many bodies.
 
 use super::drawn::{drawn, lit};
 use super::verdict::number;
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 /// The colour of bodies that do not move.
 const FIXED: &str = "#b8b8b8";
-/// The turn from the colour of one body to that of the next, in degrees: no two that follow each other are alike.
+/// The step in hue from one body to the next, in degrees: the golden angle.
 const HUE: f64 = 137.508;
 
 /// A body of a scene, with its name.
@@ -21,7 +21,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) motion: Motion,
 }
 
-/// Makes the view of all bodies and their contacts, in order of time. Bodies that are the same are drawn from one mesh.
+/// Returns the view of all bodies and their contacts, in order of time. Bodies that are the same are drawn from one
+/// mesh.
 pub(crate) fn scene_view(
     name: &str,
     bodies: &[Shown<'_>],
@@ -66,7 +67,7 @@ pub(crate) fn scene_view(
     (meshes, view)
 }
 
-/// Says in words which bodies touch.
+/// Describes which bodies touch.
 pub(crate) fn scene_verdict(
     bodies: &[Shown<'_>],
     contacts: &[Result<Impact, PairError>],

@@ -1,5 +1,5 @@
 use super::*;
-use crate::table::motions::Query;
+use crate::table::motions::Motions;
 use crate::table::paths::Path;
 use crate::trajectory::Poses;
 use ccd_core::Outcome;
@@ -34,7 +34,7 @@ fn motions(random: &mut impl Rng, spin: f64) -> Course {
         let velocity = vector(random, 1.0) - 2.0 * from;
         Motion::about(start, velocity, vector(random, spin), vector(random, 0.5)).unwrap()
     };
-    Course::Motions(Query {
+    Course::Motions(Motions {
         id: "throw".to_owned(),
         a: motion(2.0 * DVec3::X),
         b: motion(-2.0 * DVec3::X),

@@ -1,38 +1,39 @@
-//! What a row of the results says, in words.
+//! Descriptions of rows of results, in words.
 
 use crate::table::results::{ResultRow, Status};
 
-/// What rows are answers to, as far as it is known.
+/// The context of an answer, as far as it is known.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    /// What their times say.
+    /// The meaning of the answer's time.
     pub claim: Claim,
-    /// The distance that was to be kept.
+    /// The margin of the query.
     pub margin: f64,
-    /// The distance that was compared with.
+    /// The clearance of the query.
     pub clearance: Option<f64>,
 }
 
-/// What the time of an answer says.
+/// The meaning of an answer's time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// Nothing touches before it, which is proven.
+    /// A contact, with none before it.
     First,
-    /// As [`First`](Claim::First), but for contacts at the start, which were let go.
+    /// As [`First`](Claim::First), except for contacts at the start, which are ignored until the bodies part.
     FirstLater,
-    /// The bodies touch then, and perhaps earlier.
+    /// A contact, perhaps not the first one.
     Any,
-    /// The distance was measured then.
+    /// The time of the measured distance.
     Then,
-    /// The bodies are farthest apart then.
+    /// The time of the greatest distance.
     Farthest,
-    /// As [`First`](Claim::First) by the published bound, which proves nothing.
+    /// A first contact by the published bound, which is no proof.
     Published,
-    /// A table says so, which tells neither the question nor the bound.
+    /// A time from a table of results, whose question and bound are unknown.
     Told,
 }
 
-/// Returns the answer of a row as sentences; `end` is the end of its motions, `proven` a gap that is proven at all times.
+/// Describes the answer of a row. `end` is the end of its motions, and `proven` a lower bound of the distance at all
+/// times.
 pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
     let time = row.time.map_or("an unknown time".to_owned(), number);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
@@ -86,14 +87,14 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
     }
 }
 
-/// Returns what is proven after a contact at the start; nothing if only the first one was asked for.
+/// Describes what is proven after a contact at the start; empty if the question was about the first contact only.
 fn after(row: &ResultRow) -> String {
     row.last_time.map_or(String::new(), |last| {
         format!(" Proven: not after {}.", number_up(last))
     })
 }
 
-/// Returns the words for a contact on the way.
+/// Describes a contact after the start.
 fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
     let margin = number(asked.margin);
     let (first, at, before) = if asked.margin > 0.0 {
@@ -149,7 +150,7 @@ fn free(asked: Asked, end: f64, proven: Option<f64>) -> String {
     }
 }
 
-/// Returns what touches, or is nearest.
+/// Describes the touching or nearest features.
 pub(super) fn contact(row: &ResultRow) -> String {
     let features = match (&row.feature_a, &row.feature_b) {
         (Some(a), Some(b)) => format!("{} of A at {} of B", feature(a), feature(b)),
@@ -197,7 +198,7 @@ fn feature(name: &str) -> String {
     )
 }
 
-/// Returns a number in at most seven digits, rounded down: what is proven of it is proven of the text.
+/// Formats a number with at most seven digits, rounded down, so that the text is a lower bound.
 pub(super) fn number(value: f64) -> String {
     let text = short(value);
     match text.parse::<f64>() {
@@ -206,7 +207,7 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
-/// Returns a number in at most seven digits, rounded up.
+/// Formats a number with at most seven digits, rounded up.
 fn number_up(value: f64) -> String {
     let text = short(value);
     match text.parse::<f64>() {
@@ -224,7 +225,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Returns the worth of the last digit that is written.
+/// Returns the value of one unit in the last written digit.
 fn last_digit(value: f64) -> f64 {
     if is_plain(value) {
         1e-6

@@ -1,4 +1,4 @@
-//! Traps are remarked upon, and what is usual is not.
+//! Typical mistakes give a remark, and usual input does not.
 
 use super::*;
 use std::f64::consts::PI;
@@ -50,7 +50,7 @@ fn degrees_are_remarked_upon() {
     }
 }
 
-/// What people ask in radians: rest, turns of parts and robots, shafts at round or whole numbers of turns.
+/// Usual input in radians: rest, rotations of parts and robots, shafts at round or whole numbers of turns.
 #[test]
 fn radians_are_not() {
     for rate in [

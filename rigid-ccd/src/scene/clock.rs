@@ -1,9 +1,9 @@
-//! The time that is left to answer what is asked of a scene.
+//! The remaining time of a query on a scene.
 
 use ccd_core::Settings;
 use std::time::{Duration, Instant};
 
-/// The duration that is asked about, and the deadline for all pairs together.
+/// The duration of the motions, and the deadline for all pairs together.
 #[derive(Clone, Copy)]
 pub(super) struct Clock {
     pub(super) duration: f64,
@@ -11,7 +11,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Starts the time for the answer.
+    /// Starts the clock.
     pub(super) fn new(duration: f64, settings: &Settings) -> Self {
         Clock {
             duration,
@@ -19,7 +19,7 @@ impl Clock {
         }
     }
 
-    /// Returns the time that is left; `None` without a deadline.
+    /// Returns the remaining time; `None` without a deadline.
     pub(super) fn left(&self) -> Option<Duration> {
         let (begun, limit) = self.deadline?;
         Some(limit.saturating_sub(begun.elapsed()))

@@ -1,4 +1,4 @@
-//! What happens to two bodies of a scene.
+//! The contact or the error of two bodies of a scene.
 
 use crate::Error;
 use ccd_core::order::greater;
@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 /// The first contact of two bodies of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// The indices of the bodies, the lower one first: A and B of the hit.
+    /// The indices of the bodies, the lower one first. A and B of the hit.
     pub bodies: [usize; 2],
     /// Their first contact.
     pub hit: Hit,
@@ -20,15 +20,15 @@ pub struct Impact {
 pub struct PairError {
     /// The indices of the bodies, the lower one first.
     pub bodies: [usize; 2],
-    /// What is wrong with them; that they are unresolved has a time before which they do not touch.
+    /// The error; `Unresolved` has a time before which the bodies do not touch.
     #[source]
     pub error: Error,
 }
 
-/// A contact of two bodies, or what ended its search.
+/// A contact of two bodies, or the error that ended its search.
 #[derive(Clone, Debug)]
 pub(super) struct Event {
-    /// The time before which they do not touch.
+    /// The time before which the bodies do not touch.
     pub(super) time: f64,
     pub(super) bodies: [usize; 2],
     what: What,
@@ -43,7 +43,7 @@ enum What {
 }
 
 impl Event {
-    /// Returns `None` for bodies that stay apart.
+    /// Returns the event of an answer; `None` for bodies that stay apart.
     pub(super) fn answered(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
         let (time, what) = match answer.hit() {
             Ok(hit) => hit.map(|hit| (hit.time, What::Hit(hit)))?,
@@ -65,7 +65,7 @@ impl Event {
         }
     }
 
-    /// Of bodies of which nothing is known.
+    /// Returns the event of a pair that was not examined.
     pub(super) fn unresolved(bodies: [usize; 2]) -> Self {
         Event {
             time: 0.0,
@@ -74,7 +74,7 @@ impl Event {
         }
     }
 
-    /// Returns the event of bodies that were asked from a time on; rounded so that it is never late.
+    /// Returns the event of a query that started at time `from`, shifted by `from` and rounded down.
     pub(super) fn later(self, from: f64) -> Self {
         let later = |time: f64| {
             if from > 0.0 {
@@ -97,12 +97,12 @@ impl Event {
         }
     }
 
-    /// Returns the event at the start.
+    /// Returns the event, moved to time 0.
     pub(super) fn at_once(self) -> Self {
         Event { time: 0.0, ..self }
     }
 
-    /// Returns whether the bodies are in contact, and not certainly as far apart as that.
+    /// Returns whether the bodies are in contact, and not certainly at least `distance` apart.
     pub(super) fn is_nearer_than(&self, distance: f64) -> bool {
         let contact = match &self.what {
             What::Hit(hit) => hit.contact(),
@@ -117,12 +117,12 @@ impl Event {
         matches!(&self.what, What::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
     }
 
-    /// Returns whether the bodies could not be asked.
+    /// Returns whether the query was invalid.
     pub(super) fn is_refused(&self) -> bool {
         matches!(self.what, What::Refused(_))
     }
 
-    /// Compares by time, and then by indices.
+    /// Compares two events by time, and then by indices.
     pub(super) fn order(&self, other: &Event) -> Ordering {
         (self.time.total_cmp(&other.time)).then(self.bodies.cmp(&other.bodies))
     }

@@ -1,8 +1,8 @@
-//! What is asked of a scene, and so until when a pair matters.
+//! The goal of a scene's query, and the time until which a pair can matter.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What is asked, with the times of the earliest events so far.
+/// The goal of a query, with the times of the earliest events so far.
 pub(super) enum Goal {
     /// The first contact of all.
     First(Earliest),
@@ -21,7 +21,7 @@ impl Goal {
         Goal::OfEach((0..bodies).map(|_| Earliest::default()).collect())
     }
 
-    /// Returns the time until which the pair may matter, itself included.
+    /// Returns the last time at which an event of the pair can matter.
     pub(super) fn limit(&self, [a, b]: [usize; 2]) -> f64 {
         match self {
             Goal::First(earliest) => earliest.time(),
@@ -42,7 +42,7 @@ impl Goal {
     }
 }
 
-/// The earliest time that any thread recorded; infinite if none did.
+/// The earliest time that any thread recorded; infinite without one.
 ///
 /// It only saves work: what a thread does not see yet is proven further than needed.
 pub(super) struct Earliest(AtomicU64);
@@ -52,7 +52,7 @@ impl Earliest {
         f64::from_bits(self.0.load(Ordering::Relaxed))
     }
 
-    /// Times are not negative: their bits order as they do.
+    /// Records a time, which is not negative: such floats order as their bits do.
     fn record(&self, time: f64) {
         self.0.fetch_min(time.to_bits(), Ordering::Relaxed);
     }

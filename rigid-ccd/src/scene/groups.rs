@@ -1,6 +1,6 @@
-//! Which bodies are asked for contacts with which.
+//! Groups of bodies, which select the pairs to examine.
 
-/// The groups that a body is in, and those that it is asked for contacts with: 32 of each, bit by bit.
+/// The groups of a body, and the groups that it is checked against, as 32-bit masks.
 ///
 /// ```
 /// use rigid_ccd::Groups;
@@ -12,18 +12,18 @@
 pub struct Groups {
     /// The groups that the body is in.
     pub memberships: u32,
-    /// The groups that it is asked for contacts with.
+    /// The groups that the body is checked against.
     pub filter: u32,
 }
 
 impl Groups {
-    /// In all groups, and asked for contacts with all: the default.
+    /// All groups, checked against all groups: the default.
     pub const ALL: Groups = Groups {
         memberships: u32::MAX,
         filter: u32::MAX,
     };
 
-    /// Returns whether two bodies are a pair: each is in a group that the other one is asked for.
+    /// Returns whether two bodies form a pair: the filter of each has a group of the other.
     pub fn pairs_with(self, other: Groups) -> bool {
         self.memberships & other.filter != 0 && other.memberships & self.filter != 0
     }

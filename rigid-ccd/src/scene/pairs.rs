@@ -1,11 +1,11 @@
-//! The pairs of bodies that may touch: those whose boxes meet.
+//! The pairs of bodies whose boxes meet.
 
 use ccd_core::SweptBox;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 
-/// Returns the pairs of boxes that meet and are asked for, in order, each with the lower index first.
+/// Returns the accepted pairs of boxes that meet, in order, each with the lower index first.
 ///
 /// # Guarantee
 /// All pairs, whatever the tree is like: a box that it does not hold is compared with all others.
@@ -36,7 +36,8 @@ pub(super) fn meeting(boxes: &[SweptBox], asked: impl Fn([usize; 2]) -> bool) ->
     pairs
 }
 
-/// Returns whether all nodes above a leaf contain its box. A search for boxes that meet it does not pass it by then.
+/// Returns whether every ancestor of a leaf contains the leaf's box. A search for boxes that meet it does not pass it
+/// by then.
 fn holds(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
     let mut leaves = tree.leaves(|node| node.contains_aabb(leaf));
     leaves.any(|held| held as usize == index)

@@ -1,4 +1,4 @@
-//! The pairs of a scene, side by side in time: the one that is proven least far goes on next.
+//! The pairs of a scene, advanced together in time: the pair with the earliest proven time goes first.
 
 use super::event::Event;
 use super::goal::Goal;
@@ -10,14 +10,14 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 use std::sync::{Mutex, PoisonError};
 
-/// The share of the duration that a pair is proven for at a time, unless all others are ahead by more. Shares so
+/// The share of the duration by which a pair is advanced at a time, unless all others are further ahead. Shares so
 /// large that pairs are seldom put aside, and so small that little is proven beyond the answer.
 const SLICE: f64 = 1.0 / 16.0;
 
-/// The searches whose memory a worker keeps; scenes with more pairs under way at a time are rare.
+/// The maximum number of searches that a worker keeps for reuse.
 const MOST_SPARE: usize = 1024;
 
-/// Some pairs of bodies, and those of them that wait for their turn.
+/// A queue of pairs of bodies.
 pub(super) struct Race<'r, 'a> {
     query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
     duration: f64,
@@ -29,7 +29,7 @@ pub(super) struct Race<'r, 'a> {
 struct Runner<'a> {
     time: f64,
     pair: [usize; 2],
-    /// None before the first step.
+    /// The search, or `None` before the first step.
     search: Option<Box<FirstContact<'a, Direct>>>,
 }
 
@@ -55,7 +55,7 @@ impl<'r, 'a> Race<'r, 'a> {
         }
     }
 
-    /// Returns the pair that is proven least far, and the time until which all others are proven.
+    /// Takes the pair with the earliest proven time, and returns it with the next pair's proven time.
     fn next(&self) -> Option<(Runner<'a>, f64)> {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let Reverse(runner) = waiting.pop()?;
@@ -68,7 +68,7 @@ impl<'r, 'a> Race<'r, 'a> {
         waiting.push(Reverse(runner));
     }
 
-    /// Returns how far to prove a pair that is to be followed until `limit`; later than its time.
+    /// Returns the time to which a pair is advanced next, at most `limit` and later than `time`.
     fn until(&self, time: f64, others: f64, limit: f64) -> f64 {
         let slice = greater(others, time + SLICE * self.duration);
         let until = match self.goal {
@@ -80,7 +80,7 @@ impl<'r, 'a> Race<'r, 'a> {
     }
 }
 
-/// What a thread keeps from call to call.
+/// The memory of a thread, reused from call to call.
 #[derive(Default)]
 pub(super) struct Worker {
     oracle: Direct,
@@ -88,7 +88,7 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    /// Takes one pair after another, until none waits, and returns what was found.
+    /// Advances one pair after another until the queue is empty, and returns the events.
     pub(super) fn run(&mut self, race: &Race<'_, '_>) -> Vec<Event> {
         let mut events = Vec::new();
         while let Some((runner, others)) = race.next() {

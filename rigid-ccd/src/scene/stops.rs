@@ -1,10 +1,10 @@
-//! Bodies that stop where they touch, each at its own time.
+//! Bodies that stop at their first contact, each at its own time.
 
 use super::clock::Clock;
 use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::ordered;
-use super::rest::Rest;
+use super::shifted::Shifted;
 use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
@@ -19,20 +19,20 @@ use ccd_distance_gjk::Direct;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Until when a body may move.
+/// The time at which a body stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// The time at which the body stops; the duration if nothing stops it.
+    /// The time at which the body stops; the duration if it does not stop.
     pub time: f64,
-    /// The body that stops it, by index; none if nothing does.
+    /// The index of the body that stops it; `None` if it does not stop.
     pub by: Option<usize>,
-    /// The contact with that body, which would be at the time of its hit; none if nothing stops it, or if a limit was
-    /// reached before a contact was found. Bodies that rest on each other stop at once, before that time.
+    /// The contact with that body, at the time of its hit; `None` if the body does not stop, or if a limit was reached
+    /// before a contact was found. Bodies that rest on each other stop at once, before that time.
     pub contact: Option<Impact>,
 }
 
 impl Stop {
-    /// Returns the unit normal of the contact, from this body to the one that stops it; none without a
+    /// Returns the unit normal of the contact, from this body to the one that stops it; `None` without a
     /// [contact](Stop::contact).
     ///
     /// ```
@@ -62,8 +62,8 @@ impl Stop {
 }
 
 impl Scene<'_> {
-    /// Finds until when each body may move, by index, if it stops where it touches another one while all others go
-    /// on. A simulation that sets these poses after each step lets nothing pass through anything.
+    /// Finds the time until which each body may move, by index, if it stops at its first contact while the others
+    /// continue. A simulation that sets these poses after each step lets nothing pass through anything.
     ///
     /// Bodies that touch at the start are let go, as by [`StartPolicy::Leave`], whatever the settings are: they may
     /// slide and part, but not come nearer than half of their distance. Bodies that overlap at the start do not stop
@@ -104,7 +104,7 @@ impl Scene<'_> {
     }
 }
 
-/// Makes half of the tolerance a distance to keep: step by step, what rests comes no nearer.
+/// Returns the settings with half of the tolerance added to the margin: bodies at rest do not sink in over many steps.
 fn keeping_half(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
@@ -115,10 +115,10 @@ fn keeping_half(given: &Settings) -> Settings {
     }
 }
 
-/// The bodies that have stopped, and what is still to happen.
+/// The bodies that have stopped, and the contacts still to come.
 struct Stopping<'s, 'a> {
     scene: &'s Scene<'a>,
-    /// The other bodies that each one may touch.
+    /// The possible contact partners of each body.
     others: Vec<Vec<usize>>,
     stops: Vec<Stop>,
     clock: Clock,
@@ -126,10 +126,10 @@ struct Stopping<'s, 'a> {
     oracle: Direct,
 }
 
-/// A contact of two bodies, as they move before either stops, or with one that has.
-struct Coming {
+/// A future contact of two bodies, of which at most one has stopped.
+struct FutureContact {
     event: Event,
-    /// The bodies that move until then.
+    /// Which of both bodies move until then.
     moving: [bool; 2],
 }
 
@@ -155,7 +155,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         }
     }
 
-    /// Takes one contact after another in order of time, stops its bodies, and looks at what still moves about them.
+    /// Processes the contacts in order of time: stops their bodies, and finds new contacts with the stopped bodies.
     fn run(mut self, events: Vec<Event>) -> Result<Vec<Stop>, PairError> {
         let mut coming = BinaryHeap::new();
         for event in events {
@@ -164,10 +164,10 @@ impl<'s, 'a> Stopping<'s, 'a> {
                 self.others[a].retain(|&other| other != b);
                 self.others[b].retain(|&other| other != a);
             } else {
-                coming.push(Reverse(self.coming(event, 0.0)));
+                coming.push(Reverse(self.future_contact(event, 0.0)));
             }
         }
-        while let Some(Reverse(Coming { event, moving })) = coming.pop() {
+        while let Some(Reverse(FutureContact { event, moving })) = coming.pop() {
             // Bodies that have stopped meanwhile were looked at again.
             if event.bodies.map(|index| self.moves(index)) != moving {
                 continue;
@@ -188,54 +188,56 @@ impl<'s, 'a> Stopping<'s, 'a> {
             }
             let stopped = event.bodies.into_iter().zip(moving);
             for (index, _) in stopped.filter(|&(_, moved)| moved) {
-                coming.extend(self.about(index).into_iter().map(Reverse));
+                coming.extend(self.contacts_of(index).into_iter().map(Reverse));
             }
         }
         Ok(self.stops)
     }
 
-    /// Returns what comes to a body that has stopped now.
-    fn about(&mut self, index: usize) -> Vec<Coming> {
+    /// Returns the future contacts of a body that has just stopped.
+    fn contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
         let others = std::mem::take(&mut self.others[index]);
         let moving = others.iter().filter(|&&other| self.moves(other));
         let pairs: Vec<[usize; 2]> = moving.map(|&other| ordered(index, other)).collect();
         self.others[index] = others;
-        let found = pairs.into_iter().filter_map(|pair| self.from(time, pair));
+        let found = pairs
+            .into_iter()
+            .filter_map(|pair| self.contact_after(time, pair));
         found.collect()
     }
 
-    /// Returns the contact of two bodies from a time on, at which one of them has stopped.
-    fn from(&mut self, time: f64, bodies: [usize; 2]) -> Option<Coming> {
+    /// Returns the contact of two bodies after a time at which one of them stopped.
+    fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::answered(bodies, &answer)?,
             // Where a body has got to is out of range: it goes no farther.
             Err(_) => Event::unresolved(bodies),
         };
-        Some(self.coming(event, time))
+        Some(self.future_contact(event, time))
     }
 
-    /// Returns what comes to bodies that were asked from a time on. Bodies that rest on each other, and are nearer
-    /// than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
-    fn coming(&self, event: Event, from: f64) -> Coming {
+    /// Returns the future contact for an event that was found from a time on. Bodies that rest on each other, and are
+    /// nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
+    fn future_contact(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
             event.at_once()
         } else {
             event
         };
-        Coming {
+        FutureContact {
             moving: event.bodies.map(|index| self.moves(index)),
             event: event.later(from),
         }
     }
 
     fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
-        let rests = bodies.map(|index| Rest {
-            of: self.scene.members[index].movement,
+        let shifted = bodies.map(|index| Shifted {
+            inner: self.scene.members[index].movement,
             from: time,
         });
-        let [a, b] = [0, 1].map(|k| self.going_on(&rests[k], bodies[k]));
+        let [a, b] = [0, 1].map(|k| self.movement_from(&shifted[k], bodies[k]));
         let (a, b) = (a?, b?);
         let duration = self.clock.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
@@ -249,16 +251,20 @@ impl<'s, 'a> Stopping<'s, 'a> {
         self.schedule.first_contact(&query, &mut self.oracle)
     }
 
-    /// Returns what moves a body from a time on.
-    fn going_on<'r>(&self, rest: &'r Rest<'a>, index: usize) -> Result<Movement<'r>, InputError> {
+    /// Returns the motion or trajectory of a body from a time on.
+    fn movement_from<'r>(
+        &self,
+        shifted: &'r Shifted<'a>,
+        index: usize,
+    ) -> Result<Movement<'r>, InputError> {
         if !self.moves(index) {
-            return Ok(Motion::still(rest.of.pose(self.stops[index].time)?).into());
+            return Ok(Motion::still(shifted.inner.pose(self.stops[index].time)?).into());
         }
-        let Movement::Motion(motion) = rest.of else {
-            return Ok(rest.into());
+        let Movement::Motion(motion) = shifted.inner else {
+            return Ok(shifted.into());
         };
         let [velocity, spin] = [motion.velocity(), motion.spin()];
-        Ok(Motion::about(motion.pose(rest.from), velocity, spin, motion.centre())?.into())
+        Ok(Motion::about(motion.pose(shifted.from), velocity, spin, motion.centre())?.into())
     }
 
     fn moves(&self, index: usize) -> bool {
@@ -266,7 +272,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
     }
 }
 
-/// Bounds how far a body is from where it should be if it goes on from a pose that is rounded.
+/// Bounds the deviation of a body that continues from a rounded pose.
 fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
     let stretch = movement.stretch(0.0, 0.0)?;
     let motion = &stretch.motion;
@@ -277,21 +283,21 @@ fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, 
     Ok(stray + STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }
 
-impl Ord for Coming {
+impl Ord for FutureContact {
     fn cmp(&self, other: &Self) -> Ordering {
         self.event.order(&other.event)
     }
 }
 
-impl PartialOrd for Coming {
+impl PartialOrd for FutureContact {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Eq for Coming {}
+impl Eq for FutureContact {}
 
-impl PartialEq for Coming {
+impl PartialEq for FutureContact {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }

@@ -1,4 +1,4 @@
-//! Scenes against all pairs asked one by one.
+//! Scenes compared with queries on every pair.
 
 use super::*;
 use crate::trajectory::Ballistic;
@@ -96,7 +96,7 @@ fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: &Settin
     scene
 }
 
-/// All pairs that are asked for, one by one: the time, the pair, and the result.
+/// Queries every accepted pair: returns its time, indices and result.
 fn one_by_one(
     bodies: &[Body],
     parts: &[Part],
@@ -364,7 +364,7 @@ fn deadlines_and_flags_end_scenes_with_safe_times() {
     assert!(stopped.first_contact(1.0).is_ok());
 }
 
-/// What is inside a solid overlaps it at the start, before anything else happens.
+/// A body inside a solid overlaps it at the start, so its event comes first.
 #[test]
 fn a_body_inside_a_solid_is_first() {
     let shell = crate::load("tests/data/knot216.obj").unwrap();
@@ -389,7 +389,7 @@ fn a_body_inside_a_solid_is_first() {
     assert_eq!(scene.contacts(1.0).len(), 2);
 }
 
-/// A point inside of a solid, behind one of its triangles.
+/// A point inside a solid, behind one of its triangles.
 fn middle_of_tube(body: &Body) -> DVec3 {
     let piece = body.pieces().get(0);
     let [a, b, c] = [0, 1, 2].map(|k| piece.points[k]);
@@ -397,7 +397,7 @@ fn middle_of_tube(body: &Body) -> DVec3 {
     (a + b + c) / 3.0 - 0.02 * outwards
 }
 
-/// Times so short that they round to a few units of the least number.
+/// Durations of a few times the least positive number.
 #[test]
 fn the_shortest_durations_end() {
     let size = 1e-20;
@@ -430,7 +430,7 @@ fn the_shortest_durations_end() {
     assert!(met > 50, "{met}");
 }
 
-/// Two fixed bodies are no pair: one that moved would pass through the other without a word.
+/// Two fixed bodies are never checked against each other, so a fixed body must not move.
 #[test]
 fn a_fixed_body_takes_no_motion() {
     let ball = Body::ball(0.5).unwrap();

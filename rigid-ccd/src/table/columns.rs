@@ -25,7 +25,7 @@ pub(in crate::table) enum Quantity {
     Centre,
 }
 
-/// What a line of a table is.
+/// The content of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// The motions of both bodies.
@@ -34,13 +34,13 @@ pub enum Form {
     Paths,
 }
 
-/// The columns of a body in a table of motions, without its prefix.
+/// The columns of a body in a table of motions, without the body's prefix.
 const OF_BODY: [&str; 23] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "end_px", "end_py", "end_pz", "end_qw", "end_qx",
     "end_qy", "end_qz", "vx", "vy", "vz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
-/// The columns of a body in a table of paths, without its prefix.
+/// The columns of a body in a table of paths, without the body's prefix.
 const OF_POSE: [&str; 13] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
@@ -66,7 +66,7 @@ impl Form {
         before.into_iter().chain(bodies).chain(after).collect()
     }
 
-    /// The slots of a quantity; none of one that such a table does not have.
+    /// Returns the slots of a quantity's components; empty if such a table does not have it.
     pub(in crate::table) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
@@ -91,7 +91,7 @@ impl Form {
         first + within.start..first + within.end
     }
 
-    /// The columns of a body.
+    /// Returns the columns of a body.
     fn of_body(self) -> &'static [&'static str] {
         match self {
             Form::Motions => &OF_BODY,
@@ -127,7 +127,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Takes the names of a table's columns: one with a column `t` is a table of paths.
+    /// Parses a header: a table with a column `t` is a table of paths.
     ///
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
@@ -140,7 +140,7 @@ impl Columns {
         Columns::of_form(header, form)
     }
 
-    /// Takes the names of the columns of a table of that form.
+    /// Parses the header of a table of the given form.
     ///
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
@@ -175,7 +175,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Refuses some columns of an orientation or of an end position without the others: each row would lack them.
+    /// Refuses a header with some, but not all, columns of an orientation or of an end position.
     fn check_whole(&self) -> Result<(), TableError> {
         let of_motions = [Quantity::EndPosition, Quantity::EndOrientation];
         let further = match self.form {
@@ -196,8 +196,7 @@ impl Columns {
         Ok(())
     }
 
-    /// Refuses angular velocities between poses that have no orientation: all rows would be at the identity, and what
-    /// an angular velocity leaves over would be turned back.
+    /// Refuses angular velocities in a table of paths without orientations.
     fn check_spin(&self, side: Side) -> Result<(), TableError> {
         let is_there = |&slot: &usize| self.cells[slot].is_some();
         let spin = self.slots(side, Quantity::Spin).find(is_there);
@@ -217,12 +216,12 @@ impl Columns {
         }
     }
 
-    /// Returns what a row of the table is.
+    /// Returns the form of the table's rows.
     pub fn form(&self) -> Form {
         self.form
     }
 
-    /// Returns what is odd about the rows read so far, each kind once.
+    /// Returns the remarks about the rows read so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
         self.oddities.remarks()
     }
@@ -231,7 +230,7 @@ impl Columns {
         &self.oddities
     }
 
-    /// The slots of a quantity.
+    /// Returns the slots of a quantity's components.
     pub(in crate::table) fn slots(&self, side: Side, quantity: Quantity) -> Range<usize> {
         self.form.slots(side, quantity)
     }
@@ -250,14 +249,14 @@ impl Columns {
         self.cells[slot]
     }
 
-    /// Returns the name of the column of a cell.
+    /// Returns the name of the column at a cell's index.
     pub(in crate::table) fn name_at(&self, index: usize) -> &str {
         let slot = self.cells.iter().position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
     }
 }
 
-/// Returns a number in a header without any known column: such a line is a row of numbers.
+/// Returns a number in a header without any known column: such a header is probably a row.
 fn number_without_names(header: &[String], names: &[String]) -> Option<String> {
     if header.iter().any(|cell| names.contains(cell)) {
         return None;
@@ -310,7 +309,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     }
 }
 
-/// Returns what the columns of a body begin with, if a name is one of Euler angles or of a rotation vector.
+/// Returns the body's prefix of a name of an Euler angle or a rotation vector.
 fn prefix_of_angle(lower: &str) -> Option<&'static str> {
     let prefixes = ["a_end_", "b_end_", "a_", "b_"];
     let found = prefixes
@@ -321,7 +320,7 @@ fn prefix_of_angle(lower: &str) -> Option<&'static str> {
     ANGLES.contains(&name).then_some(prefix)
 }
 
-/// What columns of angles are called, without the prefix of a body.
+/// Typical names of columns of angles, without the body's prefix.
 const ANGLES: [&str; 27] = [
     "rx", "ry", "rz", "roll", "pitch", "yaw", "heading", "rpy", "euler", "alpha", "beta", "gamma",
     "phi", "theta", "psi", "rot_x", "rot_y", "rot_z", "rotx", "roty", "rotz", "euler_x", "euler_y",

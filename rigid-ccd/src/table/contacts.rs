@@ -39,9 +39,9 @@ pub(crate) struct ContactRow {
     pub(crate) feature_a: String,
     /// The feature of B.
     pub(crate) feature_b: String,
-    /// A lower bound of the features' distance at `time`.
+    /// A lower bound of the distance of the features at `time`.
     pub(crate) distance_lower: f64,
-    /// An upper bound of that distance.
+    /// An upper bound of the same distance.
     pub(crate) distance_upper: f64,
     /// The unit vector from A to B, in the world frame.
     pub(crate) normal: [f64; 3],
@@ -51,7 +51,7 @@ pub(crate) struct ContactRow {
     pub(crate) witness_b: [f64; 3],
 }
 
-/// An error of listing contacts.
+/// The error of listing contacts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum ListError {
     /// The query is not valid.
@@ -81,7 +81,7 @@ pub(crate) fn rows(
     Ok(pairs.iter().map(row).collect())
 }
 
-/// Returns the time of a contact that is asked for, or of touching.
+/// Returns the time of a contact or of touching, if the question is about a contact.
 fn time_of_contact(question: Question, outcome: &Outcome) -> Option<f64> {
     match *outcome {
         Outcome::Contact { time, .. } if question.is_for_one_contact() => Some(time),

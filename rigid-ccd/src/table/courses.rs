@@ -1,9 +1,9 @@
-//! The rows of a query: motions, or paths.
+//! The rows of a query: motions or paths.
 
 use super::columns::{Columns, Form};
 use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
-use super::motions::{MotionRows, Query};
+use super::motions::{MotionRows, Motions};
 use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;
@@ -11,12 +11,12 @@ use crate::Remark;
 use ccd_core::{InputError, Pose};
 use std::io;
 
-/// How both bodies of a query move.
+/// The motions of both bodies in a query.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
-    /// At constant velocities.
-    Motions(Query),
-    /// From pose to pose.
+    /// Motions at constant velocities.
+    Motions(Motions),
+    /// Paths from pose to pose.
     Path(Path),
 }
 
@@ -24,20 +24,45 @@ impl Course {
     /// Returns the id of the row in the results.
     pub fn id(&self) -> &str {
         match self {
-            Course::Motions(Query { id, .. }) | Course::Path(Path { id, .. }) => id,
+            Course::Motions(Motions { id, .. }) | Course::Path(Path { id, .. }) => id,
         }
     }
 
-    /// Returns the end, as a time from the start.
+    /// Returns the duration.
     pub fn duration(&self) -> f64 {
         match *self {
-            Course::Motions(Query { duration, .. }) | Course::Path(Path { duration, .. }) => {
+            Course::Motions(Motions { duration, .. }) | Course::Path(Path { duration, .. }) => {
                 duration
             }
         }
     }
 
-    /// Returns what the table calls the time at the start.
+    /// Builds the query of two bodies with these motions. The distance is asked for at the start.
+    ///
+    /// # Errors
+    /// Those of [`ccd_core::Query::new`].
+    pub fn query<'q>(
+        &'q self,
+        question: Question,
+        bodies: Bodies<'q>,
+        settings: &'q Settings,
+    ) -> Result<ccd_core::Query<'q>, InputError> {
+        let Bodies { a, b } = bodies;
+        if question == Question::Distance {
+            let [pose_a, pose_b] = self.poses(0.0)?;
+            return ccd_core::Query::new((a, pose_a), (b, pose_b), 0.0, settings);
+        }
+        match self {
+            Course::Motions(row) => {
+                ccd_core::Query::new((a, row.a), (b, row.b), row.duration, settings)
+            }
+            Course::Path(path) => {
+                ccd_core::Query::new((a, &path.a), (b, &path.b), path.duration, settings)
+            }
+        }
+    }
+
+    /// Returns the table's time at the start.
     pub fn start(&self) -> f64 {
         match self {
             Course::Motions(_) => 0.0,
@@ -56,7 +81,7 @@ impl Course {
         }
     }
 
-    /// Returns the time of the table at a time from the start, rounded down: no later than it is.
+    /// Converts a time from the start to the table's time, rounded down.
     pub fn earliest(&self, time: f64) -> f64 {
         match self {
             Course::Motions(_) => time,
@@ -64,7 +89,7 @@ impl Course {
         }
     }
 
-    /// Returns the time of the table at a time from the start, rounded up: no earlier than it is.
+    /// Converts a time from the start to the table's time, rounded up.
     pub fn latest(&self, time: f64) -> f64 {
         match self {
             Course::Motions(_) => time,
@@ -78,7 +103,7 @@ impl Course {
 pub enum Courses<S> {
     /// Each row is a query.
     Motions(MotionRows<S>),
-    /// All rows of an id are a query.
+    /// All rows with the same id form a query.
     Paths(PathRows<S>),
 }
 
@@ -96,7 +121,7 @@ impl<R: io::Read> Courses<CsvRecords<R>> {
 }
 
 impl<S: Records> Courses<S> {
-    /// Continues after the header: a table with a column `t` is one of paths.
+    /// Creates the iterator after the header was read: a table with a column `t` is a table of paths.
     ///
     /// # Errors
     /// The header has columns that cannot be used, or the first row cannot be read.
@@ -127,7 +152,7 @@ impl<S: Records> Courses<S> {
         }
     }
 
-    /// Returns what is odd about the rows so far, each kind once.
+    /// Returns the remarks about the rows so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
         match self {
             Courses::Motions(table) => table.remarks(),

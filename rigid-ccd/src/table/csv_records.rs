@@ -9,7 +9,7 @@ use crate::table::quotes::Quotes;
 use crate::table::records::{Cells, Record, Records};
 use std::io::{self, Read};
 
-/// A table that is read record by record.
+/// A CSV table that is read record by record.
 ///
 /// Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped, but counted. A quoted cell may hold line
 /// ends, and must be closed.
@@ -25,7 +25,7 @@ pub struct CsvRecords<R> {
 type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
 
 impl<R: Read> CsvRecords<R> {
-    /// Reads the header, which is the current record then.
+    /// Reads the header, which becomes the current record.
     ///
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
@@ -147,7 +147,7 @@ impl Cells for Vec<&str> {
     }
 }
 
-/// Adds the cells of a record to a checksum, and where they end.
+/// Adds the cells of a record and their ends to a checksum.
 fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
     checksum.update(record.as_slice());
     for cell in record {
@@ -155,7 +155,7 @@ fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
     }
 }
 
-/// Returns the line of an unclosed quote in the record that was read last.
+/// Returns the line of an unclosed quote in the last record.
 fn unclosed<R: Read>(reader: &Reader<R>) -> Option<u64> {
     let (quotes, _) = reader.get_ref().get_ref();
     quotes.unclosed(reader.position().line())

@@ -21,10 +21,10 @@ pub enum TableError {
     /// The file is a Git LFS pointer.
     #[error("is a Git LFS pointer, not the table itself; run `git lfs pull` to fetch the table")]
     LfsPointer,
-    /// A quoted cell is not closed: it would hold all rows that follow.
+    /// A quoted cell is not closed, and so extends to the end of the file.
     #[error("{}(line {line}): a quote opens a cell here and is never closed; close it or remove it", RowOrHeader(.row))]
     UnclosedQuote {
-        /// The row of the cell, from 0; none for the header.
+        /// The row of the cell, from 0; `None` for the header.
         row: Option<usize>,
         /// The line of the quote, from 1.
         line: u64,
@@ -53,7 +53,7 @@ pub enum TableError {
         header: String,
     },
     /// A column is unknown. To ignore it could silently drop a motion.
-    #[error("header: unknown column `{column}`; {}", Known(.nearest.as_deref(), .known))]
+    #[error("header: unknown column `{column}`; {}", Suggestion(.nearest.as_deref(), .known))]
     UnknownColumn {
         /// The name of the column.
         column: String,
@@ -62,7 +62,7 @@ pub enum TableError {
         /// The known column with the most similar name.
         nearest: Option<String>,
     },
-    /// A column is named like an angle: orientations are quaternions.
+    /// A column is named like an angle, but orientations are quaternions.
     #[error(
         "header: column `{column}` is named like an angle, and orientations are quaternions: columns {prefix}qw {prefix}qx \
          {prefix}qy {prefix}qz, w first; of scipy, Rotation.from_euler(…).as_quat(scalar_first=True) makes them of angles"
@@ -70,16 +70,16 @@ pub enum TableError {
     Angle {
         /// The name of the column.
         column: String,
-        /// What the names of the body's columns begin with.
+        /// The prefix of the body's columns.
         prefix: &'static str,
     },
-    /// A column has no name, as the index of a frame of pandas.
+    /// A column has no name, like the index of a pandas frame.
     #[error(
         "header: column `{column}` has no name; an index of pandas is written so: write the table with index=False, \
          or drop the column"
     )]
     IndexOfPandas {
-        /// The name that stands for none.
+        /// The placeholder name.
         column: String,
     },
     /// A column appears twice.
@@ -88,12 +88,12 @@ pub enum TableError {
         /// The name of the column.
         column: String,
     },
-    /// A column is there, and another one that it needs is not.
+    /// A column is missing that another one requires.
     #[error("header: no column `{missing}`, but column `{given}` needs it")]
     MissingColumn {
         /// The column that is there.
         given: String,
-        /// The column that is not.
+        /// The missing column.
         missing: String,
     },
     /// The table is empty.
@@ -119,9 +119,9 @@ impl fmt::Display for RowOrHeader<'_> {
 }
 
 /// The most similar column, or a list of all columns.
-struct Known<'a>(Option<&'a str>, &'a str);
+struct Suggestion<'a>(Option<&'a str>, &'a str);
 
-impl fmt::Display for Known<'_> {
+impl fmt::Display for Suggestion<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(nearest) => write!(f, "did you mean `{nearest}`?"),
@@ -198,35 +198,35 @@ pub enum RowProblem {
         /// The time of the row before.
         before: f64,
     },
-    /// A time is so long after the first of its path that it cannot be told from the row before.
+    /// A time is so large relative to the path's first time that it rounds to the time of the row before.
     TooLate {
         /// The time of the row.
         time: f64,
         /// The first time of the path.
         first: f64,
     },
-    /// A path has no name, in a table that names them.
+    /// A row has no id, in a table with ids.
     NoId,
-    /// A path goes on after rows of other paths.
+    /// The rows of a path are not consecutive.
     PathApart {
         /// The id of the path.
         id: String,
     },
-    /// The centre of rotation is another one than in the row before of the path.
+    /// The centre of rotation differs from that of the path's row before.
     CentreMoves {
         /// The prefix of the body.
         body: char,
     },
-    /// The angular velocity of the row before leads far from the orientation of this one.
+    /// The angular velocity of the row before does not lead to the orientation of this one.
     LedElsewhere {
         /// The prefix of the body.
         body: char,
-        /// The angle between both, in radians.
+        /// The angle between both orientations, in radians.
         left: f64,
     },
     /// Only the default schedule answers this question.
     NeedsBestFirst,
-    /// The numbers are valid, the query is not.
+    /// The numbers are valid, but the query is not.
     Input(InputError),
 }
 

@@ -1,4 +1,4 @@
-//! Files that are not CSV, recognised by their first bytes.
+//! Detection of files that are not CSV by their first bytes.
 
 /// The first bytes of other formats, with their names.
 const BEGINNINGS: [(&[u8], &str); 8] = [
@@ -15,12 +15,12 @@ const BEGINNINGS: [(&[u8], &str); 8] = [
 /// The first bytes of a Git LFS pointer, which stands for a file that is not fetched yet.
 const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
 
-/// Returns whether a header is that of a Git LFS pointer.
+/// Returns whether a header belongs to a Git LFS pointer.
 pub(super) fn is_lfs_pointer(header: &csv::ByteRecord) -> bool {
     header.as_slice().starts_with(LFS_BEGINNING)
 }
 
-/// Returns the format of a file that is not text, from its header.
+/// Returns the format of a binary file from its header.
 pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();
     let known = BEGINNINGS
@@ -31,7 +31,7 @@ pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
         .or_else(|| bytes.contains(&0).then_some("binary"))
 }
 
-/// Returns whether a column is the index of a frame of pandas: in Parquet it has such a name, in CSV none.
+/// Returns whether a column is the index of a pandas frame, which has no name in CSV and a special one in Parquet.
 pub(super) fn is_index_of_pandas(column: &str) -> bool {
     column.is_empty() || column.starts_with("__index_level_")
 }

@@ -1,8 +1,8 @@
-//! Line ends.
+//! Normalisation of line ends.
 
 use std::io::{self, Read};
 
-/// A reader that turns every line end (`\n`, `\r\n`, `\r`) into `\n`, so that counting these counts lines.
+/// A reader that converts every line end (`\n`, `\r\n`, `\r`) to `\n`, so that lines can be counted.
 ///
 /// Its first read holds a byte order mark whole, and a byte more: `csv` takes no other for one, and pipes may cut
 /// it.
@@ -10,7 +10,7 @@ use std::io::{self, Read};
 pub struct Lines<R> {
     input: R,
     after_return: bool,
-    /// The number of bytes read from the input, and of those that were left out: one of each `\r\n`.
+    /// The number of bytes read from the input, and the number of those dropped: one for each `\r\n`.
     bytes: u64,
     left_out: u64,
 }
@@ -26,12 +26,12 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Returns how much of the input is behind, of which `taken` bytes of this reader have been used.
+    /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
     pub fn behind(&self, taken: u64) -> u64 {
         self.bytes.min(taken + self.left_out)
     }
 
-    /// Reads some bytes of the input; at its start more than a byte order mark has.
+    /// Reads some bytes of the input; the first read has more bytes than a byte order mark.
     fn some(&mut self, out: &mut [u8]) -> io::Result<usize> {
         const MARK: usize = 3;
         let (start, least) = (self.bytes == 0, out.len().min(MARK + 1));

@@ -17,9 +17,9 @@ use crate::table::records::Records;
 use ccd_core::Motion;
 use std::io;
 
-/// The motions of two bodies over one duration.
+/// One row of a table of motions: the motions of two bodies over one duration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Query {
+pub struct Motions {
     /// The id of the row in the results.
     pub id: String,
     /// The motion of body A.
@@ -34,10 +34,10 @@ pub struct Query {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionTable {
     /// The valid rows.
-    pub rows: Vec<(RowPosition, Query)>,
+    pub rows: Vec<(RowPosition, Motions)>,
     /// The errors of the other rows.
     pub errors: Vec<RowError>,
-    /// What is odd about the rows, each kind once.
+    /// The remarks about the rows, one of each kind.
     pub remarks: Vec<Remark>,
 }
 
@@ -73,7 +73,7 @@ pub struct MotionRows<S> {
 }
 
 /// A valid row, or the error of a bad one.
-pub type MotionRow = Result<(RowPosition, Query), RowError>;
+pub type MotionRow = Result<(RowPosition, Motions), RowError>;
 
 impl<R: io::Read> MotionRows<CsvRecords<R>> {
     /// Reads the header of a CSV table.
@@ -88,7 +88,7 @@ impl<R: io::Read> MotionRows<CsvRecords<R>> {
 }
 
 impl<S: Records> MotionRows<S> {
-    /// Continues after the header.
+    /// Creates the iterator after the header was read.
     pub(in crate::table) fn after_header(records: S, columns: Columns) -> Self {
         MotionRows { records, columns }
     }
@@ -111,7 +111,7 @@ impl<S: Records> MotionRows<S> {
         self.records.bytes()
     }
 
-    /// Returns what is odd about the rows so far, each kind once.
+    /// Returns the remarks about the rows so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
         self.columns.remarks()
     }

@@ -1,28 +1,28 @@
-//! What is odd about the rows of a table, read by any number of threads.
+//! Remarks about the rows of a table, collected from any number of threads.
 
 use crate::Remark;
 use ccd_core::Motion;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What is odd about the rows read so far.
+/// The remarks about the rows read so far.
 #[derive(Debug, Default)]
 pub(in crate::table) struct Oddities {
     quaternion: OnceLock<Remark>,
     spin: OnceLock<Remark>,
-    /// Whether a body turns many times, and by no round number of degrees: then radians are meant.
+    /// Whether some body rotates many times by no round number of degrees, which implies radians.
     has_radians: AtomicBool,
 }
 
 impl Oddities {
-    /// Looks at a quaternion w, x, y, z as it is given.
+    /// Checks a quaternion w, x, y, z before normalisation.
     pub(in crate::table) fn note_quaternion(&self, parts: [f64; 4]) {
         if let Some(remark) = Remark::of_quaternion(parts) {
             self.quaternion.get_or_init(|| remark);
         }
     }
 
-    /// Looks at a motion.
+    /// Checks a motion.
     pub(in crate::table) fn note_motion(&self, motion: &Motion, duration: f64) {
         if !Remark::is_fast(motion.spin(), duration) {
             return;
@@ -35,7 +35,7 @@ impl Oddities {
         }
     }
 
-    /// Returns what was found, each kind once.
+    /// Returns the remarks, one of each kind.
     pub(in crate::table) fn remarks(&self) -> Vec<Remark> {
         let spin = self
             .spin

@@ -5,12 +5,12 @@ mod tests;
 
 use super::columns::Columns;
 use super::error::{RowError, RowProblem, TableError};
-use super::motions::row::{self, Posed, Poses};
+use super::motions::row::{self, BodyPose, Poses};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
 use crate::trajectory;
-use crate::trajectory::poses::{MOST_LEFT, left_over};
+use crate::trajectory::poses::{MOST_LEFT, leftover};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Pose, Trajectory};
@@ -26,20 +26,20 @@ pub struct Path {
     pub a: trajectory::Poses,
     /// The path of body B, from time 0.
     pub b: trajectory::Poses,
-    /// The time of the table at time 0.
+    /// The table's time at time 0.
     pub start: f64,
-    /// The time of the table at the end.
+    /// The table's time at the end.
     pub end: f64,
     /// The end of the paths.
     pub duration: f64,
 }
 
-/// The rows of a table that make one path.
+/// The rows of a table that form one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
-    /// All consecutive rows of an id.
+    /// All consecutive rows with the same id.
     ById,
-    /// Each row, at rest.
+    /// Each row alone, at rest.
     EachRow,
 }
 
@@ -69,7 +69,7 @@ pub struct PathRows<S> {
 type PathRow = Result<(RowPosition, Path), RowError>;
 
 impl<S: Records> PathRows<S> {
-    /// Continues after the header.
+    /// Creates the iterator after the header was read.
     ///
     /// # Errors
     /// The first row cannot be read.
@@ -110,7 +110,7 @@ impl<S: Records> PathRows<S> {
         self.bytes
     }
 
-    /// Returns what is odd about the rows so far, each kind once.
+    /// Returns the remarks about the rows so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
         self.columns.remarks()
     }
@@ -120,7 +120,7 @@ impl<S: Records> PathRows<S> {
         self.checksum
     }
 
-    /// Reads the rows of a path, and returns its id and the position of its first row; none at the end.
+    /// Reads the rows of a path, and returns the path's id and the position of its first row; `None` at the end.
     fn read(
         &mut self,
         mut row: impl FnMut(RowPosition, &Columns, &S::Record),
@@ -196,11 +196,11 @@ impl<S: Records> PathRows<S> {
 struct Beginning {
     position: RowPosition,
     id: String,
-    /// Whether the id is that of a path further up.
+    /// Whether an earlier path has the same id.
     seen: bool,
 }
 
-/// Refuses a row that is not later than the one before, also once the first time is taken from both.
+/// Refuses a row that is not later than the row before, also after subtracting the first time.
 fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
@@ -224,12 +224,12 @@ fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
     Ok(row)
 }
 
-/// Refuses a row to which the one before does not lead.
-fn follows(body: char, [before, row]: [Posed; 2], duration: f64) -> Result<(), RowProblem> {
+/// Refuses a row whose orientation the angular velocity of the row before does not lead to.
+fn follows(body: char, [before, row]: [BodyPose; 2], duration: f64) -> Result<(), RowProblem> {
     if before.centre != row.centre {
         return Err(RowProblem::CentreMoves { body });
     }
-    let left = length(left_over([&before.pose, &row.pose], before.spin, duration));
+    let left = length(leftover([&before.pose, &row.pose], before.spin, duration));
     // Written so that NaN is refused.
     if before.spin == DVec3::ZERO || left <= MOST_LEFT {
         Ok(())
@@ -239,10 +239,10 @@ fn follows(body: char, [before, row]: [Posed; 2], duration: f64) -> Result<(), R
 }
 
 impl Path {
-    /// Creates a path through poses, of which there is at least one.
+    /// Creates a path through `rows`, which is not empty.
     fn new(id: &str, rows: &[Poses]) -> Result<Self, RowProblem> {
         let start = rows[0].time;
-        let of = |body: fn(&Poses) -> Posed| {
+        let of = |body: fn(&Poses) -> BodyPose| {
             let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
             let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
@@ -271,17 +271,17 @@ impl Path {
         Ok([self.a.pose(time)?, self.b.pose(time)?])
     }
 
-    /// Returns the times of the rows, from the start: both bodies have a pose at each.
+    /// Returns the times of the rows, measured from the start.
     pub fn times(&self) -> impl Iterator<Item = f64> {
         self.a.times()
     }
 
-    /// Returns the time of the table at a time from the start, rounded down: no later than it is.
+    /// Converts a time from the start to the table's time, rounded down.
     pub fn earliest(&self, time: f64) -> f64 {
         self.in_table(time, -1.0)
     }
 
-    /// Returns the time of the table at a time from the start, rounded up: no earlier than it is.
+    /// Converts a time from the start to the table's time, rounded up.
     pub fn latest(&self, time: f64) -> f64 {
         self.in_table(time, 1.0)
     }

@@ -1,4 +1,4 @@
-//! Where a row stands.
+//! The position of a row.
 
 /// The position of a row in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Unclosed quotes in CSV: the rest of the table would become one cell.
+//! Detection of unclosed quotes in CSV, which would turn the rest of the table into one cell.
 
 #[cfg(test)]
 mod tests;
@@ -14,14 +14,14 @@ pub struct Quotes<R> {
     line: u64,
     /// The line on which the last quoted cell began.
     opened: u64,
-    /// The number of bytes of a byte order mark seen so far; none after its place.
+    /// The number of bytes of a byte order mark read so far; `None` after its place.
     mark: Option<usize>,
 }
 
-/// The place of the next byte within a cell.
+/// The position of the next byte within a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// The first byte: only here a quote opens.
+    /// At the first byte, the only place where a quote opens.
     Start,
     /// Within a cell without quotes, or after the closing quote.
     Plain,

@@ -18,7 +18,7 @@ pub trait Records {
     /// Returns the current row.
     fn current(&self) -> &Self::Record;
 
-    /// Reads the next row, and returns its position; none at the end.
+    /// Reads the next row, and returns its position; `None` at the end.
     ///
     /// # Errors
     /// The table cannot be read further.
@@ -35,9 +35,9 @@ pub trait Records {
     }
 }
 
-/// A row as it stands in a table.
+/// A row of a table before parsing.
 pub trait Record {
-    /// Cells that can be read.
+    /// The type of the cells.
     type Cells<'r>: Cells
     where
         Self: 'r;
@@ -48,7 +48,7 @@ pub trait Record {
     /// The row does not have the cells of the header, as text.
     fn cells(&self, columns: &Columns) -> Result<Self::Cells<'_>, RowProblem>;
 
-    /// Returns the text of a cell, even if others cannot be read; none where it is empty.
+    /// Returns the text of a cell, even if others are unreadable; `None` if it is empty.
     fn text(&self, cell: usize) -> Option<String>;
 }
 
@@ -57,7 +57,7 @@ pub trait Cells {
     /// Returns whether a cell has a value.
     fn is_given(&self, cell: usize) -> bool;
 
-    /// Returns the number of a cell, which is finite; none where the cell is empty.
+    /// Returns the finite number in a cell; `None` if the cell is empty.
     ///
     /// # Errors
     /// The content of a cell that is no finite number.

@@ -1,4 +1,4 @@
-//! The table of results: answers, written as CSV.
+//! The table of results, written as CSV.
 
 #[cfg(test)]
 mod tests;
@@ -39,10 +39,10 @@ pub const COLUMNS: [&str; 20] = [
     "reason",
 ];
 
-/// The column of the interval of contact; it follows [`COLUMNS`].
+/// The column of the end of a contact interval; it follows [`COLUMNS`].
 pub const LAST_TIME: &str = "last_time";
 
-/// The columns of the counters, in order; they follow all others.
+/// The columns of the counters, in order; they follow all other columns.
 pub const COUNTER_COLUMNS: [&str; 5] = [
     "advancements",
     "oracle_steps",
@@ -51,17 +51,18 @@ pub const COUNTER_COLUMNS: [&str; 5] = [
     "front",
 ];
 
-/// What the distances of rows are compared with.
+/// The clearance that distances are compared with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Compared {
-    /// The distance that is required, if there is one.
+    /// The required distance, if any.
     pub clearance: Option<f64>,
-    /// How far both bodies [exceed](ccd_core::Body::with_excess) their shapes, together: told as a reason, never added.
+    /// The sum of both bodies' [excess](ccd_core::Body::with_excess) over their shapes; named in a reason, never added
+    /// to a distance.
     pub excess: f64,
 }
 
 impl Compared {
-    /// Returns what distances of two bodies are compared with.
+    /// Creates the comparison for two bodies.
     pub fn of(bodies: Bodies<'_>, clearance: Option<f64>) -> Self {
         Compared {
             clearance,
@@ -84,12 +85,12 @@ impl Compared {
     }
 }
 
-/// The columns of a table beside [`COLUMNS`].
+/// The optional columns of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
-    /// Whether there is a column [`LAST_TIME`].
+    /// Whether the table has the column [`LAST_TIME`].
     pub last_time: bool,
-    /// Whether there are [`COUNTER_COLUMNS`].
+    /// Whether the table has the [`COUNTER_COLUMNS`].
     pub counters: bool,
 }
 
@@ -100,14 +101,14 @@ pub struct ResultRow {
     pub id: String,
     /// The status.
     pub status: Status,
-    /// The time before which there is no contact, certified unless the bound is the published one; the
-    /// duration when free.
+    /// The time before which there is no contact, certified unless the bound is the published one; the duration for a
+    /// free row.
     pub time: Option<f64>,
-    /// A lower bound of the distance at `time`; of the closest approach, at all times. Empty when free: those bodies
-    /// are proven to keep the margin, and no distance is known.
+    /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: those bodies are
+    /// proven to keep the margin, and no distance is known.
     pub distance_lower: Option<f64>,
-    /// An upper bound of the distance at `time`: of distances that are asked for, between the shapes; of contacts,
-    /// between the bodies, which may [exceed](ccd_core::Body::with_excess) them.
+    /// An upper bound of the distance at `time`: between the shapes for a distance question; for contacts between the
+    /// bodies, which may [exceed](ccd_core::Body::with_excess) the shapes.
     pub distance_upper: Option<f64>,
     /// The unit vector from A to B, in the world frame.
     pub normal: [Option<f64>; 3],
@@ -144,7 +145,7 @@ impl ResultRow {
         }
     }
 
-    /// Creates a row of empty cells, except for the first two.
+    /// Creates a row with an id and a status, and no other cells.
     fn empty(id: &str, status: Status) -> Self {
         ResultRow {
             id: id.to_owned(),
@@ -199,7 +200,7 @@ impl ResultRow {
         }
     }
 
-    /// Returns the row with what an outcome says about contacts.
+    /// Adds the contact of an outcome to the row.
     fn with_contacts(self, outcome: &Outcome, duration: f64) -> Self {
         match *outcome {
             Outcome::Free { .. } => self.at(duration),
@@ -218,7 +219,7 @@ impl ResultRow {
         }
     }
 
-    /// Returns the row with what an outcome says about a distance.
+    /// Adds the distance of an outcome to the row.
     fn with_distance(self, outcome: &Outcome, duration: f64) -> Self {
         let row = match *outcome {
             Outcome::Overlapping { overlap, upper } => {
@@ -284,7 +285,7 @@ impl ResultRow {
     }
 }
 
-/// Returns the columns of a table.
+/// Returns the names of a table's columns.
 pub fn columns(extent: Extent) -> Vec<&'static str> {
     let mut columns = COLUMNS.to_vec();
     columns.extend(extent.last_time.then_some(LAST_TIME));
@@ -292,7 +293,7 @@ pub fn columns(extent: Extent) -> Vec<&'static str> {
     columns
 }
 
-/// Writes a row; numbers read back to the same bits.
+/// Writes a row; numbers can be read back exactly.
 ///
 /// # Errors
 /// The writer's output cannot be written to.

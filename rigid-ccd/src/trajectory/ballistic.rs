@@ -7,7 +7,7 @@ use ccd_core::order::greater;
 use ccd_core::vector::length;
 use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray};
 
-/// A thrown body: constant acceleration of its centre, and constant spin about it.
+/// A thrown body: its centre has constant acceleration, and the body rotates about it at a constant rate.
 ///
 /// The centre's place is `C + v t + a t²/2`. Its acceleration is constant: a stretch of any length is the
 /// trajectory itself.
@@ -28,7 +28,7 @@ pub struct Ballistic {
 }
 
 impl Ballistic {
-    /// Creates the trajectory of a body that is thrown with the pose and the velocities of a motion at time 0.
+    /// Creates the trajectory of a body thrown at time 0 with the pose and the velocities of a motion.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -80,7 +80,7 @@ impl Smooth for Ballistic {
         Ok((self.tangent(time)?, Some(acceleration)))
     }
 
-    /// The turn since the throw is rounded, and so is the way.
+    /// Bounds the rounding of the rotation since the throw and of the displacement.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Ballistic {
             thrown,

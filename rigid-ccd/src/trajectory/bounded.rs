@@ -1,25 +1,25 @@
-//! Trajectories with bounds of their speeds, which others are made of.
+//! Trajectories with bounds on their speeds, from which others are built.
 
 use ccd_core::vector::length;
 use ccd_core::{Accelerations, Motion, Smooth};
 
-/// A smooth trajectory with bounds of its speeds: one that can [carry](super::Carried) a body that moves itself,
-/// or be followed at another [pace](super::Timed).
+/// A smooth trajectory with bounds on its speeds, as the carrier of a [`Carried`](super::Carried) trajectory or the
+/// inner one of a [`Timed`](super::Timed) needs.
 pub trait Bounded: Smooth {
-    /// Bounds the speeds from a time to a later one.
+    /// Bounds the speeds between two times.
     fn speeds(&self, from: f64, to: f64) -> Speeds;
 }
 
-/// Bounds of speeds, per unit of time.
+/// Bounds on speeds, per unit of time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Speeds {
-    /// Of the tangents' centre, in the scene's unit of length.
+    /// The speed of the tangents' centre, in the scene's unit of length.
     pub linear: f64,
-    /// Of the orientation, in radians.
+    /// The angular speed, in radians.
     pub angular: f64,
 }
 
-/// A motion has constant velocities.
+/// Returns the speeds of a motion at constant velocities.
 pub(super) fn speeds(motion: &Motion) -> Speeds {
     Speeds {
         linear: length(motion.velocity()),
@@ -28,7 +28,7 @@ pub(super) fn speeds(motion: &Motion) -> Speeds {
 }
 
 impl Speeds {
-    /// Bounds the speeds of a body's origin; `arm` is its distance from the centre.
+    /// Bounds the speed of a body's origin at distance `arm` from the centre.
     pub(super) fn of_origin(self, arm: f64) -> Self {
         Speeds {
             linear: self.linear + self.angular * arm,
@@ -37,7 +37,7 @@ impl Speeds {
     }
 }
 
-/// Bounds the accelerations of a body's origin; `arm` is its distance from the centre.
+/// Bounds the accelerations of a body's origin at distance `arm` from the centre.
 pub(super) fn of_origin(accelerations: Accelerations, speeds: Speeds, arm: f64) -> Accelerations {
     let Accelerations { linear, angular } = accelerations;
     Accelerations {

@@ -1,4 +1,4 @@
-//! A body that moves in the frame of a moving one.
+//! A body that moves in a moving frame.
 
 use super::bounded::{Bounded, Speeds, of_origin, speeds};
 use ccd_core::order::greater;
@@ -7,7 +7,7 @@ use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
 
 /// A trajectory in the frame of another one: a tool in a hand, a load on a ship.
 ///
-/// With the carrier's rotation `R`, its angular velocity `ω`, and the way `q` from its origin to that of what it
+/// With the carrier's rotation `R`, its angular velocity `ω`, and the vector `q` from its origin to that of what it
 /// carries: `ẍ = c̈ + ω̇ × Rq + ω × (ω × Rq) + 2 ω × Rq̇ + Rq̈`, and the angular acceleration is
 /// `ω̇ + ω × Rω' + Rω̇'`.
 ///
@@ -28,13 +28,13 @@ pub struct Carried<C, T> {
 }
 
 impl<C, T> Carried<C, T> {
-    /// Lets a trajectory carry another one.
+    /// Creates the trajectory of `inner` in the frame of `carrier`.
     pub fn new(carrier: C, inner: T) -> Self {
         Carried { carrier, inner }
     }
 }
 
-/// A motion at constant velocities, as a part of other trajectories.
+/// A motion at constant velocities, for use within other trajectories.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steady(pub Motion);
 
@@ -49,7 +49,7 @@ impl Smooth for Steady {
         Accelerations::default()
     }
 
-    /// The turn since time 0 is rounded, and so is the way.
+    /// Bounds the rounding of the rotation since time 0 and of the displacement.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Speeds { linear, angular } = speeds(&self.0);
         let time = greater(from.abs(), to.abs());
@@ -67,18 +67,18 @@ impl Bounded for Steady {
     }
 }
 
-/// A trajectory between two times, as its origin moves.
+/// Bounds on the origin of a trajectory between two times.
 struct Origin {
-    /// At the middle.
+    /// The motion at the middle time.
     tangent: Motion,
     speeds: Speeds,
     accelerations: Accelerations,
-    /// Bounds the distance from the origin of the outer frame.
-    way: f64,
+    /// A bound on the distance from the origin of the outer frame.
+    distance: f64,
 }
 
 impl Origin {
-    fn of<T: Bounded>(trajectory: &T, from: f64, to: f64) -> Result<Self, InputError> {
+    fn new<T: Bounded>(trajectory: &T, from: f64, to: f64) -> Result<Self, InputError> {
         let half = 0.5 * (to - from);
         let tangent = trajectory.tangent(from + half)?;
         let arm = length(tangent.centre());
@@ -86,7 +86,7 @@ impl Origin {
         let origin = speeds.of_origin(arm);
         Ok(Origin {
             accelerations: of_origin(trajectory.accelerations(from, to), speeds, arm),
-            way: length(tangent.start().translation()) + origin.linear * half,
+            distance: length(tangent.start().translation()) + origin.linear * half,
             speeds: origin,
             tangent,
         })
@@ -94,10 +94,10 @@ impl Origin {
 }
 
 impl<C: Bounded, T: Bounded> Carried<C, T> {
-    /// Returns the bounds of both parts; none where a part has no pose.
+    /// Returns the bounds of both parts; `None` if a part has no pose.
     fn parts(&self, from: f64, to: f64) -> Option<[Origin; 2]> {
-        let carrier = Origin::of(&self.carrier, from, to).ok()?;
-        let inner = Origin::of(&self.inner, from, to).ok()?;
+        let carrier = Origin::new(&self.carrier, from, to).ok()?;
+        let inner = Origin::new(&self.inner, from, to).ok()?;
         Some([carrier, inner])
     }
 }
@@ -112,8 +112,8 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
             let arm = motion.start().rotation() * motion.centre();
             motion.velocity() - motion.spin().cross(arm)
         };
-        let way = turn * inner.start().translation();
-        let velocity = origin(&carrier) + carrier.spin().cross(way) + turn * origin(&inner);
+        let offset = turn * inner.start().translation();
+        let velocity = origin(&carrier) + carrier.spin().cross(offset) + turn * origin(&inner);
         Motion::new(start, velocity, carrier.spin() + turn * inner.spin())
     }
 
@@ -128,7 +128,7 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
         let turning = carrier.accelerations.angular + spin * spin;
         Accelerations {
             linear: carrier.accelerations.linear
-                + turning * inner.way
+                + turning * inner.distance
                 + 2.0 * spin * inner.speeds.linear
                 + inner.accelerations.linear,
             angular: carrier.accelerations.angular
@@ -145,13 +145,14 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
         let Some([carrier_at, inner_at]) = self.parts(from, to) else {
             return Stray::NONE;
         };
-        let arms =
-            inner_at.way + length(carrier_at.tangent.centre()) + length(inner_at.tangent.centre());
+        let arms = inner_at.distance
+            + length(carrier_at.tangent.centre())
+            + length(inner_at.tangent.centre());
         Stray {
             shift: carrier.shift
                 + inner.shift
                 + (carrier.turn + inner.turn) * arms
-                + 32.0 * super::U * (carrier_at.way + arms),
+                + 32.0 * super::U * (carrier_at.distance + arms),
             turn: carrier.turn + inner.turn + 32.0 * super::U,
         }
     }
@@ -168,7 +169,7 @@ impl<C: Bounded, T: Bounded> Bounded for Carried<C, T> {
         match self.parts(from, to) {
             Some([carrier, inner]) => Speeds {
                 linear: carrier.speeds.linear
-                    + carrier.speeds.angular * inner.way
+                    + carrier.speeds.angular * inner.distance
                     + inner.speeds.linear,
                 angular: carrier.speeds.angular + inner.speeds.angular,
             },

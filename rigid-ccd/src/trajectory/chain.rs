@@ -36,12 +36,12 @@ impl Chain {
         Chain { base, joints }
     }
 
-    /// The pose of link 0.
+    /// Returns the pose of link 0.
     pub fn base(&self) -> Pose {
         self.base
     }
 
-    /// The joints.
+    /// Returns the joints.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
     }

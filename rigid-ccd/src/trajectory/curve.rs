@@ -75,18 +75,18 @@ impl Curve {
         })
     }
 
-    /// The time of the end.
+    /// Returns the end time.
     pub fn duration(&self) -> f64 {
         self.segments[self.segments.len() - 1].to
     }
 
-    /// The position at a time.
+    /// Returns the position at a time.
     pub fn position(&self, time: f64) -> DVec3 {
         let segment = self.at(time);
         segment.derivative(0, segment.share(time))
     }
 
-    /// The velocity at a time.
+    /// Returns the velocity at a time.
     pub fn velocity(&self, time: f64) -> DVec3 {
         if (0.0..=self.duration()).contains(&time) {
             let segment = self.at(time);
@@ -111,8 +111,8 @@ impl Curve {
         smooth.fold(0.0, greater) + spread(self.jumps(from, to), from, to)
     }
 
-    /// Returns the acceleration at a time, with a bound of how fast it changes between two times; none if several
-    /// segments are between them.
+    /// Returns the acceleration at a time, with a bound on its rate of change between two times; `None` if these span
+    /// several segments.
     pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
         // One that the stretch only touches overlaps it, too.
         let mut overlapping = self.overlapping(from, to).iter();
@@ -132,7 +132,7 @@ impl Curve {
         speeds.fold(0.0, greater)
     }
 
-    /// Returns a time between two others at which two segments meet, about the middle.
+    /// Returns a knot strictly between two times, about in the middle; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let times = |segment: &Segment| [segment.from, segment.to];
         middle_knot(self.overlapping(from, to), times, from, to)
@@ -156,7 +156,7 @@ impl Curve {
         )
     }
 
-    /// The lengths of the changes of velocity strictly between two times.
+    /// Returns the magnitudes of the velocity jumps strictly between two times.
     fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
         let segments = self.overlapping(from, to);
         // Before the first segment and after the last there is no velocity.
@@ -179,7 +179,7 @@ impl Segment {
         ((time - self.from) / (self.to - self.from)).clamp(0.0, 1.0)
     }
 
-    /// Returns a derivative after a share of the time, by time.
+    /// Returns a derivative by time, at a share of the segment's duration.
     fn derivative(&self, order: usize, share: f64) -> DVec3 {
         let mut points = self.differences(order);
         // De Casteljau's algorithm.
@@ -189,7 +189,7 @@ impl Segment {
         points.first().copied().unwrap_or(DVec3::ZERO)
     }
 
-    /// Returns the control points of a derivative by time; none if it is zero.
+    /// Returns the control points of a derivative by time; empty if it is zero.
     fn differences(&self, order: usize) -> Vec<DVec3> {
         let mut points = self.points.clone();
         for _ in 0..order {
@@ -199,7 +199,7 @@ impl Segment {
         points
     }
 
-    /// Bounds the length of a derivative between two times of the segment.
+    /// Bounds the magnitude of a derivative between two times of the segment.
     fn most(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
             let points = self.differences(order).into_iter();

@@ -1,4 +1,4 @@
-//! A joint, and the motion of a body that hangs on it.
+//! A joint, and the motion of the link after it.
 
 use super::screw::{turn, unit_axis};
 use ccd_core::glam::DVec3;
@@ -6,8 +6,8 @@ use ccd_core::order::greater;
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::RangeInclusive;
 
-/// A joint of a serial chain, as in URDF: an origin in the frame of the link before it, and an axis in its own
-/// frame, about which or along which the link after it moves.
+/// A joint of a serial chain, as in URDF: an origin in the frame of the link before it, and an axis in its own frame,
+/// about which or along which the link after it moves.
 ///
 /// ```
 /// use rigid_ccd::trajectory::Joint;
@@ -26,7 +26,7 @@ pub struct Joint {
     limits: RangeInclusive<f64>,
 }
 
-/// The freedom of a joint, with an axis of unit length.
+/// The degree of freedom of a joint, with an axis of unit length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Fixed,
@@ -34,12 +34,12 @@ pub(super) enum Kind {
     Prismatic(DVec3),
 }
 
-/// What a position may be beyond its limits, over the greater of both. A position between two of them,
+/// The allowed excess of a position over its limits, relative to the greater of them. A position between two of them,
 /// `a + t (b − a)`, has three roundings, each of at most half an ulp of twice that.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Joint {
-    /// Creates a joint without a freedom.
+    /// Creates a joint without a degree of freedom.
     pub fn fixed(origin: Pose) -> Self {
         Joint {
             origin,
@@ -48,7 +48,7 @@ impl Joint {
         }
     }
 
-    /// Creates a joint that turns about an axis; its position is an angle in radians, without limits.
+    /// Creates a joint that rotates about an axis; its position is an angle in radians, without limits.
     ///
     /// # Errors
     /// [`InputError::NotFinite`] for an axis that is not finite, [`InputError::OutOfRange`] for one without a length.
@@ -70,19 +70,19 @@ impl Joint {
         })
     }
 
-    /// Refuses positions outside of limits. Those beyond by no more than the rounding of a position between both are
+    /// Sets the limits of the position. Those beyond by no more than the rounding of a position between both are
     /// accepted.
     #[must_use]
     pub fn within(self, limits: RangeInclusive<f64>) -> Self {
         Joint { limits, ..self }
     }
 
-    /// The positions that are allowed.
+    /// Returns the limits of the position.
     pub fn limits(&self) -> &RangeInclusive<f64> {
         &self.limits
     }
 
-    /// Returns true if the joint has no freedom: it has no position, or any.
+    /// Returns true if the joint has no degree of freedom: its position is ignored.
     pub fn is_fixed(&self) -> bool {
         self.kind == Kind::Fixed
     }
@@ -96,7 +96,7 @@ impl Joint {
         self.placed(position)
     }
 
-    /// Like [`Joint::pose`] for a position that is known to be allowed, up to rounding.
+    /// Returns the pose as [`Joint::pose`] does, for a position that is within the limits up to rounding.
     pub(super) fn placed(&self, position: f64) -> Result<Pose, InputError> {
         let moved = match self.kind {
             Kind::Fixed => Pose::IDENTITY,
@@ -106,8 +106,8 @@ impl Joint {
         Ok(self.origin.compose(&moved))
     }
 
-    /// Returns the motion of the link after the joint, in the frame of the link before it, from a position at time 0
-    /// to another one at the time `duration`, at a constant rate.
+    /// Returns the motion of the link after the joint, in the frame of the link before it, from one position to another
+    /// in `duration` at a constant rate.
     ///
     /// # Errors
     /// [`InputError::JointPosition`] outside of the limits, [`InputError::OutOfRange`] for a duration that is not
@@ -137,7 +137,7 @@ impl Joint {
         }
     }
 
-    /// Refuses a position outside of the limits. In a chain the joint has a number.
+    /// Refuses a position outside the limits. In a chain the joint has a number.
     pub(super) fn check(&self, position: f64, joint: Option<usize>) -> Result<(), InputError> {
         let (least, greatest) = (*self.limits.start(), *self.limits.end());
         let rounding = match greater(least.abs(), greatest.abs()) {

@@ -1,6 +1,6 @@
-//! The times at which the parts of a trajectory meet.
+//! The times at which the segments of a trajectory meet.
 
-/// Returns the parts that hold at some time from one to another; parts follow each other in time.
+/// Returns the segments that overlap an interval of time; segments are consecutive.
 pub(super) fn overlapping<P>(
     parts: &[P],
     times: impl Fn(&P) -> [f64; 2],
@@ -12,8 +12,7 @@ pub(super) fn overlapping<P>(
     &rest[..rest.partition_point(|part| times(part)[0] <= to)]
 }
 
-/// Returns a knot strictly between two times, if there is one, about the middle of all knots of these parts,
-/// which overlap that time.
+/// Returns a knot strictly between two times, about the middle of the knots of `parts`; `None` without one.
 pub(super) fn middle_knot<P>(
     parts: &[P],
     times: impl Fn(&P) -> [f64; 2],
@@ -27,7 +26,7 @@ pub(super) fn middle_knot<P>(
     std::iter::once(middle).chain(others).find(inside)
 }
 
-/// Returns the acceleration in half of a stretch by which velocities that jump at knots stray as far.
+/// Returns the acceleration whose deviation over half of a segment equals that of velocity jumps at knots.
 pub(super) fn spread(jumps: impl Iterator<Item = f64>, from: f64, to: f64) -> f64 {
     let jumps: f64 = jumps.sum();
     if jumps > 0.0 {

@@ -1,4 +1,4 @@
-//! A link of a serial chain whose joints all go from one position to another.
+//! The motion of a link of a serial chain whose joints move between two positions.
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
@@ -10,7 +10,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
 use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
 
-/// The trajectory of a link of a [`Chain`], in the world or as another link sees it.
+/// The trajectory of a link of a [`Chain`], in the world or in the frame of another link.
 ///
 /// With rates `q̇` about axes `z` and arms `r` from joint to joint: `ω = Σ q̇ z`, and the link's origin moves at
 /// `v = Σ ω × r`, summed over the joints below it. An axis turns with the links below it, `ż = ω × z`, so that
@@ -27,7 +27,7 @@ use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, St
 #[derive(Clone, Copy, Debug)]
 pub struct Link<'c> {
     chain: &'c Chain,
-    /// The links between which it moves.
+    /// The first and the last link of the moving part of the chain.
     seen_from: Option<usize>,
     link: usize,
     from: &'c [f64],
@@ -36,7 +36,7 @@ pub struct Link<'c> {
 }
 
 impl Chain {
-    /// Returns the pose of a link at some positions of the joints.
+    /// Returns the pose of a link for given positions of the joints.
     ///
     /// # Errors
     /// Those of [`Chain::link`].
@@ -128,7 +128,7 @@ impl<'c> Link<'c> {
         }
     }
 
-    /// The joints between both links, with their positions at a time and their rates.
+    /// Returns the joints between both links, with their positions at a time and their rates.
     fn joints(&self, time: f64) -> impl Iterator<Item = (&'c Joint, f64, f64)> {
         let share = time / self.duration;
         let (from, to, duration) = (self.from, self.to, self.duration);
@@ -156,7 +156,7 @@ impl<'c> Link<'c> {
         Ok(state)
     }
 
-    /// The bounds of the link's velocities and accelerations between two times.
+    /// Returns bounds on the link's velocities and accelerations between two times.
     fn moved(&self, from: f64, to: f64) -> Moved {
         let mut moved = Moved::default();
         let starts = self.joints(0.0);
@@ -173,7 +173,7 @@ impl<'c> Link<'c> {
         moved
     }
 
-    /// The positions of all joints at two times.
+    /// Returns the positions of all joints at two times.
     fn positions(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
         let at = |time| self.joints(time).map(|(_, position, _)| position);
         at(from).zip(at(to))
@@ -203,7 +203,7 @@ impl Smooth for Link<'_> {
         Ok((state.tangent()?, Some(acceleration)))
     }
 
-    /// Each joint adds the rounding of a product of poses, and of its angle.
+    /// Bounds the rounding: each joint adds that of a product of poses and that of its angle.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Moved {
             joints,
@@ -226,18 +226,18 @@ impl Bounded for Link<'_> {
     }
 }
 
-/// The pose of a link and its derivatives, joint by joint.
+/// The pose of a link and its derivatives, accumulated joint by joint.
 struct State {
     pose: Pose,
     velocity: DVec3,
     spin: DVec3,
     acceleration: DVec3,
-    /// `ω̇`
+    /// The angular acceleration `ω̇`.
     angular: DVec3,
 }
 
 impl State {
-    /// A link at rest.
+    /// Creates the state of a link at rest.
     fn at(pose: Pose) -> Self {
         State {
             pose,
@@ -252,7 +252,7 @@ impl State {
         Motion::new(self.pose, self.velocity, self.spin)
     }
 
-    /// Goes on to the link after a joint.
+    /// Advances to the link after a joint.
     fn pass(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
         let before = self.pose.translation();
         let held = self.pose.compose(joint.origin());
@@ -278,26 +278,26 @@ impl State {
     }
 }
 
-/// Bounds of the derivatives of a link's pose, joint by joint.
+/// Bounds on the derivatives of a link's pose, accumulated joint by joint.
 #[derive(Clone, Copy, Debug, Default)]
 struct Moved {
     speeds: Speeds,
     accelerations: Accelerations,
-    /// The bounds of their derivatives.
+    /// The bounds on the derivatives of the accelerations.
     jerks: Accelerations,
-    /// The axis of all turns so far in the link's frame, if they have a common one.
+    /// The common axis of all rotations so far, in the link's frame, if there is one.
     axis: Option<DVec3>,
-    /// The number of joints, the sum of the lengths of all arms, and of all angles.
+    /// The number of joints, the sum of the arms' lengths, and the sum of the angles.
     joints: f64,
     arms: f64,
     angles: f64,
 }
 
-/// The positions of a joint in a stretch of time.
+/// The positions of a joint in an interval of time.
 struct Positions {
     /// The largest absolute value.
     largest: f64,
-    /// The same with the position at time 0, from which all others are computed.
+    /// The largest absolute value including the position at time 0, from which all others are computed.
     ever: f64,
     first: f64,
     /// The absolute value of the rate.
@@ -305,7 +305,7 @@ struct Positions {
 }
 
 impl Moved {
-    /// Goes on to the link after a joint.
+    /// Advances to the link after a joint.
     fn pass(&mut self, joint: &Joint, positions: &Positions) {
         self.joints += 1.0;
         let length = length(joint.origin().translation());
@@ -337,7 +337,7 @@ impl Moved {
         }
     }
 
-    /// Adds an arm that turns with the link.
+    /// Adds an arm that rotates with the link.
     fn arm(&mut self, length: f64) {
         let Speeds { angular, .. } = self.speeds;
         let turning = self.accelerations.angular;
@@ -347,7 +347,7 @@ impl Moved {
         self.speeds.linear += angular * length;
     }
 
-    /// Adds a turn about an axis of the joint's frame, at a rate that is not 0.
+    /// Adds a rotation about an axis of the joint's frame, at a nonzero rate.
     fn turn(&mut self, axis: DVec3, rate: f64) {
         let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),
@@ -367,5 +367,5 @@ impl Moved {
     }
 }
 
-/// The sine of the angle between axes that count as parallel: far above rounding.
+/// The sine of the largest angle between axes that count as parallel, far above rounding.
 const PARALLEL: f64 = 1e-12;

@@ -1,17 +1,17 @@
 //! A path through given poses.
 
-mod leg;
+mod segment;
 
-pub(crate) use leg::{MOST_LEFT, left_over};
+pub(crate) use segment::{MOST_LEFT, leftover};
 
 use super::U;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose, Stray, Stretch, Trajectory};
-use leg::Leg;
+use segment::Segment;
 
-/// A path through poses at given times: of a planner, or of a simulator's log.
+/// A path through poses at given times, for example from a planner or a simulator's log.
 ///
 /// From one pose to the next, a point of the body moves straight, and the body turns about it the shortest way,
 /// both at constant rates ([`Motion::between`]); or by any number of turns, at about a [given](Poses::turning) angular
@@ -35,7 +35,7 @@ use leg::Leg;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Poses {
     poses: Vec<(f64, Pose)>,
-    /// From each pose to the next; none if all turns are the shortest ones.
+    /// The angular velocities from each pose to the next; empty if all rotations are the shortest ones.
     spins: Vec<DVec3>,
     centre: DVec3,
 }
@@ -73,7 +73,7 @@ impl Poses {
         })
     }
 
-    /// Lets another point of the body move straight.
+    /// Sets the point of the body that moves in straight lines.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -86,7 +86,8 @@ impl Poses {
         }
     }
 
-    /// Lets the body turn from each pose to the next at about an angular velocity, in the world: by any number of turns.
+    /// Sets the approximate angular velocity from each pose to the next, in the world, for rotations of any number of
+    /// turns.
     ///
     /// What it leaves over to the next pose is turned beside it, at a constant rate. Where it is zero, the turn is the
     /// shortest.
@@ -124,7 +125,7 @@ impl Poses {
                     what: "angular velocity",
                 });
             }
-            let left = length(left_over([&from, &to], spin, end - begin));
+            let left = length(leftover([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
             if spin != DVec3::ZERO && !(left <= MOST_LEFT) {
                 return Err(InputError::OutOfRange {
@@ -137,7 +138,7 @@ impl Poses {
         Ok(Poses { spins, ..self })
     }
 
-    /// The time of the last pose.
+    /// Returns the time of the last pose.
     pub fn end(&self) -> f64 {
         self.poses[self.poses.len() - 1].0
     }
@@ -147,8 +148,8 @@ impl Poses {
         self.poses.iter().map(|&(time, _)| time)
     }
 
-    /// Returns the motion between the poses that a time is between, as it is at that time: that before a pose
-    /// where `to` is not later, else that after it. Bounds how fast its angular velocity changes, too.
+    /// Returns the motion of the segment at a time, as of that time. At a pose, this is the segment before it if `to`
+    /// is not later, else the one after it. Bounds how fast its angular velocity changes, too.
     fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = if to > time {
             self.poses.partition_point(|&(at, _)| at <= time)
@@ -158,8 +159,8 @@ impl Poses {
         match (next.checked_sub(1), self.poses.get(next)) {
             (Some(k), Some(&(end, pose))) => {
                 let (begin, from) = self.poses[k];
-                let leg = Leg::new([from, pose], self.centre, end - begin, self.spin(k))?;
-                Ok((leg.at(time - begin)?, leg.bend()))
+                let segment = Segment::new([from, pose], self.centre, end - begin, self.spin(k))?;
+                Ok((segment.at(time - begin)?, segment.angular_acceleration()))
             }
             // The body rests before the first pose and after the last.
             (None, Some(&(_, pose))) => Ok((self.still(pose)?, 0.0)),
@@ -171,52 +172,52 @@ impl Poses {
         Motion::about(pose, DVec3::ZERO, DVec3::ZERO, self.centre)
     }
 
-    /// The point of the body that moves straight.
+    /// Returns the point of the body that moves in straight lines.
     #[cfg(feature = "pages")]
     pub(crate) fn centre(&self) -> DVec3 {
         self.centre
     }
 
-    /// The angular velocity that is given from a pose to the next; 0 for the shortest turn.
+    /// Returns the given angular velocity from a pose to the next; 0 for the shortest rotation.
     fn spin(&self, k: usize) -> DVec3 {
         self.spins.get(k).copied().unwrap_or_default()
     }
 
-    /// Returns the rotation vector from each pose to the next, about; of the last one it is 0.
+    /// Returns the approximate rotation vector from each pose to the next; 0 for the last one.
     #[cfg(feature = "pages")]
     pub(crate) fn turns(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
         let turns = ends.enumerate().map(|(k, [(begin, from), (end, to)])| {
-            let leg = Leg::new([from, to], self.centre, end - begin, self.spin(k))?;
-            Ok(leg.at(0.0)?.spin() * (end - begin))
+            let segment = Segment::new([from, to], self.centre, end - begin, self.spin(k))?;
+            Ok(segment.at(0.0)?.spin() * (end - begin))
         });
         turns.chain([Ok(DVec3::ZERO)])
     }
 
-    /// The poses strictly between two times.
+    /// Returns the poses strictly between two times.
     fn between(&self, from: f64, to: f64) -> &[(f64, Pose)] {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
         &self.poses[first..last.max(first)]
     }
 
-    /// Returns a motion from the pose at one time to that at another, and how far the path strays from it.
+    /// Returns a motion from the pose at one time to that at another, and how far the path deviates from it.
     fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [begin, end] = [self.at(from, to)?.0.start(), self.at(to, to)?.0.start()];
         let motion = Motion::between(begin, end, self.centre, to - from)?;
         let mut stray = Stray::NONE;
         // The turn by which the chord is off at a pose, and that pose's time.
-        let mut last = (from, Off::default());
+        let mut last = (from, Deviation::default());
         for &(time, pose) in self.between(from, to).iter().chain(&[(to, end)]) {
-            let off = Off::new(&motion, &pose, self.centre, time - from);
+            let deviation = Deviation::new(&motion, &pose, self.centre, time - from);
             // The motion that ends at this pose.
-            let (before, bend) = self.at(time, time)?;
+            let (before, acceleration) = self.at(time, time)?;
             let since = time - last.0;
-            let change = before.spin().distance(motion.spin()) + bend * since;
-            let between = 0.5 * (off.turn + last.1.turn + change * since);
-            stray.shift = greater(stray.shift, off.shift);
+            let change = before.spin().distance(motion.spin()) + acceleration * since;
+            let between = 0.5 * (deviation.turn + last.1.turn + change * since);
+            stray.shift = greater(stray.shift, deviation.shift);
             stray.turn = greater(stray.turn, between);
-            last = (time, off);
+            last = (time, deviation);
         }
         Ok(Stretch {
             stray,
@@ -224,7 +225,7 @@ impl Poses {
         })
     }
 
-    /// Bounds the rounding of poses from one time to another: they are computed from those given before.
+    /// Bounds the rounding of poses between two times, which are computed from the given pose before them.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
@@ -246,11 +247,11 @@ impl Poses {
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let stretch = if self.between(from, to).is_empty() {
-            let (motion, bend) = self.at(from, to)?;
+            let (motion, acceleration) = self.at(from, to)?;
             let mut stretch = Stretch::exact(motion);
             // Twice the integral of what the angular velocity is off by is a square.
-            if bend > 0.0 {
-                stretch.stray.turn = 0.5 * bend * (to - from) * (to - from);
+            if acceleration > 0.0 {
+                stretch.stray.turn = 0.5 * acceleration * (to - from) * (to - from);
             }
             stretch
         } else {
@@ -268,19 +269,19 @@ impl Trajectory for Poses {
     }
 }
 
-/// How far a motion is off a pose.
+/// The deviation of a motion from a pose.
 #[derive(Clone, Copy, Debug, Default)]
-struct Off {
+struct Deviation {
     shift: f64,
     turn: f64,
 }
 
-impl Off {
+impl Deviation {
     fn new(motion: &Motion, pose: &Pose, centre: DVec3, time: f64) -> Self {
         let near = motion.pose(time);
         let [at, true_at] = [&near, pose].map(|pose| pose.transform_point(centre));
         let turned: DQuat = near.rotation().conjugate() * pose.rotation();
-        Off {
+        Deviation {
             shift: at.distance(true_at),
             // The double of the angle of a quaternion, whose sine is the length of its vector.
             turn: 2.0 * turned.xyz().length().atan2(turned.w.abs()),

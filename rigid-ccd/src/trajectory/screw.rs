@@ -1,10 +1,10 @@
-//! A screw.
+//! Screw motions.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
 use ccd_core::{InputError, Motion, Pose};
 
-/// Creates the motion of a body that turns about an axis in the world and advances along it, at constant rates:
+/// Creates the motion of a body that rotates about an axis in the world and advances along it, at constant rates:
 /// `turn` in radians and `advance`, both per unit of time.
 ///
 /// The axis passes through `point` along `direction`, of any length but 0. The motion is exact.
@@ -36,7 +36,7 @@ pub fn screw(
     Motion::about(start, axis * advance, axis * turn, centre)
 }
 
-/// Returns an axis of unit length.
+/// Normalises an axis.
 pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
     let axis = DVec3::from_array(axis.into());
     unit(axis).ok_or(if axis.is_finite() {
@@ -50,7 +50,7 @@ pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> 
     })
 }
 
-/// Returns a turn by an angle about an axis of unit length.
+/// Returns the rotation by an angle about an axis of unit length.
 pub(super) fn turn(axis: DVec3, angle: f64) -> DQuat {
     DQuat::from_axis_angle(axis, angle)
 }

@@ -1,4 +1,4 @@
-//! A body that follows a curve and turns.
+//! A body that follows a curve and rotates.
 
 use super::bounded::{Bounded, Speeds};
 use super::curve::Curve;
@@ -6,7 +6,7 @@ use super::turns::Turns;
 use ccd_core::glam::DVec3;
 use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray};
 
-/// A body whose origin follows a [`Curve`], and which [turns](Turns) about it.
+/// A body whose origin follows a [`Curve`], and which [rotates](Turns) about it.
 ///
 /// ```
 /// use rigid_ccd::trajectory::{Curve, Spline, Trajectory, Turns};
@@ -23,7 +23,7 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Creates a trajectory from the curve of the body's origin and its turns.
+    /// Creates a trajectory from the curve of the body's origin and its rotation.
     pub fn new(curve: Curve, turns: Turns) -> Self {
         Spline {
             curve,
@@ -32,7 +32,7 @@ impl Spline {
         }
     }
 
-    /// Lets another point of the body follow the curve.
+    /// Sets the point of the body that follows the curve.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].

@@ -1,4 +1,4 @@
-//! Every trajectory against samples that seek the worst: none strays farther than it says.
+//! Random trajectories, sampled adversarially: no deviation exceeds its bound.
 
 mod extremes;
 
@@ -29,7 +29,7 @@ fn draws() -> u64 {
     5_000 * cases.map_or(1, |cases| cases.parse().unwrap())
 }
 
-/// Draws some trajectories, and checks that the worst of all strays is within its bound, but not far within.
+/// Draws random trajectories, and checks that the worst deviation is within its bound and not far below.
 fn check<T: Trajectory>(
     name: &str,
     at_least: f64,
@@ -62,7 +62,7 @@ fn points(rng: &mut Rng, count: usize) -> Vec<[f64; 3]> {
     (0..count).map(|_| vector(rng, 3.0).to_array()).collect()
 }
 
-/// Orientations that turn by less than 1 from one to the next.
+/// Orientations with rotations of less than 1 radian from one to the next.
 fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
     let mut at = orientation(rng);
     let key = |k| {
@@ -77,7 +77,7 @@ fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
 enum Axes {
     Any,
     Parallel,
-    /// Along x, y or z: parallel again when joints in between are back.
+    /// Axes along x, y or z, some of which become parallel again by the joints between them.
     Across,
 }
 
@@ -107,7 +107,7 @@ fn steady() {
     check("steady", 0.0, |rng| Ok(Steady(motion(rng)?)));
 }
 
-/// Strays by rounding alone.
+/// A thrown body, whose deviation is rounding alone.
 #[test]
 fn thrown() {
     check("ballistic", 0.0, ballistic);
@@ -126,7 +126,7 @@ fn poses() {
     });
 }
 
-/// Turns by angular velocities that leave over up to a quarter turn.
+/// Rotations by angular velocities that leave over up to a quarter turn.
 #[test]
 fn poses_of_many_turns() {
     check("poses, many turns", 0.3, |rng| {
@@ -149,7 +149,7 @@ fn poses_of_many_turns() {
     });
 }
 
-/// A turn that leads to the same orientation is told by its angular velocity alone.
+/// Rotations that end at the same orientation are distinguished by their angular velocities.
 #[test]
 fn angular_velocities_tell_the_number_of_turns() {
     let still = vec![(0.0, Pose::IDENTITY), (2.0, Pose::IDENTITY)];
@@ -183,7 +183,7 @@ fn angular_velocities_tell_the_number_of_turns() {
     }
 }
 
-/// Half turns, up to rounding: the way that they go is that from pose to pose.
+/// Half turns, up to rounding: both directions are possible, and that of the motion from pose to pose is taken.
 #[test]
 fn poses_of_half_turns() {
     check("poses, half turns", 0.3, |rng| {
@@ -257,7 +257,7 @@ fn squad_alone() {
     });
 }
 
-/// Axes before a joint that is held are not parallel to those behind it, whatever its origin says.
+/// Axes before a held joint are not parallel to those after it, whatever the joint's origin.
 #[test]
 fn links_behind_joints_that_are_held() {
     check("link, held joint", 0.1, |rng| {
@@ -358,7 +358,7 @@ fn timed() {
     });
 }
 
-/// The test is worth its name: it finds a trajectory that claims too little.
+/// The check finds a trajectory whose bound is too small.
 #[test]
 fn a_false_bound_is_found() {
     struct False(Spline);
@@ -376,7 +376,7 @@ fn a_false_bound_is_found() {
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
-/// Cuts are at corners: a stretch that only touches the next segment knows its acceleration.
+/// Segments are cut at knots: a segment that only touches the next one has a known acceleration.
 #[test]
 fn stretches_between_knots_accelerate() {
     let mut rng = Rng::seed_from_u64(4);

@@ -1,4 +1,4 @@
-//! A trajectory at another pace.
+//! A trajectory with another time law.
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
@@ -6,7 +6,7 @@ use ccd_core::order::greater;
 use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
 use std::ops::Range;
 
-/// A smooth trajectory that is followed at another pace.
+/// A smooth trajectory that is followed with another time law.
 ///
 /// With the inner time `θ(t)`, the velocity is `v θ̇` and the acceleration `a θ̇² + v θ̈`; rotations alike.
 ///
@@ -29,7 +29,7 @@ pub struct Timed<T> {
     pace: Pace,
 }
 
-/// How fast a trajectory is followed, between its first and its last time.
+/// The time law: how a trajectory is followed between its first and its last time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
     /// At a constant rate.
@@ -38,14 +38,14 @@ pub enum Pace {
     Eased,
 }
 
-/// The largest slope of the eased pace, at half the time: `30/16`.
+/// The maximum first derivative of the eased time law, at half the time: `30/16`.
 const STEEPEST: f64 = 1.875;
 
-/// The largest second derivative of the eased pace: `10/√3`, rounded up.
+/// The maximum second derivative of the eased time law: `10/√3`, rounded up.
 const MOST_CURVED: f64 = 5.774;
 
 impl Pace {
-    /// Returns the share of the way after a share of the time, and its derivative.
+    /// Returns the share of the trajectory at a share of the time, and its derivative.
     fn at(self, u: f64) -> [f64; 2] {
         match self {
             Pace::Even => [u, 1.0],
@@ -59,7 +59,7 @@ impl Pace {
         }
     }
 
-    /// Bounds both derivatives.
+    /// Bounds both derivatives of the time law.
     fn most(self) -> [f64; 2] {
         match self {
             Pace::Even => [1.0, 0.0],
@@ -117,13 +117,13 @@ impl<T> Timed<T> {
         }
     }
 
-    /// The inner times between two times.
+    /// Returns the inner times for two times.
     fn times(&self, from: f64, to: f64) -> [f64; 2] {
         let [[first, _], [last, _]] = [self.time(from), self.time(to)];
         [first, greater(first, last)]
     }
 
-    /// Bounds the rate of the inner time, and its change.
+    /// Bounds the first and second derivatives of the inner time.
     fn rates(&self) -> [f64; 2] {
         let [slope, curve] = self.pace.most();
         let rate = self.length / self.duration;
@@ -160,7 +160,7 @@ impl<T: Bounded> Smooth for Timed<T> {
         }
     }
 
-    /// The inner time is rounded.
+    /// Bounds the rounding, including that of the inner time.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let [first, last] = self.times(from, to);
         let speeds = self.inner.speeds(first, last);

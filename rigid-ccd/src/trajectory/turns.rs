@@ -1,4 +1,4 @@
-//! Orientations in time: slerp and squad through given ones.
+//! Orientations over time: slerp and squad through given orientations.
 
 mod squad;
 
@@ -10,7 +10,7 @@ use ccd_core::vector::length;
 use ccd_core::{InputError, Pose};
 use squad::{Squad, logarithm};
 
-/// Orientations through given ones at given times. The body does not turn before the first and after the last.
+/// A rotation through given orientations at given times. The body does not turn before the first and after the last.
 ///
 /// ```
 /// use rigid_ccd::glam::DQuat;
@@ -22,13 +22,13 @@ use squad::{Squad, logarithm};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turns {
-    /// At increasing times.
+    /// The pieces, at increasing times.
     pieces: Vec<Piece>,
     /// The orientation before the first piece, and after the last.
     ends: [DQuat; 2],
 }
 
-/// A turn between two times.
+/// The rotation between two times.
 #[derive(Clone, Debug, PartialEq)]
 struct Piece {
     from: f64,
@@ -38,7 +38,7 @@ struct Piece {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Turn {
-    /// At a constant rate from an orientation on.
+    /// A rotation at a constant rate, starting at an orientation.
     Slerp {
         start: DQuat,
         spin: DVec3,
@@ -47,21 +47,21 @@ enum Turn {
 }
 
 impl Turns {
-    /// The body does not turn, and is oriented as the world.
+    /// No rotation: the body stays oriented as the world.
     pub const NONE: Turns = Turns {
         pieces: Vec::new(),
         ends: [DQuat::IDENTITY; 2],
     };
 
-    /// Turns from each orientation to the next at a constant rate, the shortest way. Quaternions have the order
-    /// x, y, z, w.
+    /// Rotates from each orientation to the next at a constant rate, the shortest way. Quaternions have the order x, y,
+    /// z, w.
     ///
     /// # Errors
     /// [`InputError::ZeroQuaternion`], [`InputError::NotFinite`], and [`InputError::OutOfRange`] for times that
     /// do not increase.
     pub fn slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
         let keys = checked(keys)?;
-        Ok(Turns::of(&keys, |k| {
+        Ok(Turns::from_keys(&keys, |k| {
             let [(from, start), (to, end)] = [keys[k], keys[k + 1]];
             Turn::Slerp {
                 start,
@@ -70,8 +70,8 @@ impl Turns {
         }))
     }
 
-    /// Turns smoothly through all orientations: spherical quadrangles, whose spins do not jump if times are
-    /// equally far apart.
+    /// Rotates smoothly through all orientations by spherical quadrangles, whose angular velocities are continuous if
+    /// the times are evenly spaced.
     ///
     /// # Errors
     /// Those of [`Turns::slerp`], and [`InputError::OutOfRange`] if orientations are so far apart, about a quarter
@@ -93,10 +93,10 @@ impl Turns {
                 allowed: "small enough for a spherical quadrangle: give more orientations",
             })?);
         }
-        Ok(Turns::of(&keys, |k| Turn::Squad(squads[k].clone())))
+        Ok(Turns::from_keys(&keys, |k| Turn::Squad(squads[k].clone())))
     }
 
-    fn of(keys: &[(f64, DQuat)], turn: impl Fn(usize) -> Turn) -> Self {
+    fn from_keys(keys: &[(f64, DQuat)], turn: impl Fn(usize) -> Turn) -> Self {
         let piece = |k: usize| Piece {
             from: keys[k].0,
             to: keys[k + 1].0,
@@ -108,7 +108,7 @@ impl Turns {
         }
     }
 
-    /// The orientation at a time, and the angular velocity along the world's axes.
+    /// Returns the orientation at a time, and the angular velocity along the world's axes.
     pub fn at(&self, time: f64) -> (DQuat, DVec3) {
         let next = self.pieces.partition_point(|piece| piece.to < time);
         match self.pieces.get(next) {
@@ -143,7 +143,7 @@ impl Turns {
         speeds.fold(0.0, greater)
     }
 
-    /// Returns a time between two others at which two turns meet, about the middle.
+    /// Returns a knot strictly between two times, about in the middle; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         middle_knot(
             self.overlapping(from, to),
@@ -162,7 +162,7 @@ impl Turns {
         overlapping(&self.pieces, |piece| [piece.from, piece.to], from, to)
     }
 
-    /// The lengths of the changes of spin strictly between two times.
+    /// Returns the magnitudes of the jumps of the angular velocity strictly between two times.
     fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
         let pieces = self.overlapping(from, to);
         // Before the first piece and after the last there is no spin.
@@ -191,7 +191,7 @@ impl Piece {
     }
 }
 
-/// Returns unit quaternions, each the nearer one of two to that before it.
+/// Returns unit quaternions, each with the sign that is nearer to the one before.
 fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
     let refuse = |value| {
         Err(InputError::OutOfRange {

@@ -1,25 +1,25 @@
-//! Tests a trajectory: does it stray no farther than it says?
+//! A test of the bounds of a trajectory's deviation.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{InputError, Trajectory};
 
-/// The place at which a trajectory strays farthest from a stretch, in units of its bound.
+/// The sample with the largest deviation relative to its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst {
-    /// The distance over the bound: at most 1 for a sound trajectory.
+    /// The deviation divided by its bound: at most 1 for a sound trajectory.
     pub ratio: f64,
-    /// The first time of the stretch.
+    /// The first time of the segment.
     pub from: f64,
-    /// The last time of the stretch.
+    /// The last time of the segment.
     pub to: f64,
-    /// The time in between.
+    /// The time of the sample.
     pub time: f64,
-    /// The point, in the frame of the motion's centre, along the body's axes.
+    /// The point of the body, in the frame of the motion's centre, along the body's axes.
     pub arm: DVec3,
 }
 
-/// Seeks the stretch, the time and the point of a body at which a trajectory strays farthest beyond its bounds.
+/// Searches for the segment, the time and the point with the largest deviation relative to its bound.
 ///
 /// It draws stretches within the duration, of all lengths, and points up to `reach` from the centre; then it
 /// changes the worst draw a little, again and again. The same seed makes the same draws. Poses are those of
@@ -55,14 +55,14 @@ pub fn worst_stray(
         reach,
         state: seed,
     };
-    let mut worst: Option<(Draw, Worst)> = None;
+    let mut worst: Option<(Sample, Worst)> = None;
     for number in 0..draws {
         let draw = match &worst {
             // Climbs after every fresh draw.
             Some((draw, _)) if number % 4 != 0 => search.near(draw),
             _ => search.fresh(),
         };
-        let found = search.look(&draw)?;
+        let found = search.sample(&draw)?;
         if worst.is_none_or(|(_, worst)| found.ratio > worst.ratio) {
             worst = Some((draw, found));
         }
@@ -77,8 +77,8 @@ pub fn worst_stray(
     Ok(worst.map_or(none, |(_, worst)| worst))
 }
 
-/// Numbers from 0 to 1 that make a stretch, a time and a point.
-type Draw = [f64; 6];
+/// Numbers from 0 to 1 that determine a segment, a time and a point.
+type Sample = [f64; 6];
 
 struct Search<'t> {
     trajectory: &'t dyn Trajectory,
@@ -88,7 +88,7 @@ struct Search<'t> {
 }
 
 impl Search<'_> {
-    /// A number from 0 to 1: SplitMix64.
+    /// Returns a number from 0 to 1: SplitMix64.
     fn number(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
@@ -97,18 +97,18 @@ impl Search<'_> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn fresh(&mut self) -> Draw {
+    fn fresh(&mut self) -> Sample {
         [(); 6].map(|()| self.number())
     }
 
-    fn near(&mut self, draw: &Draw) -> Draw {
+    fn near(&mut self, draw: &Sample) -> Sample {
         let step = 10f64.powf(-6.0 * self.number());
         draw.map(|x| (x + step * (self.number() - 0.5)).clamp(0.0, 1.0))
     }
 
-    fn look(
+    fn sample(
         &self,
-        &[length, from, time, arm, azimuth, height]: &Draw,
+        &[length, from, time, arm, azimuth, height]: &Sample,
     ) -> Result<Worst, InputError> {
         // Lengths of all orders, down to a millionth.
         let length = self.duration * 10f64.powf(-6.0 * length);
@@ -123,14 +123,14 @@ impl Search<'_> {
         let arm = reach * DVec3::new(across * cos, across * sin, z);
         let point = stretch.motion.centre() + arm;
         let [pose, near] = [self.trajectory.pose(time)?, stretch.pose(time - from)];
-        let off = pose
+        let deviation = pose
             .transform_point(point)
             .distance(near.transform_point(point));
         // The poses that are compared are rounded themselves, by a unit or two in the last place.
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
         Ok(Worst {
-            ratio: (off - rounding) / stretch.stray.at(reach),
+            ratio: (deviation - rounding) / stretch.stray.at(reach),
             from,
             to,
             time,

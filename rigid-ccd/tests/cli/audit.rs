@@ -2,7 +2,7 @@
 
 use super::command::{Run, Scene, parse, stderr};
 
-/// A ball that is shot through a plate. Of ten equal steps of the fast shots none is in the plate.
+/// A ball that flies through a plate. Of ten equal steps of the fast shots none is in the plate.
 const BALL_AND_PLATE: [&str; 4] = ["--a", "sphere:0.5", "--b", "box:0.001,5,5"];
 const SHOTS: &str =
     "id,a_px,a_py,a_vx\nbeside,-3,6,60\nfast,-3,0,60\nfast/2,-3,0,70\ntouching,0.501,0,0\n";

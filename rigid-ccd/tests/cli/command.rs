@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// One call of the command.
+/// A call of the command.
 pub(crate) struct Run {
     args: Vec<String>,
     stdin: String,
@@ -31,7 +31,7 @@ impl Run {
         self
     }
 
-    /// Runs in this folder.
+    /// Sets the working folder of the call.
     #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
     pub(crate) fn folder(self, folder: &Path) -> Self {
         let folder = folder.to_owned();
@@ -64,7 +64,7 @@ impl Run {
     }
 }
 
-/// One row of results, cells by column.
+/// One row of results: cells by column.
 pub(crate) struct Row(pub(crate) Vec<(String, String)>);
 
 impl Row {

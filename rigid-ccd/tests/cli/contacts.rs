@@ -3,7 +3,7 @@
 use crate::command::{Row, Run, Scene, parse, stderr};
 use std::path::Path;
 
-/// A cube over a slab, above its face and above its side, and one that flies by.
+/// A cube above a slab, and motions onto its face, past its side, and away from it.
 const CUBES: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const DROPS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
 

@@ -9,7 +9,7 @@ use std::process::Output;
 
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-/// The same without its last face.
+/// The tetrahedron without its last face.
 const OPEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
 
 /// Writes a knot of 216 triangles, which is not convex.

@@ -4,7 +4,7 @@ use crate::command::{Run, Scene, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The corners of a cube about the origin, with sides of length 2: the bits of a number are the coordinates.
+/// The corners of a cube about the origin with sides of length 2; the bits of an index give the coordinates.
 fn corners() -> impl Iterator<Item = [f32; 3]> {
     (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|bit| 2.0 * bit as f32 - 1.0))
 }
@@ -76,7 +76,7 @@ fn threemf() -> Vec<u8> {
     zip("3D/3dmodel.model", model.as_bytes())
 }
 
-/// A zip of one file.
+/// A zip archive with one file.
 fn zip(path: &str, content: &[u8]) -> Vec<u8> {
     let (sum, size) = (crc32fast::hash(content), content.len() as u32);
     let mut about = [0; 8].to_vec();
@@ -105,7 +105,7 @@ fn name(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// A part of a file, as it is named on the command line.
+/// Returns the command-line name of a part of a file.
 fn part(path: &Path, part: &str) -> String {
     format!("{}#{part}", name(path))
 }
@@ -179,7 +179,7 @@ fn an_unknown_part_lists_those_there_are() {
     );
 }
 
-/// Files have such names, too.
+/// File names may also contain such a mark.
 #[test]
 fn a_mark_in_the_name_of_a_file_is_kept() {
     let scene = Scene::new("parts-marks");
@@ -262,7 +262,8 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
 
-/// A cylinder and a cone in the way of a ball: in time for the true shapes, and told how early they may be.
+/// A ball flies at a cylinder and at a cone: contacts are not later than with the true shapes, and messages state how
+/// early they may be.
 #[test]
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
@@ -370,7 +371,7 @@ fn a_part_is_prepared_and_stored() {
     assert!(text.contains("\nunit          m\n"), "{text}");
 }
 
-/// The same run on another unit, or with another buffer beside the mesh, is another run.
+/// A run with another unit, or with another buffer beside the mesh, is not the same run.
 #[test]
 fn runs_know_their_unit_and_all_their_files() {
     let scene = Scene::new("parts-resume");

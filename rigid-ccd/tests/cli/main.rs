@@ -1,4 +1,4 @@
-//! The command `ccd`, run as users run it.
+//! The command `ccd`, tested as a process.
 
 mod audit;
 mod command;

@@ -5,7 +5,7 @@ use crate::{DROP, FALLING_CUBE};
 
 const SPHERES: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
-/// Returns the messages of a query with that table.
+/// Returns the messages of a query with the given table.
 fn messages_of(table: &str) -> String {
     let output = Run::query(&SPHERES)
         .args(&["--quiet"])
@@ -55,7 +55,7 @@ fn every_cause_is_reported_once() {
     }
 }
 
-/// With their names, and without error numbers of the operating system.
+/// Missing files are reported by name, and without error numbers of the operating system.
 #[test]
 fn missing_files_are_reported_once() {
     let scene = Scene::new("not-there");
@@ -165,7 +165,7 @@ fn selected_rows_have_the_same_answers() {
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }
 
-/// Cells and names of files come from anywhere: what they hold must not move the cursor of a terminal.
+/// Cells and file names may contain control characters, which must not reach the terminal.
 #[test]
 fn nothing_in_a_file_controls_the_terminal() {
     let scene = Scene::new("escapes");
@@ -209,7 +209,7 @@ fn what_is_not_read_is_told_to_quiet_users_too() {
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// One line for each trap, once, and nothing of it where nothing is to be said, in the table, or in the exit code.
+/// Each trap gives one line of remark, once, and changes neither the table nor the exit code.
 #[test]
 fn traps_are_remarked_upon_once() {
     let spins = |rates: &str| {
@@ -249,7 +249,7 @@ fn traps_are_remarked_upon_once() {
     }
 }
 
-/// Where one of two files says its unit, the numbers of the other may be in another one. Shapes are in any.
+/// If one of two files states its unit, the numbers of the other may be in another unit. Shapes are in any.
 #[test]
 fn a_unit_beside_none_is_told_once() {
     let scene = Scene::new("mixed-units");
@@ -293,7 +293,7 @@ fn a_unit_beside_none_is_told_once() {
     );
 }
 
-/// Between poses without orientations all of a turn would be turned back.
+/// Between poses without orientations, any rotation would be undone.
 #[test]
 fn angular_velocities_of_a_path_need_orientations() {
     let message = messages_of("t,a_px,a_wz\n0,9,1\n1,9,1\n");

@@ -1,4 +1,4 @@
-//! Outputs: written whole, by one run at a time; a full disk loses no older file.
+//! Outputs are written completely, by one run at a time; a full disk destroys no older file.
 
 use crate::command::{Run, Scene, stderr};
 use crate::resume::{finished, fresh, killed, motions, path, query, read};
@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 const MOTIONS: &str = "id,a_pz,a_vz\nhit,4,-4\nfree,9,-1\n";
 
-/// A ball of many triangles, and a table with a row for each of its many contacts with itself.
+/// Writes a ball of many triangles, and a table with a row for each of its many contacts with itself.
 fn inputs(scene: &Scene) {
     let mut ball = String::new();
     for k in 0..=24 {
@@ -38,7 +38,7 @@ fn inputs(scene: &Scene) {
     scene.file("scene.csv", "body,pz,vz\nsphere:1,0,0\nsphere:1,5,-5\n");
 }
 
-/// Every way to write a file: the file, and the command without its name.
+/// All ways to write a file: the file, and the arguments of the command.
 const WRITERS: [(&str, &str); 8] = [
     (
         "r.csv",
@@ -133,7 +133,7 @@ fn read_bytes(scene: &Scene, name: &str) -> Vec<u8> {
     fs::read(path(scene, name)).unwrap()
 }
 
-/// A run is alive while its input is open. Whatever name others have for its output, they refuse.
+/// A run is alive as long as its input is open. Whatever name others have for its output, they refuse.
 #[test]
 fn a_run_that_is_alive_is_left_alone() {
     let table = motions();
@@ -189,7 +189,7 @@ fn a_run_that_is_alive_is_left_alone() {
     assert!(there.eq(expected.into_iter().filter(|&name| name != "link.csv")));
 }
 
-/// Of four runs that are started together some refuse, and the table is that of one.
+/// Of four runs that start together, some refuse, and the table is that of one run.
 #[test]
 fn runs_side_by_side_keep_all_rows() {
     let table = motions();
@@ -280,7 +280,7 @@ fn an_edited_byte_is_not_resumed_from() {
     assert_eq!(read_bytes(&scene, "results.csv"), results);
 }
 
-/// What an interrupted query has answered is not overwritten by another command, nor as the other table of a query.
+/// The answers of an interrupted query are not overwritten by another command, nor by the other table of a query.
 #[test]
 fn rows_of_an_interrupted_query_are_kept() {
     let scene = fresh("kept-rows");
@@ -306,7 +306,7 @@ fn rows_of_an_interrupted_query_are_kept() {
 mod full {
     use super::*;
 
-    /// A command that may write no more than about 4 KB into a file, as on a disk that is full.
+    /// Runs a command that can write at most about 4 KB to a file, as on a full disk.
     fn cramped(scene: &Scene, command: &str) -> Output {
         let limit = "trap '' XFSZ; ulimit -f 8; exec \"$@\"";
         Command::new("sh")
@@ -361,7 +361,7 @@ mod full {
         assert!(names(&scene).iter().all(|name| !name.ends_with(".part")));
     }
 
-    /// A redirection of a shell is written on: what it has already stays.
+    /// Output that a shell appends to a file leaves the file's content in place.
     #[test]
     fn open_files_are_written_on() {
         let scene = fresh("open-files");

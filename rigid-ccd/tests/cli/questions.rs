@@ -1,4 +1,4 @@
-//! `ccd query --ask`, of motions and of paths.
+//! `ccd query --ask` for motions and for paths.
 
 use crate::command::{Row, Run, Scene, parse, stderr};
 use crate::{DROP, DROP_TIME, FALLING_CUBE};
@@ -10,8 +10,8 @@ use std::fs;
 const BALLS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
 const PASSES: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
 
-/// A cube that comes down onto a slab, stays for a unit of time and leaves: from pose to pose, at times that
-/// begin at 10. It touches from 12.5 to 15.
+/// A cube that comes down onto a slab, stays for a unit of time and leaves: a path from pose to pose, whose times begin
+/// at 10. It touches from 12.5 to 15.
 const VISIT: &str = "id,t,a_px,a_pz\n\
                      visit,10,0,4\n\
                      visit,13,0,1\n\
@@ -101,7 +101,7 @@ fn the_least_distance_is_bracketed_and_compared() {
     );
 }
 
-/// A clearance that the bodies violate, and the cylinders keep: their sides are 0.1 apart.
+/// A clearance that the polytopes violate, and the cylinders keep: their sides are 0.1 apart.
 #[test]
 fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
     let bodies = ["--a", "cylinder:1,1,.01", "--b", "cylinder:1,1,.01"];
@@ -325,7 +325,7 @@ fn options_without_a_use_are_refused() {
     }
 }
 
-/// They are nearest later, as deep as they are then.
+/// The bodies are nearest later, but overlap at the start.
 #[test]
 fn bodies_that_overlap_at_the_start_are_overlapping() {
     let deeper = "a_px,a_vx\n0.9,-1.9\n";
@@ -342,7 +342,7 @@ fn bodies_that_overlap_at_the_start_are_overlapping() {
     );
 }
 
-/// For scripts: the exit code is 0 only where every row is proven.
+/// The exit code is 0 only if every row is proven.
 #[test]
 fn a_check_fails_unless_every_row_is_proven() {
     let near = &["--clearance", "0.21"][..];
@@ -384,7 +384,7 @@ fn a_check_fails_unless_every_row_is_proven() {
     }
 }
 
-/// The same command with --resume finds the run finished, and its verdict as it was.
+/// The same command with --resume finds the run finished, and has the same exit code.
 #[test]
 fn a_finished_check_fails_again() {
     let scene = Scene::new("check-again");
@@ -421,7 +421,7 @@ fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
     text
 }
 
-/// Early bounds hold for a whole path: they take from the budget of no part of it.
+/// Early bounds hold for a whole path, and do not use the budget of any segment.
 #[test]
 fn a_long_path_is_measured_with_what_its_parts_need() {
     let scene = Scene::new("long-path");

@@ -171,7 +171,7 @@ fn unwritable_results_have_exit_code_1() {
     );
 }
 
-/// The rows before it are answered, and those after it are not read as its cell.
+/// Rows before the unclosed cell are answered; rows after it are not read as the cell's content.
 #[test]
 fn an_unclosed_quote_is_an_error() {
     for (motions, rows, expected) in [
@@ -210,7 +210,7 @@ fn large_numbers_have_few_digits_in_messages() {
     assert!(!message.contains("00000"), "{message}");
 }
 
-/// Git stands for large files with a few lines until they are fetched.
+/// Git replaces large files by a few lines until they are fetched.
 #[test]
 fn git_lfs_pointers_are_recognised() {
     let scene = Scene::new("lfs");

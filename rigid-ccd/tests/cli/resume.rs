@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
-/// The options of a query, unless a test has others.
+/// The default options of a query.
 const USUAL: [[&str; 2]; 5] = [
     ["--a", "box:.5,.5,.5"],
     ["--b", "box:9,9,1"],
@@ -216,7 +216,7 @@ fn resuming_without_an_interrupted_run_starts_a_new_one() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// Returns the tables with their times of modification.
+/// Returns the tables with their modification times.
 fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
     let table = |name: &&str| {
         let path = path(scene, name);

@@ -1,4 +1,4 @@
-//! Runs every target over its corpus, and over random changes of it.
+//! Runs every target on its corpus, and on random changes of it.
 //!
 //! `CCD_TEST_CASES` multiplies the number of random changes, and `CCD_TEST_SEED` picks other ones. With
 //! `CCD_FUZZ_FILE=file`, only that file is run. An input that fails is kept in the folder `target/tmp`.
@@ -12,7 +12,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The number of random changes of each corpus: less than a second each.
+/// The number of random changes of each corpus, less than a second each.
 const CHANGES: u64 = 100;
 
 #[test]
@@ -77,7 +77,7 @@ fn every_corpus_has_a_target() {
     assert_eq!(names, expected);
 }
 
-/// The limit of memory holds for the whole process, so that only one target may run at a time.
+/// A lock that lets one target run at a time, because the memory limit holds for the whole process.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 fn replay(target: Target) {

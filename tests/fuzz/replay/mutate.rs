@@ -3,15 +3,15 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Makes files from those of a corpus: changed, cut, repeated, and joined with others.
+/// Generates files from those of a corpus: changed, cut, repeated, and joined with others.
 pub(crate) struct Mutator<'a> {
     random: Pcg64,
     corpus: &'a [Vec<u8>],
 }
 
-/// The most changes of a file.
+/// The maximum number of changes of a file.
 const CHANGES: usize = 6;
-/// Bytes that mean something to some format.
+/// Bytes with a meaning in some format.
 const TELLING: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eEnN";
 
 impl<'a> Mutator<'a> {

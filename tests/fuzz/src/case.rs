@@ -1,7 +1,7 @@
 //! A query in plain numbers, and its text form.
 
-use crate::course::{Course, Goal, RawPose};
 use crate::nearest::Triangle;
+use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use std::fmt::Write;
 #[derive(Clone, Debug)]
 pub struct Case {
     pub shapes: [Shape; 2],
-    pub courses: [Course; 2],
+    pub courses: [RawMotion; 2],
     pub duration: f64,
     pub config: Settings,
     /// The part of the answer that the generator knows.
@@ -19,9 +19,9 @@ pub struct Case {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expect {
     Nothing,
-    /// They part, or keep their distance.
+    /// The bodies part, or keep their distance.
     Free,
-    /// They come nearer than allowed, certainly before this time.
+    /// The bodies come nearer than allowed, certainly before this time.
     ContactBy(f64),
 }
 
@@ -33,12 +33,12 @@ pub struct Shape {
     pub form: Form,
 }
 
-/// The properties of a mesh that are known from its construction.
+/// The known properties of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Form {
     #[default]
     Soup,
-    /// Closed, oriented outward, without flaws: patches can be made of it.
+    /// Closed, oriented outward, without flaws, so that patches can be made of it.
     Solid,
     /// A solid that is convex.
     Convex,
@@ -115,7 +115,7 @@ impl Shape {
 }
 
 impl Case {
-    /// Returns files and a command line that pose the same query.
+    /// Returns files and a command line for the same query.
     pub fn reproducer(&self) -> String {
         let mut header = vec!["id".to_owned(), "duration".to_owned()];
         let mut row = vec!["0".to_owned(), format!("{:e}", self.duration)];

@@ -23,7 +23,7 @@ fn two_sum(a: f64, b: f64) -> Double {
     Double { hi, lo }
 }
 
-/// Returns the same if `a` is the larger one.
+/// Like [`two_sum`], for a larger `a`.
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
@@ -48,7 +48,7 @@ impl Double {
         Double { hi, lo: 0.0 }
     }
 
-    /// Computes sine and cosine: reduces by quarter turns, then sums their series.
+    /// Returns sine and cosine, by reduction to quarter turns and power series.
     pub fn sin_cos(self) -> (Double, Double) {
         // π/2 in three parts.
         const HALF_PI: [f64; 3] = [
@@ -79,7 +79,7 @@ impl Double {
         }
     }
 
-    /// Returns the angle of a point of the unit circle: the f64 angle, improved by one Newton step.
+    /// Returns the angle of a point on the unit circle: the f64 angle, improved by one Newton step.
     pub fn angle(sin: Double, cos: Double) -> Double {
         let near = Double::new(sin.hi.atan2(cos.hi));
         let (s, c) = near.sin_cos();

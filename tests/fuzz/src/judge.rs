@@ -13,7 +13,7 @@ use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
-/// The decrease of the distance of released bodies that may go unnoticed, in units of rounding.
+/// The allowed decrease of the distance of released bodies, in units of rounding.
 const RESTING: f64 = 1.0;
 
 /// A fault of an answer.
@@ -46,7 +46,7 @@ pub enum Fault {
 }
 
 /// An answer and its method.
-pub struct Given<'a> {
+pub struct GivenAnswer<'a> {
     pub bodies: &'a Bodies,
     pub method: Method,
     pub answer: Answer,
@@ -82,7 +82,7 @@ impl<'a> Judge<'a> {
 
     /// Returns the faults of the answers, with the index of the answer. The flag is true if the
     /// search for earlier contacts was complete.
-    pub fn all(&self, given: &[Given<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
+    pub fn all(&self, given: &[GivenAnswer<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
         let times = given.iter().map(|g| self.proven(&g.answer.outcome));
         let until = times.fold(0.0, larger);
         let (evidence, proven) = self.scene.first_below(self.limit(given), until);
@@ -95,7 +95,7 @@ impl<'a> Judge<'a> {
         (faults, proven)
     }
 
-    /// Returns the time until which an answer claims that nothing touches.
+    /// Returns the time until which an answer proves that there is no contact.
     fn proven(&self, outcome: &Outcome) -> f64 {
         match *outcome {
             Outcome::Contact { time, .. } => time,
@@ -106,7 +106,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns the conditions under which the bodies are too near.
-    fn limit(&self, given: &[Given<'_>]) -> Limit {
+    fn limit(&self, given: &[GivenAnswer<'_>]) -> Limit {
         let margin = self.case.config.margin;
         let tolerance = given
             .iter()
@@ -131,7 +131,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn one(&self, given: &Given<'_>, evidence: Option<Evidence>) -> Faults {
+    fn one(&self, given: &GivenAnswer<'_>, evidence: Option<Evidence>) -> Faults {
         let answer = &given.answer;
         let mut faults = self.unexpected(&answer.outcome);
         let mut say = |fault, text| faults.push((fault, text));
@@ -210,7 +210,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Checks a contact at a time, its bounds and its witnesses.
-    fn near(&self, given: &Given<'_>, contact: &Contact, time: f64) -> Faults {
+    fn near(&self, given: &GivenAnswer<'_>, contact: &Contact, time: f64) -> Faults {
         let mut faults = Vec::new();
         let (scene, error) = (&self.scene, self.scene.error());
         let found = contact.separation;
@@ -323,7 +323,7 @@ impl<'a> Judge<'a> {
         Some([side(0, contact.piece_a)?, side(1, contact.piece_b)?])
     }
 
-    fn overlap(&self, given: &Given<'_>, overlap: &Overlap) -> Faults {
+    fn overlap(&self, given: &GivenAnswer<'_>, overlap: &Overlap) -> Faults {
         let text = || {
             format!(
                 "distance {:e}, {:?}",
@@ -365,7 +365,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Finds contacts so near that another answer's proof should have ended there, too.
-    fn disagreements(&self, given: &[Given<'_>]) -> Vec<(usize, Fault, String)> {
+    fn disagreements(&self, given: &[GivenAnswer<'_>]) -> Vec<(usize, Fault, String)> {
         let mut faults = Vec::new();
         if self.case.config.start == StartPolicy::Leave {
             return faults;

@@ -13,20 +13,20 @@
 )]
 
 pub mod case;
-pub mod course;
 pub mod double;
 pub mod engine;
 pub mod judge;
 mod memory;
 pub mod nearest;
+pub mod raw_motion;
 pub mod referee;
 pub mod solid;
 pub mod targets;
 pub mod trial;
 pub mod vector;
 
-/// Lets panics pass that the product catches, of libraries for instance: libFuzzer's hook aborts at every panic.
-/// It still aborts at those that no one catches.
+/// Removes libFuzzer's panic hook, which aborts also at panics that the product catches, for example those of libraries.
+/// Panics that are not caught still abort.
 pub fn let_caught_panics_pass() {
     drop(std::panic::take_hook());
 }

@@ -1,4 +1,4 @@
-//! The distance or the depth of penetration of two triangles.
+//! The distance or the penetration depth of two triangles.
 //!
 //! For either number type: the property suite's referee, which judges a hundred times as many pairs, has a faster
 //! one in f64 that names the points.
@@ -7,8 +7,8 @@ use crate::vector::{Number, Vector};
 
 pub type Triangle<N> = [Vector<N>; 3];
 
-/// Returns the distance of two triangles, the least over all pairs of points that could be nearest, so
-/// it is never too small except for rounding. It is 0 if an edge of one passes through the other.
+/// Returns the distance of two triangles, the least over all candidate pairs of points, so that it is never too small
+/// except for rounding. It is 0 if an edge of one passes through the other.
 pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
     let (face_s, face_t) = (normal(s), normal(t));
@@ -86,7 +86,7 @@ fn clamped<N: Number>(x: N) -> N {
     }
 }
 
-/// Returns the ratio of `long` to `short`, which are along the same line.
+/// Returns the ratio of `long` to `short`, two parallel vectors.
 #[inline]
 fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     let ([x, y, z], [u, v, w]) = (long.0, short.0);
@@ -138,7 +138,7 @@ fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
         })
 }
 
-/// Returns the unit normal, or `None` if the area of the triangle is mere rounding.
+/// Returns the unit normal, or `None` if the triangle's area is within rounding.
 pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
     let (u, v) = ((t[1] - t[0]).scaled(), (t[2] - t[0]).scaled());
     let n = u.cross(v);
@@ -159,9 +159,8 @@ fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector
     })
 }
 
-/// Returns the displacement by which one of two triangles would have to be moved to separate their
-/// interiors, by the separating axes. It is negative if a gap separates them, and 0 if one is flat
-/// along every axis.
+/// Returns the least displacement that separates the interiors of two triangles, by the separating axes. It is negative
+/// if a gap separates them, and 0 if one is flat along every axis.
 pub fn depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let edges = |t: &Triangle<N>| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(Vector::scaled);
     let (es, et, ns, nt) = (edges(s), edges(t), normal(s), normal(t));

@@ -1,5 +1,5 @@
-//! The referee: the bodies' distance at a time, and the first time at which it is found below a
-//! threshold, by conservative advancement over all pairs of triangles.
+//! The referee: the bodies' distance at a time, and the first time found with a distance below a threshold, by
+//! conservative advancement over all pairs of triangles.
 //!
 //! Positions and their differences are computed in [`Double`]. Distances are searched in f64 and
 //! judged in [`Double`]. A contact found is evidence; contacts may exist that are not found.
@@ -7,9 +7,9 @@
 mod search;
 
 use crate::case::Case;
-use crate::course::{Snapshot, Track};
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
+use crate::raw_motion::{Snapshot, Track};
 use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 
@@ -18,7 +18,7 @@ const ERROR: f64 = 1e-25;
 /// The fraction of the size below which results of f64 are checked in [`Double`].
 const NOISE: f64 = 1e-13;
 
-/// A body's triangles on its track.
+/// A body's triangles and its track.
 pub struct Side {
     pub track: Track,
     /// The triangles relative to the centre of rotation, in the body's frame.
@@ -33,7 +33,7 @@ pub struct Side {
 struct Ball {
     middle: Vector<Double>,
     radius: f64,
-    /// The largest distance from the centre of rotation, 0 for a body that does not turn.
+    /// The largest distance from the centre of rotation, 0 for a body that does not rotate.
     arm: f64,
 }
 
@@ -122,8 +122,7 @@ impl Scene {
         Scene { sides, scale }
     }
 
-    /// Returns a bound of the error of the referee's distances. Positions in the world have a
-    /// relative error of 1e-31.
+    /// Returns a bound on the error of the referee's distances. Positions in the world have a relative error of 1e-31.
     pub fn error(&self) -> f64 {
         let far = self.sides.iter().map(|s| s.track.start.largest());
         ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
@@ -133,7 +132,7 @@ impl Scene {
         [self.sides[0].track.at(t), self.sides[1].track.at(t)]
     }
 
-    /// Returns all triangles of a body at a time, seen from A's centre.
+    /// Returns all triangles of a body at a time, relative to A's centre.
     pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
         let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
@@ -178,8 +177,7 @@ impl Scene {
         near
     }
 
-    /// Returns the same with every pair in [`Double`]. This is required before an answer is called
-    /// wrong.
+    /// Returns the distance with every pair in [`Double`]. This is required before an answer is called wrong.
     pub fn exact_distance(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
         let pairs = a
@@ -214,8 +212,8 @@ impl Scene {
 /// The conditions under which bodies are too near.
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// The distance is below this.
+    /// The bodies are too near if their distance is below this.
     pub threshold: f64,
-    /// The triangles penetrate deeper than this.
+    /// The bodies are too near if their triangles penetrate deeper than this.
     pub depth: f64,
 }

@@ -12,7 +12,7 @@ pub enum Where {
     Inside,
     /// Within parts that cross each other.
     Doubtful,
-    /// Every ray grazed.
+    /// Unknown, because every ray grazed.
     Unknown,
 }
 
@@ -21,7 +21,7 @@ pub struct Solid {
     pub triangles: Vec<Triangle<Double>>,
     /// The connected part of each triangle.
     parts: Vec<usize>,
-    /// True if parts cross each other: then points in several of them are doubtful.
+    /// Whether parts cross each other: then points in several of them are doubtful.
     crossing: bool,
 }
 
@@ -103,8 +103,8 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [0.02, 0.41, -0.89],
 ];
 
-/// Returns the direction in which a triangle winds about a ray that crosses it, 0 if it does not
-/// cross, or `None` if it grazes.
+/// Returns the direction in which a triangle winds about a ray that crosses it, 0 without a crossing, or `None` if it
+/// grazes.
 fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Option<i32> {
     let size = t.iter().fold(0.0, |m, &v| larger(m, (v - p).largest()));
     let grazing = 1e-18 * size * size;
@@ -156,7 +156,7 @@ pub fn clearance(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
     apart.fold(f64::INFINITY, smaller)
 }
 
-/// Returns points just off either side of every triangle, by a fraction of its size.
+/// Returns points just off both sides of every triangle, by a fraction of its size.
 pub fn points_near(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
     let mut points = Vec::new();
     for t in triangles {

@@ -1,4 +1,4 @@
-//! The targets: functions of bytes that panic, hang or take too much memory only if the product has a fault.
+//! The targets: functions of bytes that panic, hang or use too much memory only if the product has a fault.
 
 mod bodies;
 mod mesh;
@@ -22,49 +22,49 @@ pub const ALL: [Target; 10] = [
     QUERY, STORED, OBJ, STL, PLY, OFF, GLTF, THREEMF, MOTIONS, PATHS,
 ];
 
-/// A query in bytes, asked of several methods and judged by the referee.
+/// A query in bytes, answered by several methods and judged by the referee.
 pub const QUERY: Target = Target {
     name: "query",
     run: query::run,
 };
 
-/// A stored body, whose frame is mended, and a few queries on it.
+/// A stored body with a repaired frame, and a few queries on it.
 pub const STORED: Target = Target {
     name: "stored",
     run: stored::run,
 };
 
-/// A mesh as OBJ, and the bodies that are made of it.
+/// A mesh as OBJ, and the bodies made of it.
 pub const OBJ: Target = Target {
     name: "obj",
     run: |bytes| mesh::run(Format::Obj, bytes),
 };
 
-/// The same as STL.
+/// A mesh as STL, and the bodies made of it.
 pub const STL: Target = Target {
     name: "stl",
     run: |bytes| mesh::run(Format::Stl, bytes),
 };
 
-/// The same as PLY.
+/// A mesh as PLY, and the bodies made of it.
 pub const PLY: Target = Target {
     name: "ply",
     run: |bytes| mesh::run(Format::Ply, bytes),
 };
 
-/// The same as OFF.
+/// A mesh as OFF, and the bodies made of it.
 pub const OFF: Target = Target {
     name: "off",
     run: |bytes| mesh::run(Format::Off, bytes),
 };
 
-/// The same as glTF, and its parts.
+/// A mesh as glTF, its parts, and the bodies made of it.
 pub const GLTF: Target = Target {
     name: "gltf",
     run: |bytes| mesh::scene(Format::Gltf, bytes),
 };
 
-/// The same as 3MF, packed or the model alone.
+/// A mesh as 3MF, packed or the model alone, and the bodies made of it.
 pub const THREEMF: Target = Target {
     name: "threemf",
     run: mesh::packed,

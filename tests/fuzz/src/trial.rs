@@ -1,8 +1,8 @@
-//! One query: answered by many methods, judged.
+//! One query, answered by many methods and judged.
 
 use crate::case::{Case, Form, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
-use crate::judge::{Fault, Given, Judge};
+use crate::judge::{Fault, GivenAnswer, Judge};
 use ccd_core::{Outcome, Settings};
 use std::collections::HashMap;
 use std::fmt;
@@ -16,11 +16,11 @@ pub struct Trial {
     /// The reason why the engine, or the decomposition, refused the case.
     pub refused: Option<String>,
     pub failures: Vec<Failure>,
-    /// True if the referee's search for an earlier contact was complete.
+    /// Whether the referee's search for an earlier contact was complete.
     pub proven: bool,
 }
 
-/// Something wrong with an answer.
+/// A fault of an answer.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub fault: Fault,
@@ -39,7 +39,7 @@ impl fmt::Display for Trial {
 }
 
 impl Failure {
-    /// Returns the text of the failure, with the command that runs its query again.
+    /// Returns the text of the failure, with the command that repeats its query.
     pub fn report(&self, command: &str, case: &Case) -> String {
         let Failure {
             fault,
@@ -58,7 +58,7 @@ impl Failure {
     }
 }
 
-/// Builds the bodies of a case, asks the methods, and judges their answers.
+/// Builds the bodies of a case, runs the methods, and judges their answers.
 pub fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
     let mut trial = Trial {
         case,
@@ -76,7 +76,7 @@ pub fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
     trial
 }
 
-/// Builds bodies of every kind that is needed.
+/// Builds bodies of every required kind.
 fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
     let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
     for (kind, method) in asked {
@@ -98,7 +98,7 @@ fn answers<'b>(
     trial: &mut Trial,
     built: &'b [((Kind, Trees), Bodies)],
     asked: Vec<(Kind, Method)>,
-) -> Vec<Given<'b>> {
+) -> Vec<GivenAnswer<'b>> {
     let mut given = Vec::new();
     for (kind, method) in asked {
         let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
@@ -112,7 +112,7 @@ fn answers<'b>(
             }
         };
         match catch_unwind(AssertUnwindSafe(|| method.solve(&problem))) {
-            Ok(answer) => given.push(Given {
+            Ok(answer) => given.push(GivenAnswer {
                 bodies,
                 method,
                 answer,
@@ -123,8 +123,8 @@ fn answers<'b>(
     given
 }
 
-/// Records what is wrong with the answers.
-fn judge(trial: &mut Trial, given: &[Given<'_>]) {
+/// Records the faults of the answers.
+fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
     let Some(first) = given.first() else { return };
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
     let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));
@@ -175,7 +175,7 @@ fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
     }
 }
 
-/// Returns the same case with as few triangles as still fail in the same way.
+/// Returns the case with as few triangles as still fail in the same way.
 pub fn shrunk(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut asked = vec![(Kind::Triangles, Method::Direct)];

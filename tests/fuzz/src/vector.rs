@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The scalar type: f64 to search with, [`Double`](crate::double::Double) to judge with.
+/// The scalar type: f64 for searching, [`Double`](crate::double::Double) for judging.
 pub trait Number:
     Copy
     + Debug
@@ -50,7 +50,7 @@ impl<N: Number> Vector<N> {
         self.each(N::rounded)
     }
 
-    /// Does the same as `map` of arrays, which compilers do not unroll.
+    /// Like `map` of arrays, but unrolled by compilers.
     #[inline]
     fn each<M>(self, change: impl Fn(N) -> M) -> Vector<M> {
         let [x, y, z] = self.0;
@@ -95,7 +95,7 @@ impl<N: Number> Vector<N> {
         }
     }
 
-    /// Returns the vector of length 1, or `None`.
+    /// Returns the vector scaled to length 1, or `None` if that is impossible.
     #[inline]
     pub fn unit(self) -> Option<Self> {
         let v = self.scaled();

@@ -98,7 +98,7 @@ fn hooks_closing() -> Scene {
     )
 }
 
-/// T15 in the other direction: the slack grows. The neighbouring legs stay nearest.
+/// T15 in the other direction, in which the slack grows. The neighbouring legs stay nearest.
 fn hooks_parting() -> Scene {
     // A leg's inner face is at 0.3; the other hook's base reaches to 0.1.
     Scene::new(
@@ -119,7 +119,7 @@ fn hooks(velocity: DVec3) -> [Actor; 2] {
     ]
 }
 
-/// T16: a tilted plate through a slit, free if its shadow is lower than the slit.
+/// T16: a tilted plate moves through a slit, free if its projection is lower than the slit.
 fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
     let tilted = DQuat::from_rotation_y(-phi);
     let plate = cuboid(DVec3::new(1.0, 1.0, 0.1)).placed(tilted, DVec3::ZERO);
@@ -189,14 +189,14 @@ fn needles_on_slab(width: f64) -> Scene {
     )
 }
 
-/// Two equal plates, of which every pair of triangles touches at once.
+/// Two equal plates, in which every pair of triangles touches at the same time.
 fn parallel_plates() -> Scene {
     let falling = Actor::moving(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z, DVec3::ZERO);
     let lying = Actor::still(parallel_plate(16), DVec3::ZERO);
     Scene::new("plates", [falling, lying], Expect::hit(|g| 0.5 - g))
 }
 
-/// T22: a faceted ball, between the balls inside and around it.
+/// T22: a faceted ball, bounded by its inscribed and circumscribed balls.
 fn spinning_icosphere() -> Scene {
     let (radius, height, speed) = (0.5, 2.0, 2.0);
     let ball = icosphere(radius, 2);

@@ -1,4 +1,4 @@
-//! Scenes of rounded pieces: balls, capsules, rounded boxes, which have no mesh.
+//! Scenes of rounded pieces without a mesh: balls, capsules and rounded boxes.
 
 use super::{Expect, Scene};
 use crate::models::{Mesh, Shape, cuboid};
@@ -17,7 +17,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// A convex part with a rounding radius.
+/// Returns a convex part with a rounding radius.
 fn rounded(points: Vec<DVec3>, radius: f64) -> Shape {
     Shape {
         mesh: Mesh {
@@ -89,7 +89,7 @@ fn ball_on_slab() -> Scene {
     )
 }
 
-/// A capsule turns its end into a wall.
+/// The end of a rotating capsule hits a wall.
 fn capsule_on_wall() -> Scene {
     let capsule = rounded(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
     let turning = Actor::moving(capsule, DVec3::ZERO, DVec3::ZERO, PI * DVec3::Y);

@@ -1,4 +1,4 @@
-//! Scenes of one or two bodies turning about a fixed axis.
+//! Scenes of one or two bodies that rotate about a fixed axis.
 
 use super::{Expect, Scene};
 use crate::models::{cuboid, frame_plate, mace, post, rod, wall_at};
@@ -35,8 +35,8 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-/// Returns the time at which the rod's corner, turning at `speed`, first comes to `height` from the
-/// plane through the axis.
+/// Returns the time at which the corner of a rod rotating at `speed` first reaches `height` from the plane through the
+/// axis.
 fn corner_time(height: f64, speed: f64) -> f64 {
     ((height / reach()).asin() - WIDTH.atan2(LENGTH)) / speed
 }
@@ -58,7 +58,7 @@ fn rod_on_slab() -> Scene {
     )
 }
 
-/// T4: an upright rod turns by half turns towards a wall.
+/// T4: an upright rod rotates by half turns towards a wall.
 fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     let speed = half_turns * PI;
     Scene::new(
@@ -120,8 +120,8 @@ fn rod_on_post() -> Scene {
     Scene::new("T7 rod on post", [spinning, post], Expect::hit(time))
 }
 
-/// T9: a heavy head at the centre, a long arm whose end reaches the wall. Bounds that use the
-/// present pose alone do not anticipate it.
+/// T9: a mace with a heavy head at the centre and a long arm whose end reaches the wall. Bounds that use the present
+/// pose alone do not anticipate it.
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
@@ -139,7 +139,7 @@ fn swinging_mace() -> Scene {
     Scene::new("T9 mace", [swinging, wall], Expect::hit(time))
 }
 
-/// T12: a square peg turns in a square hole: four contacts at once.
+/// T12: a square peg rotates in a square hole: four contacts at once.
 fn peg_in_hole() -> Scene {
     let (peg, hole) = (1.0, 1.2);
     let turning = Actor::moving(
@@ -153,7 +153,7 @@ fn peg_in_hole() -> Scene {
     Scene::new("T12 peg in hole", [turning, plate], Expect::hit(time))
 }
 
-/// T14: two upright rods turn towards each other, as mirror images.
+/// T14: two upright rods rotate towards each other, as mirror images.
 fn two_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
     let upright = || cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
@@ -185,7 +185,7 @@ fn scaled_rod(scale: f64) -> Scene {
     )
 }
 
-/// Both bodies on one turntable, at rest to each other, a unit apart: free at any speed.
+/// Both bodies on one turntable, at relative rest one unit apart: free at any speed.
 fn rigidly_turning_pair() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let on_table = |x: f64| {

@@ -1,4 +1,4 @@
-//! Scenes that translate and turn at once, or are unusual in some other way.
+//! Scenes with simultaneous translation and rotation, or with other peculiarities.
 
 use super::{Expect, Scene};
 use crate::models::{Mesh, PITCH, Shape, cuboid, nut, screw};
@@ -27,7 +27,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-/// The depth below the nut's bottom at which the screw starts, less a pitch.
+/// The depth of the screw's start below the nut's bottom, less one pitch.
 const LOW: f64 = 1.05;
 
 /// T18: three turns of a screw in its nut, climbing by `pitch` a turn.
@@ -85,8 +85,8 @@ fn two_shells() -> Scene {
     )
 }
 
-/// T26: cuboids at coordinates of some thousands, one of which flies and turns about a point of its
-/// own; the numbers are from a bug report to parry (its issue 317).
+/// T26: cuboids at coordinates of some thousands, one of which flies and rotates about a centre of its own; the numbers
+/// are from a bug report to parry (its issue 317).
 fn cuboids_in_the_distance() -> Scene {
     let flying = Motion::about(
         Pose::new(
@@ -122,7 +122,7 @@ fn cuboids_in_the_distance() -> Scene {
     )
 }
 
-/// T24: two cubes, a corner of either within the other.
+/// T24: two cubes with a corner of each inside the other.
 fn deep_overlap() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let corner = DVec3::new(0.7, 0.1, 0.2);
@@ -134,7 +134,7 @@ fn deep_overlap() -> Scene {
     )
 }
 
-/// T24: a small cube in a big one, surfaces apart.
+/// T24: a small cube inside a big one, with separate surfaces.
 fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
     let small = Actor::moving(
         shape(cuboid(DVec3::splat(0.5)).mesh),
@@ -163,7 +163,7 @@ fn resting() -> Scene {
     Scene::new("T25 at rest", bodies, Expect::Free { gap: 1.0 })
 }
 
-/// T25: a cube falls while it turns about the vertical by nothing, next to nothing, or exactly π.
+/// T25: a cube falls while it rotates about the vertical by zero, by very little, or by exactly π.
 fn slow_turn(angle: f64) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = Actor::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, angle * DVec3::Z);

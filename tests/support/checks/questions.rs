@@ -7,7 +7,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{Answer, Clearance, Contact, Outcome};
 
 impl Judge<'_> {
-    /// Checks an answer to "do they touch at all?": never missed, never false, its contact as claimed.
+    /// Checks an answer to "do they touch at all?": never missed, never false, with a contact as claimed.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -29,8 +29,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks the bounds of a least distance: never above it, never below the distance at the time given, no
-    /// farther apart than the tolerance.
+    /// Checks the bounds of a least distance: never above the true one, never below the distance at the given time, and
+    /// no farther apart than the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -72,7 +72,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks what became of a required distance: never false, never unknown farther from the least than the tolerance.
+    /// Checks the answer about a required distance: never false, and unknown only within the tolerance of the least
+    /// distance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -109,8 +110,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Checks the bounds of a greatest distance: never below one that is seen, never above that at the time given, no
-    /// farther apart than the tolerance.
+    /// Checks the bounds of a greatest distance: never below a sampled distance, never above that at the given time,
+    /// and no farther apart than the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -145,7 +146,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Checks the first and the last contact: no contact before and after, both within reach.
+    /// Checks the first and the last contact: none before and after them, and both within the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -197,8 +198,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Bounds the distance of two pieces in contact at a time; there is no bound for bodies that overlap, whose
-    /// pieces may meet anywhere in a solid.
+    /// Bounds the distance of two pieces in contact at a time; infinite for bodies that overlap, whose pieces may be
+    /// anywhere in a solid.
     fn reach(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
         if !self.may_overlap(time, contact) {
             self.config.margin + tolerance + self.query.rounding()
@@ -207,7 +208,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Returns true if two pieces overlap, or the bodies touched before: their surfaces may be far apart then.
+    /// Returns true if two pieces overlap, or the bodies touched before, so that their surfaces may be far apart.
     fn may_overlap(&self, time: f64, contact: &Contact) -> bool {
         let touched = match self.finding {
             Finding::Hit { lo, .. } | Finding::Near { lo } => time >= lo,
@@ -217,7 +218,7 @@ impl Judge<'_> {
         touched || self.nested || contact.separation.lower < -self.query.rounding()
     }
 
-    /// The least distance seen.
+    /// Returns the least sampled distance.
     fn least(&self) -> f64 {
         let sampled = self.samples.iter().map(|sample| sample.1);
         let least = sampled.fold(f64::INFINITY, lesser);

@@ -25,7 +25,7 @@ impl Blend {
         Blend::new(points.into_iter().map(|p| (1, p)))
     }
 
-    /// Returns the point, or one a rounding away from it.
+    /// Returns the point in floats, up to a rounding error.
     pub fn rounded(&self) -> DVec3 {
         let [x, y, z] = self.coordinates::<Interval>().map(|x| x.lo);
         DVec3::new(x, y, z)
@@ -41,7 +41,7 @@ impl Blend {
     }
 }
 
-/// A point for predicates; its fractions are computed on first use.
+/// A point for predicates, with fractions that are computed on first use.
 pub(super) struct Spot<'a> {
     blend: &'a Blend,
     pub(super) near: [Interval; 3],

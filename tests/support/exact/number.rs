@@ -1,4 +1,4 @@
-//! The two kinds of number for predicates: intervals first, fractions if those are not certain.
+//! The two kinds of numbers for predicates: intervals first, and fractions if intervals are not certain.
 //!
 //! The judge of decompositions shares no arithmetic with what it judges, nor with the referee of `ccd-bench`.
 
@@ -9,12 +9,12 @@ use std::cmp::Ordering;
 
 /// The arithmetic that a predicate needs.
 pub(super) trait Number: Sized {
-    /// Converts any finite number exactly.
+    /// Converts a finite number exactly.
     fn of(x: f64) -> Self;
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self) -> Self;
-    /// Divides by a number that is not 0.
+    /// Divides by a nonzero number.
     fn over(&self, divisor: u32) -> Self;
     /// Returns the sign, if it is certain.
     fn sign(&self) -> Option<Ordering>;
@@ -59,7 +59,7 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// Encloses a rounded result; the error is 0 only if nothing was rounded.
+    /// Encloses a rounded result; the error is 0 only if the result is exact.
     fn rounded(result: f64, error: f64) -> Self {
         if error == 0.0 {
             Interval {
@@ -131,7 +131,7 @@ impl Number for Interval {
     }
 }
 
-/// Encloses a sum; Knuth's error of a sum is exact.
+/// Encloses a sum, with Knuth's exact error of a sum.
 fn sum(x: f64, y: f64) -> Interval {
     let sum = x + y;
     let back = sum - x;

@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The numbers of random points to take.
+/// The numbers of random points to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
     /// The points of each facet, in addition to its mean and its edges' middles.
@@ -33,7 +33,7 @@ impl Effort {
     };
 }
 
-/// The sum of the weights, which keeps random points as dyadic as the corners.
+/// The sum of the weights, a power of two, so that random points stay as dyadic as the corners.
 const WHOLE: u32 = 64;
 
 /// Returns points of a polytope's hull: means, middles, and random ones on facets, chords and

@@ -62,8 +62,8 @@ pub fn wall_at(x: f64) -> Shape {
     between([x, -4.0, -4.0], [x + 1.0, 4.0, 4.0])
 }
 
-/// Returns a triangular post along z. One edge is at the polar coordinates `(radius, angle)` and
-/// faces a rod that turns counter-clockwise about the origin.
+/// Returns a triangular post along z. One edge is at the polar coordinates `(radius, angle)` and faces a rod that turns
+/// counter-clockwise about the origin.
 pub fn post(radius: f64, angle: f64) -> Shape {
     let edge = radius * DVec3::new(angle.cos(), angle.sin(), 0.0);
     // The post extends from the edge along the rod's motion, spread by a quarter turn.

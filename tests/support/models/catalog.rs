@@ -9,7 +9,7 @@ use ccd_core::glam::{DQuat, DVec3};
 
 /// A solid and its name.
 pub struct Model {
-    /// Its name.
+    /// The name of the solid.
     pub name: String,
     /// The solid.
     pub shape: Shape,
@@ -23,7 +23,7 @@ impl Model {
         }
     }
 
-    /// Returns the solid in general position, where rounding breaks coplanarity.
+    /// Returns the solid in general position, in which rounding breaks coplanarity.
     #[must_use]
     pub fn turned(&self) -> Self {
         let turn = DQuat::from_scaled_axis(DVec3::new(0.3, -0.7, 1.1));
@@ -37,7 +37,7 @@ impl Model {
     }
 }
 
-/// Returns solids that are not convex, of every kind; most have up to a thousand faces.
+/// Returns non-convex solids of every kind; most have up to a thousand faces.
 pub fn solids() -> Vec<Model> {
     let mut all = flat_solids();
     all.extend(curved_solids());
@@ -95,7 +95,7 @@ fn curved_solids() -> Vec<Model> {
     ]
 }
 
-/// Returns solids that are convex.
+/// Returns convex solids.
 pub fn convex_solids() -> Vec<Model> {
     vec![
         Model::new("cube", cuboid(DVec3::ONE)),

@@ -1,5 +1,5 @@
-//! Solids of cells: sheets of four-sided cells, some of them cut out, with a thickness. Their tops
-//! and bottoms are large regions of coplanar triangles, rarely convex.
+//! Solids of cells: sheets of four-sided cells, some of them removed, with a thickness. Their tops and bottoms are
+//! large regions of coplanar triangles, rarely convex.
 
 use super::{Line, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};
@@ -7,7 +7,7 @@ use rand::RngExt;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Returns a gear about z: a bore, a hole between each two spokes, and twice as many teeth as spokes.
+/// Returns a gear about z, with a bore, a hole between any two spokes, and twice as many teeth as spokes.
 pub fn gear(spokes: usize) -> Shape {
     let radii = [0.2, 0.35, 0.6, 0.8, 1.0];
     let columns = 8 * spokes;
@@ -62,7 +62,7 @@ pub fn slotted_plate(width: f64) -> Shape {
     .thick(|i, j| DVec2::new(x[i], y[j]), 0.25)
 }
 
-/// Returns two combs in one mesh, the teeth of either between those of the other.
+/// Returns two combs in one mesh, with the teeth of each between those of the other.
 pub fn meshed_combs(teeth: usize) -> Shape {
     let x = |i: usize| (i / 2) as f64 + if i % 2 == 1 { 0.4 } else { 0.0 };
     let y = [0.0, 0.3, 1.3];
@@ -93,7 +93,7 @@ pub fn divided_cube(cells: usize) -> Shape {
     .thick(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
 
-/// Returns a block under random heights, flat at its sides and at its bottom.
+/// Returns a block with random heights on its top, flat at its sides and at its bottom.
 pub fn terrain(cells: usize, seed: u64) -> Shape {
     let mut rng = seeded_rng(seed);
     let unit = 1.0 / cells as f64;
@@ -112,7 +112,7 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
     .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
 }
 
-/// The cells of a grid that are filled.
+/// A grid with some cells filled.
 struct Sheet<'a> {
     rows: Line,
     columns: Line,
@@ -125,7 +125,7 @@ impl Sheet<'_> {
         self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
     }
 
-    /// Returns the solid between two sheets; seen from above, rows run to the right and columns upwards.
+    /// Returns the solid between two sheets; seen from above, rows go to the right and columns upwards.
     fn between(
         &self,
         low: impl Fn(usize, usize) -> DVec3,

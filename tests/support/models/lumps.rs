@@ -5,7 +5,7 @@ use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Returns random numbers, the same for the same seed.
+/// Returns a random generator with a seed.
 pub(super) fn seeded_rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }

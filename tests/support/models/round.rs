@@ -65,8 +65,7 @@ pub fn icosphere(radius: f64, levels: u32) -> Shape {
     Shape::convex(Mesh { vertices, faces })
 }
 
-/// Returns the least distance of the origin from a face's plane: the radius of the largest ball in
-/// a convex mesh around the origin.
+/// Returns the least distance of a face's plane from the origin: the inradius of a convex mesh around the origin.
 pub fn inradius(mesh: &Mesh) -> f64 {
     let distance = |face| {
         let [a, b, c] = mesh.triangle(face);

@@ -4,7 +4,7 @@ use super::{Line, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The height that the thread climbs in one turn.
+/// The height of the thread per turn.
 pub const PITCH: f64 = 0.5;
 
 /// The number of segments around the axis, and along it for each pitch, of the coarsest thread.
@@ -17,14 +17,14 @@ pub fn screw(fineness: usize) -> Shape {
     Shape::open(thread(4, 0.0, fineness))
 }
 
-/// Returns the nut's inner surface, one pitch high, its bottom a pitch above the origin,
-/// `clearance` farther from the axis everywhere.
+/// Returns the nut's inner surface, one pitch high, its bottom one pitch above the origin, with `clearance` to the
+/// screw everywhere.
 pub fn nut(clearance: f64, fineness: usize) -> Shape {
     Shape::open(thread(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 
-/// Returns a helical surface: a turn by an angle and a lift by that fraction of the pitch map it to
-/// itself, up to its facets.
+/// Returns a helical surface, which a rotation by an angle and a lift by the same fraction of the pitch map to itself,
+/// up to its facets.
 fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
     let (segments, rows_per_pitch) = (SEGMENTS * fineness, ROWS_PER_PITCH * fineness);
     let rows = pitches * rows_per_pitch + 1;

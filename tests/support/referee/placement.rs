@@ -1,4 +1,4 @@
-//! Positions of a moving body's points, directly from the definition of the motion.
+//! Positions of a moving body's points, computed from the definition of the motion.
 
 use crate::query::{Actor, Query};
 use ccd_core::glam::DVec3;
@@ -64,7 +64,7 @@ impl Placement {
         self.velocity
     }
 
-    /// Returns the largest speed of a point by rotation.
+    /// Returns the largest speed of a point due to rotation.
     pub fn rim_speed(&self) -> f64 {
         self.spin.length() * self.radius
     }

@@ -5,8 +5,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use std::f64::consts::PI;
 
-/// A mesh with its vertices at some time.
-pub(super) struct Posed<'a> {
+/// A mesh with its vertices at a time.
+pub(super) struct PosedMesh<'a> {
     mesh: &'a Mesh,
     points: Vec<DVec3>,
     faces: Vec<Face>,
@@ -17,7 +17,7 @@ pub(super) struct Posed<'a> {
 /// The number of faces that share a box in the coarser of two levels.
 const GROUP: usize = 8;
 
-impl<'a> Posed<'a> {
+impl<'a> PosedMesh<'a> {
     pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
         let of_face = |face: &[u32; 3]| {
             face.iter()
@@ -26,7 +26,7 @@ impl<'a> Posed<'a> {
         let boxes: Vec<Bounds> = mesh.faces.iter().map(of_face).collect();
         let face = |face: &[u32; 3]| Face::new(face.map(|v| points[v as usize]));
         let group = |some: &[Bounds]| some.iter().fold(Bounds::EMPTY, |all, b| all.union(*b));
-        Posed {
+        PosedMesh {
             mesh,
             faces: mesh.faces.iter().map(face).collect(),
             group_boxes: boxes.chunks(GROUP).map(group).collect(),
@@ -47,8 +47,8 @@ impl<'a> Posed<'a> {
         self.points.first().copied()
     }
 
-    /// Returns the least distance of any two faces; 0 if two intersect.
-    pub(super) fn distance(&self, other: &Posed<'_>) -> f64 {
+    /// Returns the least distance over all pairs of faces; 0 if two intersect.
+    pub(super) fn distance(&self, other: &PosedMesh<'_>) -> f64 {
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (i, a) in self.group_boxes.iter().enumerate() {
             for (j, b) in other.group_boxes.iter().enumerate() {
@@ -66,7 +66,7 @@ impl<'a> Posed<'a> {
         best.sqrt()
     }
 
-    fn group_distance_squared(&self, other: &Posed<'_>, groups: [usize; 2], limit: f64) -> f64 {
+    fn group_distance_squared(&self, other: &PosedMesh<'_>, groups: [usize; 2], limit: f64) -> f64 {
         let mut best = limit;
         for i in members(groups[0], self.boxes.len()) {
             for j in members(groups[1], other.boxes.len()) {
@@ -83,8 +83,8 @@ fn members(group: usize, count: usize) -> std::ops::Range<usize> {
     group * GROUP..((group + 1) * GROUP).min(count)
 }
 
-/// Returns the squared distance of two triangles: all vertices against the other's face and its edges, all edges
-/// against the other's edges; 0 if an edge pierces a face.
+/// Returns the squared distance of two triangles over all vertex-face, vertex-edge and edge-edge pairs; 0 if an edge
+/// pierces a face.
 pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
     let edges = |Face { corners: t, .. }: &Face| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let (edges_a, edges_b) = (edges(a), edges(b));
@@ -116,8 +116,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     s * t < 0.0 && (sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0))
 }
 
-/// Returns the squared distance of the nearest points of two edges' lines, infinite unless both are within their
-/// edges.
+/// Returns the squared distance of the nearest points of two edges' lines; infinite unless both are on their edges.
 fn feet_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
@@ -149,16 +148,16 @@ pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     Face::new(corners).nearest(p)
 }
 
-/// A triangle, with what its nearest points need.
+/// A triangle, prepared for nearest points.
 pub(crate) struct Face {
-    /// The longest edge is between the first two.
+    /// The corners; the longest edge is between the first two.
     pub(crate) corners: [DVec3; 3],
-    /// Unit vectors along the longest edge and across it. For a needle, whose normal is mostly rounding, these
-    /// two are accurate to the last relevant digits.
+    /// The unit vectors along the longest edge and perpendicular to it. For a needle, whose normal is mostly rounding,
+    /// these two are accurate to the last relevant digits.
     along: DVec3,
     across: DVec3,
     length: f64,
-    /// The last corner, along the longest edge and across it.
+    /// The last corner's coordinate along the longest edge.
     apex: f64,
     height: f64,
 }
@@ -183,7 +182,7 @@ impl Face {
         }
     }
 
-    /// Returns the nearest point: the foot on the plane if that lies inside, else a point on an edge.
+    /// Returns the nearest point: the projection onto the plane if it lies inside, else a point on an edge.
     fn nearest(&self, p: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
         let (x, y) = ((p - a).dot(self.along), (p - a).dot(self.across));
@@ -237,7 +236,7 @@ pub fn contains(mesh: &Mesh, points: &[DVec3], p: DVec3) -> bool {
     mesh.faces.iter().map(angle).sum::<f64>() > 2.0 * PI
 }
 
-/// A box along the axes.
+/// An axis-aligned box.
 #[derive(Clone, Copy)]
 struct Bounds {
     lo: DVec3,

@@ -2,7 +2,7 @@
 //!
 //! It has two calls for the question, [`double::cast`] and [`double::sweep`], which share no code.
 
-/// In double precision.
+/// The casts in double precision.
 // Some casts are needed in one precision only.
 #[expect(clippy::unnecessary_cast, clippy::useless_conversion)]
 #[path = "parry"]
@@ -17,7 +17,7 @@ pub mod double {
     pub mod sweep;
 }
 
-/// In single precision: the same source over the other crate.
+/// The casts in single precision, from the same source.
 #[path = "parry"]
 pub mod single {
     use parry3d as library;

@@ -1,5 +1,4 @@
-//! rapier in double precision: one step of its simulation, as long as the query, with continuous collision
-//! detection.
+//! rapier in double precision: one step of its simulation over the whole query, with continuous collision detection.
 
 use crate::method::peer::parry::double::shapes::{pose, tri_mesh, vector};
 use crate::method::peer::{PeerError, contact_at};
@@ -11,10 +10,9 @@ use rapier3d_f64::prelude::{
     ColliderBuilder, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
     SharedShape, Vector,
 };
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
-/// Simulates A as a free body and B as a fixed one in one step, and takes the pose in which the
-/// step stops A.
+/// Simulates A as a free body and B as a fixed one in one step; the contact is the pose at which the step stops A.
 ///
 /// The engine does not sweep meshes, only convex bodies and compounds of them. A is therefore a compound
 /// of its triangles here; B stays a mesh. Each triangle is swept against B's by [parry's
@@ -33,10 +31,9 @@ pub struct Simulated {
     b: RigidBodyHandle,
 }
 
-/// A hit is reported at up to this multiple of the allowed error.
+/// The largest distance at which a hit is reported, as a multiple of the allowed error.
 const ERRORS_AT_HIT: f64 = 1.25;
-/// A step that covers this fraction of its motion counts as complete; poses are rounded by about as
-/// much.
+/// The fraction of its motion at which a step counts as complete, because poses are rounded.
 const WHOLE: f64 = 1.0 - 1e-9;
 
 impl Simulated {
@@ -62,7 +59,7 @@ impl Simulated {
     }
 
     /// Sets the start poses and velocities of both bodies.
-    fn pose(&mut self, query: &Query) {
+    fn pose(&mut self, query: &Motions) {
         self.world.integration_parameters.dt = query.duration;
         if let Some(b) = self.world.bodies.get_mut(self.b) {
             b.set_position(pose(&query.b, 0.0), true);
@@ -81,7 +78,7 @@ impl Simulated {
 }
 
 impl Solver for Simulated {
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         let turns = query.b.spin() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
             let claim = Claim::Refused;
@@ -101,7 +98,7 @@ impl Solver for Simulated {
 }
 
 /// Returns the fraction of its motion that a body has covered, or NaN or 1 if there is no motion.
-fn share(query: &Query, end: &Pose) -> f64 {
+fn share(query: &Motions, end: &Pose) -> f64 {
     let motion = &query.a;
     let way = query.duration * (motion.velocity() - query.b.velocity());
     if way == DVec3::ZERO {
@@ -112,8 +109,7 @@ fn share(query: &Query, end: &Pose) -> f64 {
     (centre - start).dot(way) / way.length_squared()
 }
 
-/// Returns the same fraction for a body that only turns. A sweep mixes two orientations, the
-/// shorter way.
+/// Returns the same fraction for a body that only rotates. A sweep mixes two orientations, the shorter way.
 fn share_of_turn(motion: &Motion, duration: f64, end: &Pose) -> f64 {
     let turn_to = |rotation: DQuat| {
         let turn = rotation * motion.start().rotation().conjugate();

@@ -1,4 +1,4 @@
-//! Tests every peer on meshes with exact answers: where it is right, and where it is known to be wrong.
+//! Tests every peer on meshes with exact answers: cases that it answers correctly, and known errors.
 
 use super::PeerKind;
 use crate::method::Method;
@@ -8,7 +8,7 @@ use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use rstest::rstest;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
@@ -19,7 +19,7 @@ const TOLERANCE: f64 = 1e-3;
 struct Exact {
     a: TriangleMesh,
     b: TriangleMesh,
-    query: Query,
+    query: Motions,
     time: f64,
     /// The closing speed at the contact.
     speed: f64,
@@ -64,10 +64,10 @@ fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
     Board { half_extents }.mesh().unwrap()
 }
 
-fn query(a: Motion, b: Motion) -> Query {
+fn query(a: Motion, b: Motion) -> Motions {
     let id = String::new();
     let duration = 1.0;
-    Query { id, a, b, duration }
+    Motions { id, a, b, duration }
 }
 
 fn motion(at: DVec3, turned: DQuat, velocity: DVec3, spin: DVec3) -> Motion {
@@ -134,7 +134,7 @@ fn ball_on_ball() -> Exact {
     }
 }
 
-/// T4: an upright rod turns by `turns` half circles and hits a wall with an edge.
+/// T4: an upright rod rotates by `turns` half circles and hits a wall with an edge.
 fn rod_on_wall(turns: f64) -> Exact {
     let (length, width, wall) = (2.0_f64, 0.05_f64, 1.2);
     let spin = turns * PI;
@@ -156,7 +156,7 @@ fn rod_on_wall(turns: f64) -> Exact {
     }
 }
 
-/// Returns an octahedron with each face cut in 16; its corners are on the unit ball and on the axes.
+/// Returns an octahedron with each face divided in 16; its vertices are on the unit ball and on the axes.
 fn ball() -> TriangleMesh {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut triangles = Vec::new();
@@ -206,7 +206,7 @@ fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f6
     }
 }
 
-/// Known: a gap that is not monotone is bisected over all the time, and a later root is found.
+/// Known error: a distance that is not monotone is bisected over the whole time, and a later root is found.
 #[rstest]
 fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
@@ -218,7 +218,8 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     }
 }
 
-/// Known: a step turns by a mix of quaternions, not at a constant rate, and a whole turn is no turn.
+/// Known error: a step interpolates quaternions instead of rotating at a constant rate, and a whole turn counts as no
+/// rotation.
 #[test]
 fn large_turns_are_wrong_with_a_whole_step() {
     let half = rod_on_wall(1.0);

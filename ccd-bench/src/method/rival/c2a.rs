@@ -2,12 +2,12 @@
 
 use super::patience::Patience;
 use super::swept_spheres::{Gap, Leaves, Pair, SphereTree, Trees, Under};
-use super::{Course, Placement};
+use super::{Placement, RivalMotion};
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
 use closing::Closing;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 mod closing;
 #[cfg(test)]
@@ -49,7 +49,7 @@ struct Candidate {
 
 /// The results of a descent so far.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct DescentResult {
     /// The distance of the nearest triangles.
     distance: f64,
     /// The nearest triangles.
@@ -58,24 +58,23 @@ struct Found {
     step: f64,
 }
 
-/// The placement of the bodies, and the limits of a descent.
-struct Look<'a> {
+/// The placement of the bodies and the limits of a descent.
+struct DescentSetup<'a> {
     /// Body B as seen from body A.
     placement: &'a Placement,
     /// The time until the end of the duration.
     remaining: f64,
-    /// The fraction of its distance by which a pair that is not opened may be nearer than the
-    /// nearest triangles found.
+    /// The allowed excess, as a fraction: an unopened pair may be nearer by it than the nearest triangles found.
     excess: f64,
 }
 
 /// The result of a descent.
 enum Descent {
-    /// The descent stopped at all pairs where it may stop.
-    Done(Found),
-    /// It found triangles within the tolerance.
+    /// The descent stopped at pairs that need not be opened.
+    Done(DescentResult),
+    /// The descent found triangles within the tolerance.
     Within,
-    /// It ran out of patience, or numbers are not finite.
+    /// The work limit was reached, or numbers are not finite.
     GaveUp,
 }
 
@@ -103,28 +102,28 @@ impl Adjustable for C2a {
 }
 
 impl Solver for C2a {
-    fn answer(&mut self, query: &Query) -> Reply {
-        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+    fn answer(&mut self, query: &Motions) -> Reply {
+        let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         self.closing.begin(&a, &b);
         let mut pairs_left = self.patience.pairs;
         let mut time = 0.0;
         let mut last = None;
         for steps in 1..=self.patience.steps {
             let frame = a.at(time);
-            let look = Look {
+            let setup = DescentSetup {
                 placement: &b.at(time).seen_from(&frame),
                 remaining: query.duration - time,
                 excess: self.excess(steps, last.as_ref(), query.duration),
             };
             self.closing.look_from(&frame);
-            let found = match self.descend(&look, last.as_ref(), &mut pairs_left) {
+            let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 Descent::Done(found) => found,
                 Descent::Within => return Reply::new(Claim::Contact { time }, steps),
                 Descent::GaveUp => {
                     return Reply::new(Claim::Unresolved { safe_until: time }, steps);
                 }
             };
-            if found.step >= look.remaining {
+            if found.step >= setup.remaining {
                 return Reply::new(Claim::Free, steps);
             }
             let next = time + found.step;
@@ -142,14 +141,14 @@ impl Solver for C2a {
 impl C2a {
     /// Returns the excess allowed in a step, from the number of steps so far and the distance to
     /// contact.
-    fn excess(&self, step: u64, last: Option<&Found>, duration: f64) -> f64 {
+    fn excess(&self, step: u64, last: Option<&DescentResult>, duration: f64) -> f64 {
         /// The number of coarse steps at the start, and their excess.
         const FIRST: (u64, f64) = (3, 3.0);
         /// The number of steps after those, and their excess.
         const THEN: (u64, f64) = (6, 0.5);
-        /// A fraction of the duration: after a shorter step, all steps are exact.
+        /// The step length below which all later steps are exact, as a fraction of the duration.
         const SHORT: f64 = 0.005;
-        /// A multiple of the tolerance: at a smaller distance, all steps are exact.
+        /// The distance below which all steps are exact, as a multiple of the tolerance.
         const NEAR: f64 = 16.0;
 
         let exact = last.is_some_and(|last| {
@@ -164,16 +163,21 @@ impl C2a {
     }
 
     /// Descends both trees once, nearest pairs first.
-    fn descend(&mut self, look: &Look<'_>, last: Option<&Found>, pairs_left: &mut u64) -> Descent {
-        let mut found = Found {
+    fn descend(
+        &mut self,
+        setup: &DescentSetup<'_>,
+        last: Option<&DescentResult>,
+        pairs_left: &mut u64,
+    ) -> Descent {
+        let mut found = DescentResult {
             distance: f64::INFINITY,
             nearest: None,
             step: f64::INFINITY,
         };
         if let Some((leaves, pair)) = last.and_then(|last| last.nearest) {
-            self.measure(&mut found, look, leaves, pair);
+            self.measure(&mut found, setup, leaves, pair);
         }
-        let Some(roots) = self.trees.roots(look.placement) else {
+        let Some(roots) = self.trees.roots(setup.placement) else {
             return Descent::Done(found);
         };
         self.pairs.clear();
@@ -186,7 +190,7 @@ impl C2a {
             let Some(candidate) = self.pairs.pop() else {
                 return Descent::Done(found);
             };
-            if candidate.may_stop(&mut found, look) {
+            if candidate.may_stop(&mut found, setup) {
                 continue;
             }
             if *pairs_left == 0 || found.distance.is_nan() {
@@ -195,7 +199,7 @@ impl C2a {
             *pairs_left -= 1;
             match self.trees.under(&candidate.pair) {
                 Under::Triangles(leaves) => {
-                    self.measure(&mut found, look, leaves, candidate.pair);
+                    self.measure(&mut found, setup, leaves, candidate.pair);
                 }
                 Under::Pairs([first, second]) => {
                     let (first, second) = (self.candidate(first), self.candidate(second));
@@ -221,8 +225,14 @@ impl C2a {
     }
 
     /// Measures the distance of two triangles, and the time until they may touch.
-    fn measure(&mut self, found: &mut Found, look: &Look<'_>, leaves: Leaves, pair: Pair) {
-        let between = self.trees.nearest(leaves, look.placement).between();
+    fn measure(
+        &mut self,
+        found: &mut DescentResult,
+        setup: &DescentSetup<'_>,
+        leaves: Leaves,
+        pair: Pair,
+    ) {
+        let between = self.trees.nearest(leaves, setup.placement).between();
         let distance = between.length();
         let gap = Gap {
             distance,
@@ -243,11 +253,11 @@ impl C2a {
 impl Candidate {
     /// Returns true if a pair need not be opened; then its step counts.
     #[inline]
-    fn may_stop(&self, found: &mut Found, look: &Look<'_>) -> bool {
-        if self.step >= lesser(found.step, look.remaining) {
+    fn may_stop(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
+        if self.step >= lesser(found.step, setup.remaining) {
             return true;
         }
-        let far = self.distance * (1.0 + look.excess) >= found.distance;
+        let far = self.distance * (1.0 + setup.excess) >= found.distance;
         if far {
             found.step = self.step;
         }

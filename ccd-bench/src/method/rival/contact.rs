@@ -8,7 +8,7 @@ mod relative;
 #[cfg(test)]
 mod tests;
 
-use super::Course;
+use super::RivalMotion;
 use super::obb_tree::{Content, Crossing, ObbTree, crossing};
 use super::resolution::resolution;
 use super::screw::screw;
@@ -20,10 +20,10 @@ use clock::{Clock, Slice};
 use elementary::{Facet, Triangles};
 use leaf::{Touch, first_touch};
 use relative::Relative;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
-/// Time is halved while the radius of the enclosure of a box's placement exceeds this multiple of
-/// the half length of the longer box. Otherwise the boxes are opened.
+/// The ratio above which time is halved: the radius of the enclosure of a box's placement over the half length of the
+/// longer box. Otherwise the boxes are opened.
 ///
 /// Values from 0.1 to 2 were measured; this one is the fastest, on knots of 2,880 and 11,520
 /// triangles and a bunny of 26,000.
@@ -53,7 +53,7 @@ pub struct Contact {
     static_stack: Vec<(u32, u32)>,
 }
 
-/// A limit of the work for one query, some seconds.
+/// The work limits of one query, some seconds.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
     /// The number of pairs of boxes examined.
@@ -87,9 +87,9 @@ impl Contact {
         }
     }
 
-    /// Returns the first contact of bodies that move as given, along screws or not.
-    fn first_contact(&mut self, query: &Query) -> Reply {
-        let courses = [Course::new(&query.a), Course::new(&query.b)];
+    /// Returns the first contact for the given motions, which need not be screws.
+    fn first_contact(&mut self, query: &Motions) -> Reply {
+        let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, self.tolerance);
         let [a, b] = &self.trees;
         let start = courses[0].at(0.0).seen_from(&courses[1].at(0.0));
@@ -124,8 +124,8 @@ impl Adjustable for Contact {
 }
 
 impl Solver for Contact {
-    /// Steps are halvings of time.
-    fn answer(&mut self, query: &Query) -> Reply {
+    /// Answers a query; steps are halvings of time.
+    fn answer(&mut self, query: &Motions) -> Reply {
         match screw(query) {
             Ok(query) => self.first_contact(&query),
             Err(_) => Reply::new(Claim::Unresolved { safe_until: 0.0 }, 0),

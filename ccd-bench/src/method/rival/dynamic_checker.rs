@@ -1,14 +1,13 @@
-//! The rival that halves time until undirected bounds on the distances at both ends prove each part
-//! free.
+//! A rival that halves time until undirected bounds on the distances at both ends prove each segment free.
 
-use super::Course;
+use super::RivalMotion;
 use super::patience::Patience;
 use super::swept_spheres::{Pair, SphereTree, Trees, Under};
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 #[cfg(test)]
 mod tests;
@@ -44,11 +43,11 @@ pub struct DynamicChecker {
     pairs: Vec<(Pair, f64)>,
 }
 
-/// The distances of a body's points from its centre of rotation, for the last centre asked.
+/// The distances of a body's points from its last centre of rotation.
 #[derive(Clone, Copy, Debug, Default)]
 struct Reach(Option<(DVec3, f64)>);
 
-/// A part of the duration, and lower bounds on the distance at its ends.
+/// A segment of the duration, and lower bounds on the distance at its ends.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
     from: f64,
@@ -60,9 +59,9 @@ struct Segment {
 /// The precision required of a distance.
 #[derive(Clone, Copy, Debug)]
 struct Wanted {
-    /// A larger distance is not needed.
+    /// The distance above which no larger bound is needed.
     enough: f64,
-    /// The largest size of nodes that are not opened, as a multiple of their distance.
+    /// The largest size of unopened nodes, as a multiple of their distance.
     coarseness: f64,
 }
 
@@ -71,17 +70,17 @@ struct Wanted {
 enum LowerBound {
     Apart(f64),
     Meet,
-    /// It ran out of patience, or numbers are not finite.
+    /// The work limit was reached, or numbers are not finite.
     GaveUp,
 }
 
 /// The motions of one query, their bounds, and the remaining work.
 struct Task {
-    a: Course,
-    b: Course,
-    /// A bound of the relative speed of any two points of the bodies.
+    a: RivalMotion,
+    b: RivalMotion,
+    /// A bound on the relative speed of any two points of the bodies.
     speed: f64,
-    /// The earliest time at which the bodies were seen to touch.
+    /// The earliest time at which the bodies were found to touch.
     met: Option<f64>,
     steps: u64,
     pairs_left: u64,
@@ -112,14 +111,15 @@ impl Adjustable for DynamicChecker {
 }
 
 impl Solver for DynamicChecker {
-    fn answer(&mut self, query: &Query) -> Reply {
-        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
-        let speed = |course: &Course, reach: f64| course.velocity.length() + course.rate * reach;
+    fn answer(&mut self, query: &Motions) -> Reply {
+        let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
+        let speed =
+            |course: &RivalMotion, reach: f64| course.velocity.length() + course.rate * reach;
         let mut task = Task {
             a,
             b,
-            speed: speed(&a, self.reach_a.about(a.centre, &self.trees.a))
-                + speed(&b, self.reach_b.about(b.centre, &self.trees.b)),
+            speed: speed(&a, self.reach_a.radius_about(a.centre, &self.trees.a))
+                + speed(&b, self.reach_b.radius_about(b.centre, &self.trees.b)),
             met: None,
             steps: 0,
             pairs_left: self.patience.pairs,
@@ -130,8 +130,7 @@ impl Solver for DynamicChecker {
 }
 
 impl DynamicChecker {
-    /// Halves the duration until all of it is free, or until the earliest part that is not free is
-    /// short enough.
+    /// Halves the duration until all of it is free, or until the earliest segment that is not free is short enough.
     fn search(&mut self, duration: f64, task: &mut Task) -> Claim {
         let path = task.speed * duration;
         let at_from = match self.bound(0.0, Wanted::at_least(path), task) {
@@ -156,7 +155,7 @@ impl DynamicChecker {
         });
         while let Some(segment) = self.segments.pop() {
             task.steps += 1;
-            if let Some(claim) = self.look_at(segment, task) {
+            if let Some(claim) = self.examine(segment, task) {
                 return claim;
             }
         }
@@ -168,7 +167,7 @@ impl DynamicChecker {
     }
 
     /// Drops a free segment, and halves one that may not be free. Returns a claim if the search ends.
-    fn look_at(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
+    fn examine(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
         let Segment {
             from,
             to,
@@ -257,7 +256,7 @@ impl DynamicChecker {
         LowerBound::Apart(least)
     }
 
-    /// Pushes two pairs, the nearer one on top, and leaves out pairs that cannot matter.
+    /// Pushes two pairs, the nearer one on top, without pairs that cannot matter.
     fn push(&mut self, [first, second]: [Pair; 2], least: f64) {
         let (first, second) = (
             (first, self.trees.distance(&first)),
@@ -278,9 +277,8 @@ impl DynamicChecker {
 
 impl Wanted {
     fn at_least(enough: f64) -> Self {
-        /// The fastest value on the scenes. At 0, three times as much work goes into distances that
-        /// are better than needed. Without a bound, as published, up to twenty times as much work
-        /// goes into halvings.
+        /// The coarseness that is fastest on the scenes. At 0, three times as much work goes into distances that are
+        /// better than needed. Without a bound, as published, up to twenty times as much work goes into halvings.
         const COARSENESS: f64 = 16.0;
         Wanted {
             enough,
@@ -302,7 +300,7 @@ impl Wanted {
 }
 
 impl Reach {
-    fn about(&mut self, centre: DVec3, tree: &SphereTree) -> f64 {
+    fn radius_about(&mut self, centre: DVec3, tree: &SphereTree) -> f64 {
         match self.0 {
             Some((last, reach)) if last == centre => reach,
             _ => {

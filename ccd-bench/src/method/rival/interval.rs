@@ -1,4 +1,4 @@
-//! Intervals, as a middle and a radius, of numbers, vectors and matrices.
+//! Intervals of numbers, vectors and matrices, stored as middle and radius.
 //!
 //! Rounding is plain: enclosures are those of exact arithmetic up to a few units in the last place.
 //! The referee, which judges rivals, has intervals of its own with sound rounding (`truth/interval.rs`).
@@ -137,14 +137,14 @@ impl IntervalVec {
         self.middle.abs() + self.radius
     }
 
-    /// Returns the smallest absolute values of the coordinates, negative where zero is well inside.
+    /// Returns the smallest absolute values of the coordinates, negative if zero is well inside.
     #[inline]
     pub(super) fn smallest(self) -> DVec3 {
         self.middle.abs() - self.radius
     }
 }
 
-/// Returns a cross product with plus instead of minus, by which the radii of a cross product add up.
+/// Returns the cross product with plus instead of minus, which adds up the radii of a cross product.
 #[inline]
 pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(

@@ -7,7 +7,7 @@ use wide::f64x4;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vectors(pub(super) [f64x4; 3]);
 
-/// The shortest vector of each lane, among vectors that come four at a time.
+/// The shortest vector of each lane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shortest {
     squared: f64x4,
@@ -87,7 +87,7 @@ impl Vectors {
 }
 
 impl Shortest {
-    /// Returns the minimum of no vectors.
+    /// Returns the initial value of the minimum, before any vectors.
     #[inline(always)]
     pub(super) fn of_none() -> Self {
         Shortest {

@@ -22,7 +22,7 @@ pub(super) struct ObbTree {
     pub(super) origin: DVec3,
     /// The largest distance of a corner from the origin.
     radius: f64,
-    /// The nodes; the root comes first.
+    /// The nodes, the root first.
     nodes: Vec<Node>,
     triangles: Vec<[DVec3; 3]>,
 }
@@ -37,9 +37,9 @@ pub(super) struct Node {
 /// The content of a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
-    /// Two nodes.
+    /// The two child nodes.
     Nodes([u32; 2]),
-    /// One triangle.
+    /// The triangle of a leaf.
     Triangle(u32),
 }
 
@@ -89,7 +89,7 @@ impl ObbTree {
         self.origin.distance(from) + self.radius
     }
 
-    /// Splits from the root down; triangles end up in the order of the leaves.
+    /// Builds the nodes from the root down; triangles are sorted into the order of the leaves.
     fn build(&mut self) {
         let mut open = vec![(0, 0..self.triangles.len())];
         self.nodes.push(Node::placeholder());
@@ -144,9 +144,8 @@ impl Obb {
     }
 }
 
-/// Partitions triangles by the side of the mean on which their middles lie along the longest axis,
-/// or along the next axis if all lie on one side, or by halves if no axis splits them. Returns the
-/// number of triangles in the first part.
+/// Partitions triangles by the side of the mean of their middles along the longest axis. If all lie on one side, the
+/// next axis is used, and halves if no axis splits them. Returns the number of triangles in the first part.
 fn split(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {
     for axis in [axes.x_axis, axes.y_axis, axes.z_axis] {
         let before = |t: &[DVec3; 3]| (t[0] + t[1] + t[2] - 3.0 * mean).dot(axis) < 0.0;

@@ -1,6 +1,6 @@
-//! A limit of a rival's work.
+//! The work limit of a rival.
 
-/// The largest work for one query before it is given up.
+/// The work limit of one query.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     /// The number of steps in time.
@@ -10,7 +10,7 @@ pub(super) struct Patience {
 }
 
 impl Default for Patience {
-    /// About ten seconds, thousands of times the cost of a usual query.
+    /// Returns about ten seconds of work, thousands of times the cost of a usual query.
     fn default() -> Self {
         Patience {
             steps: 1_000_000,

@@ -68,7 +68,7 @@ fn off_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
     ])
 }
 
-/// Computes the vectors between the four pairs of edges of A along axis `I` and of B along axis `J`.
+/// Returns the vectors between the four pairs of edges of A along axis `I` and of B along axis `J`.
 #[inline(always)]
 fn edges_apart<const I: usize, const J: usize>(
     shortest: Shortest,

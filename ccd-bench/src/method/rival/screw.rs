@@ -2,16 +2,16 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
-/// The least |sin(turn / 2)| for which the screw axis is computed, since turns near a multiple of
-/// 2π have no stable axis.
+/// The least |sin(angle / 2)| for which the screw axis is computed; rotations near a multiple of 2π have no stable
+/// axis.
 ///
 /// The axis lies up to travel / (2 · this) away, and rounding moves the end pose by 2⁻⁵³ of that:
 /// at 2⁻¹² about 3e-13 of the travel.
 const LEAST_HALF_SINE: f64 = 1.0 / 4096.0;
 
-/// The difference of two courses of one point, as a share of its travel, that is rounding.
+/// The share of its displacement by which a point's positions on two motions may differ due to rounding.
 const SAME: f64 = 1e-9;
 
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose
@@ -23,8 +23,8 @@ const SAME: f64 = 1e-9;
 ///
 /// # Errors
 /// If a screw's parameters overflow.
-pub fn screw(query: &Query) -> Result<Query, InputError> {
-    Ok(Query {
+pub fn screw(query: &Motions) -> Result<Motions, InputError> {
+    Ok(Motions {
         id: query.id.clone(),
         a: screw_motion(&query.a, query.duration)?,
         b: screw_motion(&query.b, query.duration)?,
@@ -32,8 +32,8 @@ pub fn screw(query: &Query) -> Result<Query, InputError> {
     })
 }
 
-/// Returns whether both motions of a query are screws already, up to rounding.
-pub fn is_screw(query: &Query) -> bool {
+/// Returns whether both motions of a query are already screws, up to rounding.
+pub fn is_screw(query: &Motions) -> bool {
     let same = |motion: &Motion| {
         let Ok(screw) = screw_motion(motion, query.duration) else {
             return false;

@@ -1,13 +1,13 @@
-//! A static test at every step, the usual practice without a continuous method.
+//! A static test at every step, the usual practice without continuous collision detection.
 
-use super::Course;
+use super::RivalMotion;
 use super::obb_tree::{Crossing, ObbTree, crossing};
 use super::resolution::resolution;
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
-/// The largest number of samples of one query, some seconds' worth.
+/// The maximum number of samples of one query, some seconds of work.
 const MAX_SAMPLES: u64 = 1 << 20;
 
 /// Tests two triangle meshes for intersection at equal steps in time.
@@ -36,7 +36,7 @@ impl Stepping {
         }
     }
 
-    fn crosses(&mut self, courses: &[Course; 2], time: f64) -> bool {
+    fn crosses(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
         let placement = courses[0].at(time).seen_from(&courses[1].at(time));
         let [a, b] = &self.trees;
         crossing(a, b, &placement, &mut self.stack) == Crossing::Found
@@ -50,9 +50,9 @@ impl Adjustable for Stepping {
 }
 
 impl Solver for Stepping {
-    /// Steps are samples; the last one is at the end of the duration.
-    fn answer(&mut self, query: &Query) -> Reply {
-        let courses = [Course::new(&query.a), Course::new(&query.b)];
+    /// Answers a query; steps are samples, the last one at the end of the duration.
+    fn answer(&mut self, query: &Motions) -> Reply {
+        let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let step = resolution(&courses, &self.trees, self.tolerance);
         // Bodies at rest are tested twice. The cast saturates, and turns NaN into zero.
         let steps = ((query.duration / step).ceil() as u64).max(1);

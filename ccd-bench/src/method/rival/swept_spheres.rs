@@ -19,15 +19,15 @@ mod tests;
 pub(super) struct SphereTree {
     /// The nodes: the root first, two children side by side.
     nodes: Vec<Node>,
-    /// The frames of their rectangles in the body.
+    /// The frames of the nodes' rectangles, relative to the body.
     frames: Vec<Placement>,
     triangles: Vec<Triangle>,
 }
 
-/// All points within a radius of a rectangle.
+/// A rectangle swept by a sphere: all points within a radius of the rectangle.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// The rectangle's frame, as seen from its parent's.
+    /// The rectangle's frame, relative to its parent's.
     placement: Placement,
     /// The lengths of the rectangle along x and y.
     lengths: DVec2,
@@ -37,7 +37,7 @@ struct Node {
 
 #[derive(Clone, Copy, Debug)]
 enum Below {
-    /// The children are this node and the next one.
+    /// The index of the first child; the second one is next.
     Children(u32),
     Triangle(u32),
 }
@@ -54,15 +54,15 @@ pub(super) struct Trees {
 pub(super) struct Pair {
     pub(super) a: u32,
     pub(super) b: u32,
-    /// B's rectangle as seen from A's.
+    /// B's rectangle in the frame of A's.
     placement: Placement,
 }
 
-/// The content of a pair of nodes.
+/// The children of a pair of nodes.
 pub(super) enum Under {
-    /// The children of one of them, each with the other node.
+    /// The children of one node, each with the other node.
     Pairs([Pair; 2]),
-    /// Both nodes are leaves.
+    /// The triangles of two leaves.
     Triangles(Leaves),
 }
 
@@ -123,7 +123,7 @@ impl Node {
 }
 
 impl Trees {
-    /// Returns both roots, body B placed as seen from body A, or `None` if a mesh has no triangles.
+    /// Returns both roots, with body B placed in A's frame, or `None` if a mesh has no triangles.
     pub(super) fn roots(&self, placement: &Placement) -> Option<Pair> {
         let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);
         Some(Pair {
@@ -133,7 +133,7 @@ impl Trees {
         })
     }
 
-    /// Returns their distance.
+    /// Returns the distance of a pair.
     #[inline]
     pub(super) fn distance(&self, pair: &Pair) -> f64 {
         let (a, b) = (
@@ -145,7 +145,7 @@ impl Trees {
         greater(0.0, between.length() - (a.radius + b.radius))
     }
 
-    /// Returns their distance and its direction.
+    /// Returns the distance of a pair and its direction.
     #[inline]
     pub(super) fn gap(&self, pair: &Pair) -> Gap {
         let (a, b) = (
@@ -172,8 +172,7 @@ impl Trees {
         self.a.nodes[pair.a as usize].size() + self.b.nodes[pair.b as usize].size()
     }
 
-    /// Returns the nearest points of two triangles in the frame of body A, body B placed as seen
-    /// from there.
+    /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in it.
     #[inline]
     pub(super) fn nearest(&self, leaves: Leaves, placement: &Placement) -> Nearest {
         let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));

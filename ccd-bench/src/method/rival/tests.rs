@@ -1,4 +1,4 @@
-//! Helpers of the rivals' tests.
+//! Helpers for the rivals' tests.
 
 pub(super) mod samples;
 pub(super) mod trials;

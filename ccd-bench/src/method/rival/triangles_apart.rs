@@ -116,11 +116,11 @@ fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
     (squared, nearest)
 }
 
-/// A bound on the ratio of a triangle's height to its longest edge. Below it, the edges represent
-/// the triangle, since its normal is mostly rounding.
+/// The least ratio of a triangle's height to its longest edge; flatter ones count as needles. Below it, the edges
+/// represent the triangle, since its normal is mostly rounding.
 const NEEDLE: f64 = 1e-12;
 
-/// A triangle with its normal, for distances of points from it.
+/// A triangle with its normal, for distances of points.
 struct Face {
     corners: Triangle,
     /// The normal, not of unit length; zero for a needle.
@@ -220,7 +220,7 @@ fn lanes([a, b, c]: &Triangle) -> Vectors {
     Vectors::new([*a, *b, *c, *a])
 }
 
-/// Returns the reciprocal, and zero for zero: a point on an edge without length is its start.
+/// Returns the reciprocal, and zero for zero: the nearest point of an edge without length is its start.
 #[inline(always)]
 fn reciprocal(x: f64x4) -> f64x4 {
     let zero = f64x4::splat(0.0);

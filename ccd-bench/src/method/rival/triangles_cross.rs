@@ -34,7 +34,7 @@ fn edges(t: &[DVec3; 3]) -> [DVec3; 3] {
     [t[1] - t[0], t[2] - t[1], t[0] - t[2]]
 }
 
-/// Returns true if all corners of one triangle lie before all of the other along an axis.
+/// Returns true if all corners of one triangle precede those of the other along an axis.
 #[inline]
 fn separates(axis: DVec3, a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let [a, b] = [a, b].map(|t| t.map(|p| p.dot(axis)));

@@ -16,7 +16,7 @@ pub struct Journal {
     trials: Vec<Trial>,
     done: HashSet<(String, String, u64)>,
     folder: PathBuf,
-    /// The folder, as long as no other process may write to it.
+    /// The claim of the folder, which excludes other processes.
     _claim: Option<Claim>,
 }
 
@@ -70,7 +70,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Reads the journal of a folder, whatever it was measured with.
+    /// Reads the journal of a folder, whatever its settings.
     pub fn read(folder: &Path) -> Self {
         let mut cells: Vec<Cell> = whole_rows(&folder.join(CHART));
         let mut trials: Vec<Trial> = whole_rows(&folder.join(TRIALS));
@@ -139,7 +139,7 @@ impl Journal {
     }
 }
 
-/// Returns the line of a stamp that tells this program from others.
+/// Returns the line of a stamp that identifies this program.
 pub fn program_stamp() -> String {
     let program = std::env::current_exe().and_then(fs::read);
     let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
@@ -156,8 +156,7 @@ fn key_of(trial: &Trial) -> Key {
     (trial.scene.clone(), trial.method.clone(), tolerance)
 }
 
-/// Reads the rows of a table up to the first invalid one, which an interruption may have left
-/// incomplete.
+/// Reads the rows of a table up to the first invalid one, which an interruption may have truncated.
 fn whole_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
     let Ok(reader) = csv::Reader::from_path(path) else {
         return Vec::new();

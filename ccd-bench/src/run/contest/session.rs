@@ -1,13 +1,13 @@
 //! A method that is ready for queries about a scene.
 
 use super::MOST_PAIRS_FOR_NAIVE;
-use crate::method::guarded::{Asked, Guarded, Programs, Setting};
+use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
 use crate::method::{Method, Ours};
 use crate::scene::Scene;
 use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::io;
 use std::time::{Duration, Instant};
 
@@ -18,7 +18,7 @@ pub struct Session<'s> {
     runner: Runner<'s>,
 }
 
-/// The solver of a session: in this process, or in one of its own that can be stopped.
+/// The solver of a session, in this process or in a separate one that can be stopped.
 enum Runner<'s> {
     InProcess(Box<dyn Adjustable + 's>),
     Guarded(Box<Guarded>),
@@ -103,11 +103,11 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Lets a solver that prepares pieces on first use do so on some queries, for a limited time.
-    /// Returns the number of prepared queries.
+    /// Runs some queries for a limited time, for solvers that prepare pieces on first use. Returns the number of
+    /// prepared queries.
     pub(super) fn prepare<'q>(
         &mut self,
-        queries: impl ExactSizeIterator<Item = &'q Query>,
+        queries: impl ExactSizeIterator<Item = &'q Motions>,
         time: Duration,
     ) -> usize {
         let start = Instant::now();
@@ -122,20 +122,20 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Asks one query.
+    /// Runs one query.
     ///
     /// # Errors
     /// If a peer's process does not restart.
-    pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Answered> {
+    pub(super) fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<Answered> {
         Ok(match &mut self.runner {
             Runner::InProcess(solver) => {
                 let TimedReply { reply, micros } = timed(solver.as_mut(), query);
                 Answered::InTime { reply, micros }
             }
             Runner::Guarded(guarded) => match guarded.ask(query, patience)? {
-                Asked::Answered { reply, micros } => Answered::InTime { reply, micros },
-                Asked::CutOff => Answered::CutOff { patience },
-                Asked::Died => Answered::Died,
+                QueryOutcome::Answered { reply, micros } => Answered::InTime { reply, micros },
+                QueryOutcome::CutOff => Answered::CutOff { patience },
+                QueryOutcome::Died => Answered::Died,
             },
         })
     }
@@ -147,7 +147,7 @@ impl Answered {
         matches!(self, Answered::InTime { reply, .. } if refused(reply))
     }
 
-    /// Returns the time that is claimed, or NaN.
+    /// Returns the claimed time, or NaN.
     pub(super) fn time(&self) -> f64 {
         match self {
             Answered::InTime { reply, .. } => reply.claim.time().unwrap_or(f64::NAN),

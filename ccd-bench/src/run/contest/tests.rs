@@ -15,9 +15,9 @@ fn cube() -> TriangleMesh {
 }
 
 /// Returns a query in which a cube flies at another from 4 away with speed 8, with contact at 3/8.
-fn flight() -> Query {
+fn flight() -> Motions {
     let start = Pose::at(-4.0 * DVec3::X).unwrap();
-    Query {
+    Motions {
         id: "flight".to_owned(),
         a: Motion::new(start, 8.0 * DVec3::X, DVec3::ZERO).unwrap(),
         b: Motion::still(Pose::IDENTITY),

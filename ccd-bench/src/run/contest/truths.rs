@@ -1,4 +1,4 @@
-//! Keeps the truth about the scenes, so that it is computed once.
+//! A cache of the truth about the scenes.
 
 use super::Contest;
 use crate::method::MotionKind;
@@ -100,15 +100,14 @@ impl Truths {
     }
 }
 
-/// Returns the name of a row in the table. It includes the meshes and motions, since the truth
-/// depends on them.
+/// Returns the key of a row in the table. It includes the meshes and motions, since the truth depends on them.
 fn key(contest: &Contest<'_>, fingerprint: u32, kind: MotionKind, row: usize) -> String {
     let scene = &contest.scene().name;
     let id = &contest.queries(kind)[row].id;
     format!("{scene}/{fingerprint:08x}/{id}")
 }
 
-/// Returns a hash of the meshes and motions, to the bit.
+/// Returns a hash of the exact meshes and motions.
 fn fingerprint(contest: &Contest<'_>, kind: MotionKind) -> u32 {
     let mut hash = crc32fast::Hasher::new();
     for body in [&contest.scene().a, &contest.scene().b] {

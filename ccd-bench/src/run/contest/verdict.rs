@@ -1,10 +1,10 @@
 //! Judges a claim against the truth.
 
-use crate::method::guarded::Asked;
+use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
 /// The judgement of a claim.
@@ -12,17 +12,17 @@ use std::fmt;
 pub enum Verdict {
     /// The claim is correct.
     Right,
-    /// It is a contact after the exact first one.
+    /// The claim is a contact after the exact first one.
     Late,
-    /// It is free, but there is a contact.
+    /// The claim is that there is no contact, but there is one.
     Missed,
-    /// It is a contact, but there is none, and the bodies are farther apart than the tolerance.
+    /// The claim is a contact, but there is none, and the bodies are farther apart than the tolerance.
     False,
-    /// It is a contact while the bodies are still farther apart than the tolerance.
+    /// The claim is a contact while the bodies are still farther apart than the tolerance.
     Early,
-    /// It is only a time until which nothing touches.
+    /// The claim is only a time before which there is no contact.
     Unresolved,
-    /// The method does not take the query or its bodies.
+    /// The method does not support the query or its bodies.
     Refused,
     /// The query exceeded the time limit and was stopped.
     CutOff,
@@ -44,15 +44,15 @@ pub struct Judged {
     pub error: Option<f64>,
 }
 
-/// The time after the end of the bracket from which a contact is late, as a fraction of the
-/// duration. Poses by two formulas of one motion differ by about 1e-15 of the coordinates, and the
-/// slowest scene moves by a hundredth of these during its duration; the value is ten times that.
+/// The lateness above which a contact is late, as a fraction of the duration. Poses by two formulas of one motion
+/// differ by about 1e-15 of the coordinates, and the slowest scene moves by a hundredth of these during its duration;
+/// the value is ten times that.
 const SLACK: f64 = 1e-12;
 
-/// The widest bracket that counts as a time, as a fraction of the duration.
+/// The widest bracket that counts as an exact time, as a fraction of the duration.
 const WIDEST: f64 = 1e-9;
 
-/// The excess over the tolerance, as a fraction of it, that a solver's distance may have from rounding.
+/// The allowed excess of a solver's distance over the tolerance due to rounding, as a fraction of the tolerance.
 const ROUNDING: f64 = 1e-6;
 
 impl Judged {
@@ -66,18 +66,18 @@ impl Judged {
 }
 
 /// Judges the outcome of a query, with a function for replies.
-pub fn judge_asked(asked: &Asked, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
-    match asked {
-        Asked::Answered { reply, .. } => judge(reply),
-        Asked::CutOff => Judged::plain(Verdict::CutOff),
-        Asked::Died => Judged::plain(Verdict::Died),
+pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
+    match outcome {
+        QueryOutcome::Answered { reply, .. } => judge(reply),
+        QueryOutcome::CutOff => Judged::plain(Verdict::CutOff),
+        QueryOutcome::Died => Judged::plain(Verdict::Died),
     }
 }
 
 /// Judges a claim made with a tolerance.
 pub fn judge(
     referee: &Referee<'_>,
-    query: &Query,
+    query: &Motions,
     truth: Truth,
     claim: Claim,
     tolerance: f64,
@@ -98,12 +98,12 @@ pub fn judge(
 }
 
 /// Returns whether the bodies are within a tolerance at a time.
-pub fn is_near(referee: &Referee<'_>, query: &Query, time: f64, tolerance: f64) -> bool {
+pub fn is_near(referee: &Referee<'_>, query: &Motions, time: f64, tolerance: f64) -> bool {
     referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING)
 }
 
-/// Judges a claim about bodies whose first contact is between `lo` and `hi`; `near` tells whether they are
-/// within the tolerance at a time.
+/// Judges a claim about bodies whose first contact is between `lo` and `hi`; `near` returns whether they are within the
+/// tolerance at a time.
 pub fn judge_contact(
     duration: f64,
     [lo, hi]: [f64; 2],

@@ -28,7 +28,7 @@ pub struct Lobe {
     pub towards: [f64; 3],
     /// The height of the bump above the core.
     pub height: f64,
-    /// How slender it is: it is about `1/√sharpness` radians wide.
+    /// The sharpness of the bump, which is about `1/√sharpness` radians wide.
     pub sharpness: f64,
 }
 
@@ -41,7 +41,7 @@ const fn lobe(towards: [f64; 3], height: f64, sharpness: f64) -> Lobe {
 }
 
 impl Blob {
-    /// Head, two ears, tail and paws: about as non-convex as the bunny.
+    /// A bunny with head, two ears, tail and paws, about as non-convex as the original.
     pub const BUNNY: Blob = Blob {
         lobes: &[
             lobe([-0.7, 0.5, 0.0], 0.5, 6.0),
@@ -56,7 +56,7 @@ impl Blob {
         seed: 70,
     };
 
-    /// Hat, sack, arms and boots: about as non-convex as Santa.
+    /// A Santa with hat, sack, arms and boots, about as non-convex as the original.
     pub const SANTA: Blob = Blob {
         lobes: &[
             lobe([0.0, 0.1, 1.0], 1.2, 20.0),

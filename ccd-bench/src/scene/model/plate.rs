@@ -1,4 +1,4 @@
-//! A flat square of many triangles: if two of them meet flat, everything touches at once.
+//! A flat square of many triangles: two of them that meet flat have contacts everywhere at once.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};

@@ -1,4 +1,4 @@
-//! A ring: a torus, through whose hole only exact methods let a body pass.
+//! A ring: a torus, through whose hole a body passes only with exact methods.
 
 use super::grid::closed_grid;
 use ccd_core::glam::DVec3;

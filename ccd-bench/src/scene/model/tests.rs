@@ -103,8 +103,8 @@ fn a_knot_is_a_tube_about_its_curve() {
     }
 }
 
-/// If all triangles face away from the origin, and the mesh is closed, of one part, and winds about the
-/// origin once, then every ray from the origin meets it exactly once, so no two triangles intersect.
+/// If all triangles face away from the origin, and the mesh is closed, connected, and winds about the origin once, then
+/// every ray from the origin meets it exactly once, so that no two triangles intersect.
 #[test]
 fn blobs_are_star_shaped_and_so_free_of_self_intersection() {
     for model in [Model::Bunny70k, Model::Bunny26k, Model::Santa] {

@@ -1,11 +1,11 @@
-//! Axes: the range of a quantity, and the positions of values and lines.
+//! Axes: the range of a quantity, and the positions of values and grid lines.
 
 use ccd_core::order::{greater, lesser};
 use indicatif::HumanCount;
 
-/// The largest number of labelled decades of an axis.
+/// The maximum number of labelled decades of an axis.
 const LABELS: i32 = 5;
-/// A logarithmic axis of at most this many decades has lines between them.
+/// The maximum number of decades of a logarithmic axis with lines between them.
 const FINE: i32 = 2;
 /// The margin of a fitted axis on either side, in decades.
 const FRINGE: f64 = 0.06;
@@ -21,7 +21,7 @@ pub(super) struct Axis {
     ticks: Vec<Tick>,
 }
 
-/// A line across the panel.
+/// A grid line across the panel.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tick {
     /// The position along the axis, from 0 to 1.
@@ -88,7 +88,7 @@ impl Axis {
         &self.label
     }
 
-    /// Returns the lines across.
+    /// Returns the grid lines.
     pub(super) fn ticks(&self) -> &[Tick] {
         &self.ticks
     }

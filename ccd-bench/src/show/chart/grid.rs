@@ -16,7 +16,7 @@ const GUTTER: f64 = 14.0;
 /// The common properties of panels.
 pub(super) struct Grid<'a> {
     pub(super) title: &'a str,
-    /// The direction that is better, and other information that the title lacks.
+    /// The direction of better values, and other information that the title lacks.
     pub(super) subtitle: &'a str,
     /// The remarks below the legend, one per line.
     pub(super) remarks: Vec<String>,

@@ -1,16 +1,17 @@
-//! Maps of stability, families down and methods across: how far each method follows, and how its cost grows.
+//! Maps of stability, with families as rows and methods as columns: the reach of each method, and the growth of its
+//! cost.
 
-use super::look::COLOURS;
 use super::sheet::{DrawError, INK, MARGIN, Rect, Sheet, TextFormat, Turn, WIDTH, text_width};
+use super::style::COLOURS;
 use super::{ChartError, Drawing, failed};
 use crate::run::contest::Verdict;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor, WHITE};
 
-/// A map.
+/// A heat map of families and methods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// What it shows.
+    /// The quantity of the map.
     pub kind: HeatKind,
     /// The names of the methods.
     pub methods: Vec<String>,
@@ -18,34 +19,34 @@ pub struct HeatMap {
     pub rows: Vec<HeatRow>,
 }
 
-/// What a map shows.
+/// The quantity of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HeatKind {
-    /// How far each method follows each family: cells [`HeatCell::Reach`].
+    /// The reach of each method in each family: cells [`HeatCell::Reach`].
     Reach,
-    /// How its cost grows: cells [`HeatCell::Growth`].
+    /// The growth of the cost: cells [`HeatCell::Growth`].
     Growth,
 }
 
 /// One family.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatRow {
-    /// Its name.
+    /// The name of the family.
     pub name: String,
-    /// The parameter that makes it harder.
+    /// The parameter that makes the family harder.
     pub parameter: String,
-    /// One cell for each method; `None` if nothing is known.
+    /// One cell for each method; `None` without data.
     pub cells: Vec<Option<HeatCell>>,
 }
 
 /// One method on one family.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HeatCell {
-    /// How far it follows.
+    /// The reach of the method.
     Reach {
         /// The worst verdict.
         worst: Verdict,
-        /// The share of the values, from the easiest, before the first that is not right.
+        /// The share of the values, from the easiest, before the first wrong one.
         share: f64,
         /// The first value with the worst verdict; empty if all are right.
         limit: String,
@@ -54,7 +55,7 @@ pub enum HeatCell {
     Growth(f64),
 }
 
-/// The words of a map.
+/// The texts of a map.
 struct Words {
     name: &'static str,
     title: &'static str,
@@ -90,7 +91,7 @@ const GROWTH: Words = Words {
     ],
 };
 
-/// From light to dark, for costs that grow by up to 3, 30, 1000 times, and more.
+/// The colours from light to dark, for costs that grow by up to 3, 30, 1000 times, and more.
 const GROWN: [RGBColor; 4] = [
     RGBColor(0xea, 0xf2, 0xf8),
     RGBColor(0x9e, 0xc4, 0xe0),
@@ -112,22 +113,22 @@ const SMALLEST: f64 = 7.5;
 
 /// The colour of steps that are right.
 const RIGHT: RGBColor = COLOURS[0];
-/// The colour of answers that are none.
+/// The colour of missing answers.
 const GREY: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
-/// The colours of contacts that are none.
+/// The colours of false contacts.
 const EARLY: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
 const FALSE: RGBColor = COLOURS[4];
-/// The colour of contacts that were passed.
+/// The colour of missed contacts.
 const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
-/// The look of a cell.
-struct Look {
+/// The style of a cell.
+struct CellStyle {
     fill: RGBColor,
     ink: RGBColor,
     /// Two lines of text.
     lines: [String; 2],
-    /// The share of the width that a bar takes.
+    /// The length of the bar, as a share of the cell's width.
     bar: f64,
 }
 
@@ -141,7 +142,7 @@ impl HeatKind {
 }
 
 impl HeatCell {
-    fn look(&self) -> Look {
+    fn style(&self) -> CellStyle {
         match self {
             HeatCell::Reach {
                 worst,
@@ -149,7 +150,7 @@ impl HeatCell {
                 limit,
             } => {
                 let (fill, word, ink) = look_of(*worst);
-                Look {
+                CellStyle {
                     fill,
                     ink,
                     lines: [word.to_owned(), limit.clone()],
@@ -166,7 +167,7 @@ impl HeatCell {
                     false if factor < 99_999.0 => format!("{factor:.0}"),
                     false => format!("{factor:.0e}"),
                 };
-                Look {
+                CellStyle {
                     fill: GROWN[darkness],
                     ink: if darkness < 2 { INK } else { WHITE },
                     lines: [String::new(), number],
@@ -239,7 +240,7 @@ impl HeatMap {
                 width: self.column() - 1.0,
                 height: ROW - 1.0,
             };
-            draw_cell(sheet, place, &cell.look())?;
+            draw_cell(sheet, place, &cell.style())?;
         }
         Ok(())
     }
@@ -295,23 +296,23 @@ fn wrapped(text: &str, width: f64) -> Vec<String> {
     lines
 }
 
-fn draw_cell(sheet: &Sheet<'_>, place: Rect, look: &Look) -> Result<(), DrawError> {
-    sheet.rect(place, look.fill.filled())?;
+fn draw_cell(sheet: &Sheet<'_>, place: Rect, style: &CellStyle) -> Result<(), DrawError> {
+    sheet.rect(place, style.fill.filled())?;
     let bar = Rect {
         top: place.bottom() - BAR,
-        width: place.width * look.bar,
+        width: place.width * style.bar,
         height: BAR,
         ..place
     };
     sheet.rect(bar, RIGHT.filled())?;
     let format = TextFormat {
         size: SMALLEST,
-        colour: look.ink,
+        colour: style.ink,
         across: HPos::Center,
         ..TextFormat::default()
     };
     let middle = place.left + 0.5 * place.width;
-    for (line, down) in look.lines.iter().zip([5.0, 13.5]) {
+    for (line, down) in style.lines.iter().zip([5.0, 13.5]) {
         sheet.text(line, (middle, place.top + down), format)?;
     }
     Ok(())

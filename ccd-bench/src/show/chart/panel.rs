@@ -1,8 +1,8 @@
 //! A pair of axes with data.
 
 use super::axis::Axis;
-use super::look::{Look, MARKER};
 use super::sheet::{DrawError, FRAME, Pen, RULE, Rect, Sheet, Spot, TEXT, TextFormat, Turn};
+use super::style::{MARKER, MethodStyle};
 use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -18,7 +18,7 @@ pub(super) const LEFT_MARGIN: f64 = Y_LABEL + 10.0;
 pub(super) const BOTTOM_MARGIN: f64 = X_LABEL + 18.0;
 /// The space above a panel for its title.
 pub(super) const TOP_MARGIN: f64 = 20.0;
-/// A tick closer to the end of its axis than this share is at the end.
+/// The share of the axis within which a tick counts as at the end.
 const END: f64 = 0.03;
 /// The height of the arrow on a value that is a lower bound.
 const ARROW: f64 = 12.0;
@@ -30,7 +30,7 @@ pub(super) struct Panel<'a> {
     pub(super) title: &'a str,
     pub(super) x: &'a Axis,
     pub(super) y: &'a Axis,
-    /// The axes with labels: those without a neighbour that has them.
+    /// The axes with labels: those whose neighbour has none.
     pub(super) labelled: Labelled,
 }
 
@@ -83,13 +83,13 @@ impl Panel<'_> {
         &self,
         sheet: &Sheet<'_>,
         points: &[Point],
-        look: &Look,
+        style: &MethodStyle,
     ) -> Result<(), DrawError> {
         let spots: Vec<_> = points.iter().filter_map(|p| self.spot(p.x, p.y)).collect();
         if spots.len() > 1 {
-            sheet.line(&spots, look.pen(1.4))?;
+            sheet.line(&spots, style.pen(1.4))?;
         }
-        self.markers(sheet, points, look)
+        self.markers(sheet, points, style)
     }
 
     /// Draws the markers alone.
@@ -97,18 +97,18 @@ impl Panel<'_> {
         &self,
         sheet: &Sheet<'_>,
         points: &[Point],
-        look: &Look,
+        style: &MethodStyle,
     ) -> Result<(), DrawError> {
         for point in points {
             let Some(spot) = self.spot(point.x, point.y) else {
                 continue;
             };
-            mark(sheet, spot, point.kind, look)?;
+            mark(sheet, spot, point.kind, style)?;
         }
         Ok(())
     }
 
-    /// Returns the spot of a value, or `None` for NaN.
+    /// Returns the position of a value, or `None` for NaN.
     pub(super) fn spot(&self, x: f64, y: f64) -> Option<Spot> {
         let across = self.rect.left + self.x.share(x)? * self.rect.width;
         let down = self.rect.bottom() - self.y.share(y)? * self.rect.height;
@@ -179,7 +179,7 @@ impl Panel<'_> {
     }
 }
 
-/// Returns where a label stands at its tick: labels at the ends stay within the panel, apart from those of the next.
+/// Returns the alignment of a label at its tick: labels at the ends stay within the panel.
 fn across(share: f64) -> HPos {
     match share {
         share if share < END => HPos::Left,
@@ -193,16 +193,16 @@ pub(super) fn mark(
     sheet: &Sheet<'_>,
     (x, y): Spot,
     kind: Kind,
-    look: &Look,
+    style: &MethodStyle,
 ) -> Result<(), DrawError> {
     if kind == Kind::AtLeast {
         let tip = y - ARROW;
-        let pen = Pen::solid(look.colour, 1.3);
+        let pen = Pen::solid(style.colour, 1.3);
         let head = [(x - 3.0, tip + 4.0), (x, tip), (x + 3.0, tip + 4.0)];
         sheet.line(&[(x, y - MARKER), (x, tip)], pen)?;
         sheet.line(&head, pen)?;
     }
-    sheet.marker((x, y), look)
+    sheet.marker((x, y), style)
 }
 
 /// Returns the style of a panel's remarks.

@@ -3,9 +3,9 @@
 use super::axis::Axis;
 use super::grid::Grid;
 use super::legend::Legend;
-use super::look::{Fill, Look, WARNING};
 use super::panel::{Kind, Panel, Point, mark, remark};
 use super::sheet::{DrawError, FRAME, Rect, Sheet, TextFormat};
+use super::style::{Fill, MethodStyle, WARNING};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SAME_ROWS, SceneFacts, failed};
 use crate::run::measured::Cell;
 use ccd_core::order::greater;
@@ -13,7 +13,7 @@ use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
 const NAME: &str = "pareto";
-/// Smaller errors are rounding, and are drawn at the edge.
+/// The least error that is drawn; smaller ones are rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
 /// The width of a method's lane in the strip.
 const LANE: f64 = 10.0;
@@ -22,7 +22,7 @@ const STRIP_GAP: f64 = 4.0;
 /// The least width of the strip, for its title.
 const LEAST_STRIP: f64 = 46.0;
 
-type Shown<'a> = (&'a MethodFacts<'a>, Look);
+type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
 
 /// Draws all scenes that were measured.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
@@ -39,9 +39,9 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
     let cells: Vec<_> = scenes
         .iter()
         .flat_map(|scene| {
-            shown.iter().flat_map(|(method, look)| {
+            shown.iter().flat_map(|(method, style)| {
                 let cells = charts.cells_of(scene.name, method.name);
-                cells.into_iter().map(|cell| (cell, look.fill))
+                cells.into_iter().map(|cell| (cell, style.fill))
             })
         })
         .collect();
@@ -96,7 +96,7 @@ fn axes(cells: &[(&Cell, Fill)]) -> Option<(Axis, Axis)> {
 
 /// Returns the width of the strip, or zero if nothing is unsafe.
 fn strip_width(shown: &[Shown<'_>]) -> f64 {
-    let lanes = shown.iter().filter(|(_, look)| look.fill == Fill::Hollow);
+    let lanes = shown.iter().filter(|(_, style)| style.fill == Fill::Hollow);
     match lanes.count() {
         0 => 0.0,
         lanes => STRIP_GAP + greater(LEAST_STRIP, LANE * (lanes as f64 + 1.0)),
@@ -125,7 +125,7 @@ fn draw_scene(
     (scene, panel): (&SceneFacts<'_>, &Panel<'_>),
     shown: &[Shown<'_>],
 ) -> Result<(), DrawError> {
-    for (method, look) in shown.iter().filter(|(_, look)| look.fill == Fill::Solid) {
+    for (method, style) in shown.iter().filter(|(_, style)| style.fill == Fill::Solid) {
         let cells = charts.cells_of(scene.name, method.name);
         let points: Vec<_> = cells
             .iter()
@@ -136,7 +136,7 @@ fn draw_scene(
                 kind: kind(cell),
             })
             .collect();
-        panel.series(sheet, &points, look)?;
+        panel.series(sheet, &points, style)?;
     }
     Ok(())
 }
@@ -165,21 +165,21 @@ fn draw_strip(
     sheet.text("unsafe", (middle, strip.top - 9.0), format)?;
     let unsafe_ones: Vec<_> = shown
         .iter()
-        .filter(|(_, look)| look.fill == Fill::Hollow)
+        .filter(|(_, style)| style.fill == Fill::Hollow)
         .collect();
     let lane = strip.width / (unsafe_ones.len() as f64 + 1.0);
-    for (number, (method, look)) in unsafe_ones.iter().enumerate() {
+    for (number, (method, style)) in unsafe_ones.iter().enumerate() {
         let x = strip.left + lane * (number as f64 + 1.0);
         for cell in charts.cells_of(scene.name, method.name) {
             if let Some((_, y)) = panel.spot(LEAST_ERROR, cell.median_us) {
-                mark(sheet, (x, y), kind(cell), look)?;
+                mark(sheet, (x, y), kind(cell), style)?;
             }
         }
     }
     Ok(())
 }
 
-/// Returns `AtLeast` if the median of a cell is the time of queries that were given up or cut off.
+/// Returns `AtLeast` if the median of a cell is the time of queries without a complete answer.
 pub(super) fn kind(cell: &Cell) -> Kind {
     if cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
         Kind::AtLeast

@@ -14,11 +14,11 @@ pub(super) const MARGIN: f64 = 10.0;
 /// An error of the drawing library.
 pub(super) type DrawError = DrawingAreaErrorKind<io::Error>;
 
-/// The units of the drawing in a pixel; the library places things on whole units.
+/// The units of the drawing in a pixel; the library rounds positions to whole units.
 const UNITS: f64 = 10.0;
-/// The library divides a font size by this when it writes it.
+/// The factor by which the library divides font sizes in its output.
 const FONT_RATIO: f64 = 1.24;
-/// The average width of a character over the font size, with some reserve.
+/// The average width of a character relative to the font size, with some reserve.
 const CHARACTER: f64 = 0.58;
 /// The colour of text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
@@ -26,7 +26,7 @@ pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 pub(super) const FRAME: RGBColor = RGBColor(0x88, 0x88, 0x88);
 /// The colour of lines under the data.
 pub(super) const RULE: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
-/// The usual size of text, in pixels.
+/// The default size of text, in pixels.
 pub(super) const TEXT: f64 = 12.0;
 
 /// A position in pixels, from the upper left corner.

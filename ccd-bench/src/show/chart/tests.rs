@@ -136,7 +136,7 @@ fn an_unsafe_method_is_in_the_strip_only() {
         cell.missed = 0;
     }
     // Peers draw a shape of this colour.
-    let RGBColor(red, green, blue) = look::looks(&METHODS, |_| Fill::Solid)[1].colour;
+    let RGBColor(red, green, blue) = style::styles(&METHODS, |_| Fill::Solid)[1].colour;
     let colour = format!("#{red:02X}{green:02X}{blue:02X}");
     let with = charts(&safe);
     let without = charts(&careful);
@@ -201,9 +201,9 @@ fn no_two_methods_look_alike() {
             }; 10]
         })
         .collect();
-    let looks = look::looks(&methods, |_| Fill::Solid);
-    for (index, look) in looks.iter().enumerate() {
-        assert!(!looks[..index].contains(look), "{index}");
+    let styles = style::styles(&methods, |_| Fill::Solid);
+    for (index, style) in styles.iter().enumerate() {
+        assert!(!styles[..index].contains(style), "{index}");
     }
 }
 

@@ -12,17 +12,17 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 const NAME: &str = "triangles";
 
-/// The position on the axis from which names must not extend to the right of their point.
+/// The position on the axis from which names are placed to the left of their point.
 const CROWDED: f64 = 0.75;
 
-/// Scenes of one shape and size, which make one point of a line.
+/// Scenes of one shape and size, which form one point of a line.
 struct Size<'a> {
     shape: &'a str,
     triangles: usize,
     scenes: Vec<&'a str>,
 }
 
-/// Draws one panel of all shapes: a line over the sizes of one shape, a marker for a shape of one size.
+/// Draws one panel for all shapes: a line over the sizes of one shape, or a marker for a shape of one size.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     let shown = charts.shown(&Family::COMPARED);
     let sizes = sizes(&charts.measured_scenes());
@@ -60,10 +60,10 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
     };
     let svg = grid.draw(&[""], |sheet, _, panel| {
         name_sizes(sheet, panel, &sizes)?;
-        for (method, look) in &shown {
+        for (method, style) in &shown {
             for shape in shapes(&sizes) {
                 let points = points(charts, method, &sizes, shape);
-                panel.series(sheet, &points, look)?;
+                panel.series(sheet, &points, style)?;
             }
         }
         Ok(())

@@ -14,8 +14,9 @@ use rigid_ccd::picture::{Reached, gap};
 use rigid_ccd::table::courses::Course;
 use std::path::{Path, PathBuf};
 
-/// The numbers of motions of a scene to view: contacts, and others.
+/// The number of contacts of a scene to view.
 const CONTACTS: usize = 6;
+/// The number of other motions of a scene to view.
 const OTHERS: usize = 2;
 
 const PREFACE: &str = "\

@@ -10,7 +10,7 @@ use ccd_decomp::TriangleMesh;
 use ccd_decomp::{Detail, body_from_mesh};
 use rigid_ccd::batch::Bodies;
 use rigid_ccd::batch::SolverKind;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use serde_json::Value;
 
 fn mesh() -> TriangleMesh {
@@ -23,7 +23,7 @@ fn shot(mesh: &TriangleMesh, aside: f64) -> Shot {
     let start = Pose::new(DVec3::new(3.0, aside, 0.0), DQuat::from_rotation_y(0.3)).unwrap();
     let end = Pose::new(DVec3::new(-3.0, aside, 0.0), DQuat::from_rotation_x(0.5)).unwrap();
     let centre = DVec3::new(0.1, 0.2, 0.3);
-    let query = Query {
+    let query = Motions {
         id: "</script>".to_owned(),
         a: Motion::between(start, end, centre, 2.0).unwrap(),
         b: Motion::still(Pose::IDENTITY),

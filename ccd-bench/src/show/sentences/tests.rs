@@ -21,7 +21,7 @@ fn what_was_seen_is_told_by_family_and_fits_a_screen() {
         ("parry-f64", Family::Peer),
     ];
     let methods = families.map(|(name, family)| (name.to_owned(), family));
-    let seen = Seen {
+    let measurements = Measurements {
         triangles: &[216, 70_000],
         methods: &methods,
         cells: &cells,
@@ -29,7 +29,7 @@ fn what_was_seen_is_told_by_family_and_fits_a_screen() {
         tolerance: 1e-3,
     };
     assert_eq!(
-        seen.sentences(),
+        measurements.sentences(),
         [
             "2 scenes, with moving bodies of 216 to 70000 triangles; 3 methods answered 5 queries, each compared with \
              a certified bracket of the exact first contact.",

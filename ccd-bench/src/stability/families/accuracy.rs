@@ -1,6 +1,6 @@
 //! Contacts that hang on the last digits: nearly parallel parts, hardly any overlap.
 
-use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
 use super::{family, tenths};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -61,31 +61,31 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// The error of a time that was computed from coordinates of a few units, at speeds of at least 1.
+/// The error of times computed from coordinates of a few units, at speeds of at least 1.
 const SLACK: f64 = 1e-14;
 
-/// T1, tilted.
+/// T1, tilted: a face falls onto a face.
 fn face_onto_face(angle: f64) -> Result<Step, StepError> {
     let reach = 0.5 * (angle.sin() + angle.cos());
-    let falling = Course {
+    let falling = BodyMotion {
         turned: DQuat::from_rotation_y(angle),
-        ..Course::FALLING
+        ..BodyMotion::FALLING
     };
     let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
     let step = Step::new(cube()?, slab()?);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
-/// T8 with nearly parallel rods.
+/// T8 with nearly parallel rods: an edge meets an edge.
 fn edge_across_edge(angle: f64) -> Result<Step, StepError> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
-    let falling = Course {
+    let falling = BodyMotion {
         turned: DQuat::from_rotation_z(angle) * on_edge,
-        ..Course::FALLING
+        ..BodyMotion::FALLING
     };
-    let lying = Course {
+    let lying = BodyMotion {
         turned: on_edge,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
     let expected = Expected::at((3.0 - 0.2 * SQRT_2) / 4.0, SLACK);
     let step = Step::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
@@ -96,24 +96,24 @@ fn edge_across_edge(angle: f64) -> Result<Step, StepError> {
 fn corner_onto_face(angle: f64) -> Result<Step, StepError> {
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
     let turned = DQuat::from_rotation_x(angle) * upright;
-    let falling = Course {
+    let falling = BodyMotion {
         turned,
-        ..Course::FALLING
+        ..BodyMotion::FALLING
     };
     let reach = 0.5 * (turned.inverse() * DVec3::Z).abs().element_sum();
     let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
     let step = Step::new(cube()?, slab()?);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
-/// T12: a square peg turns in a square hole that is a little wider; all four corners meet it at once.
+/// T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
 fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
     let half = 0.5;
     let hole = half + clearance;
     let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
-    let turning = Course {
+    let turning = BodyMotion {
         spin: 2.0 * angle * DVec3::Z,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
     let step = Step::new(cuboid(half, half, 1.0)?, holed_plate(hole)?);
     let step = Step {
@@ -122,14 +122,14 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
     };
     // The angle is as inexact as the clearance.
     let expected = Expected::at(0.5, 1e-15 / clearance);
-    Ok(step.turned_too(turning, Course::STILL, expected)?)
+    Ok(step.turned_too(turning, BodyMotion::STILL, expected)?)
 }
 
-/// T25: a cube falls flat onto a slab, and turns by next to nothing.
+/// T25: a cube falls flat onto a slab, and rotates very little.
 fn hardly_turning(turn: f64) -> Result<Step, StepError> {
-    let falling = Course {
+    let falling = BodyMotion {
         spin: turn * DVec3::Y,
-        ..Course::FALLING
+        ..BodyMotion::FALLING
     };
     // The lowest corner is lower by what the cube has turned: each round adds a digit.
     let mut time = 0.625;
@@ -139,14 +139,14 @@ fn hardly_turning(turn: f64) -> Result<Step, StepError> {
     }
     let step = Step::new(cube()?, slab()?);
     let expected = Expected::at(time, SLACK);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
-/// A cube comes down on a slab at a small angle, half-way of its flight.
+/// A cube comes down on a slab at a small angle, halfway through its flight.
 fn flat_approach(angle: f64) -> Result<Step, StepError> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
-    let flying = Course::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
+    let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = Expected::at(0.5, 1e-15 / sin);
     let step = Step::new(cube()?, slab()?);
@@ -154,45 +154,45 @@ fn flat_approach(angle: f64) -> Result<Step, StepError> {
         tolerance: greater(1e-3 * height, 1e-11),
         ..step
     };
-    Ok(step.turned_too(flying, Course::UNDER, expected)?)
+    Ok(step.turned_too(flying, BodyMotion::UNDER, expected)?)
 }
 
 fn hardly_meeting(overlap: f64) -> Result<Step, StepError> {
-    let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
+    let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = Expected::at(1.0 / 3.0, SLACK);
     let step = Step::new(cube()?, cube()?);
     Ok(if overlap > 1e-12 {
-        step.turned_too(flying, Course::STILL, expected)?
+        step.turned_too(flying, BodyMotion::STILL, expected)?
     } else {
-        step.exactly(flying, Course::STILL, expected)?
+        step.exactly(flying, BodyMotion::STILL, expected)?
     })
 }
 
-/// T5: a rod turns, and its corner reaches a wall shortly before it would turn past it.
+/// T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
 fn hardly_reaching(share: f64) -> Result<Step, StepError> {
     let (long, thin) = (2.0f64, 0.05);
     let wall = long.hypot(thin) * (1.0 - share);
-    let turning = Course {
+    let turning = BodyMotion {
         spin: PI * DVec3::Y,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
     let expected = Expected::at(time, 1e-15 / share.sqrt());
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
-    Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
+    Ok(step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)?)
 }
 
-/// T17: one ring hangs in the other, a small way from it.
+/// T17: two linked rings, a small distance apart.
 fn linked_rings(way: f64) -> Result<Step, StepError> {
     let (radius, tube) = (1.0, 0.25);
     // At the start the rings are each in the middle of the other's hole; then one moves until their inner
     // rims are a small way apart.
     let rim = radius - 2.0 * tube;
     let upright = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
-    let hanging = Course {
+    let hanging = BodyMotion {
         turned: upright,
-        ..Course::straight((radius + rim - way) * DVec3::X, DVec3::X)
+        ..BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X)
     };
     let step = Step::new(torus(radius, tube)?, torus(radius, tube)?);
     let step = Step {
@@ -200,5 +200,5 @@ fn linked_rings(way: f64) -> Result<Step, StepError> {
         ..step
     };
     let expected = Expected::at(way, SLACK);
-    Ok(step.exactly(hanging, Course::STILL, expected)?)
+    Ok(step.exactly(hanging, BodyMotion::STILL, expected)?)
 }

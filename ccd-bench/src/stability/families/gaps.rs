@@ -1,6 +1,6 @@
-//! Bodies that never meet, by ever less.
+//! Bodies that never meet, with smaller and smaller gaps.
 
-use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
 use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
 use super::tenths;
 use ccd_core::glam::{DVec3, dvec3};
@@ -25,14 +25,13 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// Returns the tolerance for a gap: a quarter of it, as far as coordinates of a few units let it be
-/// certified.
+/// Returns the tolerance for a gap: a quarter of it, or the least that can be certified for coordinates of a few units.
 fn tolerance(gap: f64) -> f64 {
     greater(0.25 * gap, 2.5e-13)
 }
 
-/// Returns a step with a gap that survives the rounding of turned worlds, or that is asked in its own alone.
-fn free(step: Step, gap: f64, a: Course, b: Course) -> Result<Step, StepError> {
+/// Returns a step with a gap that survives the rounding of rotated worlds; otherwise only its own world is used.
+fn free(step: Step, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<Step, StepError> {
     let step = Step {
         tolerance: tolerance(gap),
         ..step
@@ -46,59 +45,59 @@ fn free(step: Step, gap: f64, a: Course, b: Course) -> Result<Step, StepError> {
 
 fn ball_passing_a_box(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
-    let flying = Course::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
-    free(step, gap, flying, Course::UNDER)
+    let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
+    free(step, gap, flying, BodyMotion::UNDER)
 }
 
 fn cubes_passing(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cube()?, cube()?);
-    let flying = Course::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    free(step, gap, flying, Course::STILL)
+    let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
+    free(step, gap, flying, BodyMotion::STILL)
 }
 
 fn balls_passing(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(ball(0.5, 600)?, ball(0.5, 600)?);
-    let flying = Course::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    free(step, gap, flying, Course::STILL)
+    let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
+    free(step, gap, flying, BodyMotion::STILL)
 }
 
 fn sliding(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cube()?, slab()?);
-    let sliding = Course::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
-    free(step, gap, sliding, Course::UNDER)
+    let sliding = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
+    free(step, gap, sliding, BodyMotion::UNDER)
 }
 
 fn leaving(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cube()?, slab()?);
-    let rising = Course::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
-    free(step, gap, rising, Course::UNDER)
+    let rising = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
+    free(step, gap, rising, BodyMotion::UNDER)
 }
 
-/// T16: a peg moves through a hole that is a gap wider on all four sides.
+/// T16: a peg moves through a hole with a gap on all four sides.
 fn peg_through_a_hole(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
-    let falling = Course::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
-    free(step, gap, falling, Course::STILL)
+    let falling = BodyMotion::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
+    free(step, gap, falling, BodyMotion::STILL)
 }
 
 fn spinning_top(gap: f64) -> Result<Step, StepError> {
-    let spinning = Course {
+    let spinning = BodyMotion {
         spin: 50.0 * DVec3::Z,
-        ..Course::straight(gap * DVec3::Z, 0.5 * DVec3::X)
+        ..BodyMotion::straight(gap * DVec3::Z, 0.5 * DVec3::X)
     };
     let step = Step::new(cone(24, 0.7)?, slab()?);
-    free(step, gap, spinning, Course::UNDER)
+    free(step, gap, spinning, BodyMotion::UNDER)
 }
 
-/// A rod of half length 2 turns by half a turn about its middle, past a wall that its corners just do not reach.
+/// A rod of half length 2 rotates by half a turn about its middle, past a wall that its corners just do not reach.
 fn rod_past_a_wall(gap: f64) -> Result<Step, StepError> {
     let (long, thin) = (2.0, 0.05);
     let reach = f64::hypot(long, thin);
-    let turning = Course {
+    let turning = BodyMotion {
         spin: std::f64::consts::PI * DVec3::Y,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
-    let wall = Course::rest((reach + gap + 1.0) * DVec3::X);
+    let wall = BodyMotion::rest((reach + gap + 1.0) * DVec3::X);
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
     // The reach is rounded, and the gap with it.
     let step = Step {

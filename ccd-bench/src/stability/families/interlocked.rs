@@ -1,6 +1,6 @@
 //! Bodies that hold each other: hooks, threads, rings, slits.
 
-use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
 use super::super::shapes::{cuboid, extruded, ribbon, sheet, slit_plate, stacked, torus, turned};
 use super::{family, tenths};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -39,7 +39,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// T15: two hooks, one in the other and turned across, are pulled apart until their bars meet.
+/// T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
 fn hooks(slack: f64) -> Result<Step, StepError> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
@@ -50,40 +50,41 @@ fn hooks(slack: f64) -> Result<Step, StepError> {
         |x, z| z == 0 || x != 1,
     )?;
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
-    let holding = Course {
+    let holding = BodyMotion {
         turned: DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI),
-        ..Course::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
+        ..BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
     };
     let step = Step::new(hook.clone(), hook);
     let step = Step {
         tolerance: greater(0.1 * slack, 1e-11),
         ..step
     };
-    Ok(step.turned_too(holding, Course::STILL, Expected::at(slack, 1e-14))?)
+    Ok(step.turned_too(holding, BodyMotion::STILL, Expected::at(slack, 1e-14))?)
 }
 
 /// A ring falls flat onto an equal one; they meet all around.
 fn ring_onto_ring(way: f64) -> Result<Step, StepError> {
     let (radius, tube) = (1.0, 0.25);
-    let falling = Course::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
+    let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
     let step = Step::new(torus(radius, tube)?, torus(radius, tube)?);
     let step = Step {
         tolerance: greater(0.1 * way, 1e-11),
         ..step
     };
-    Ok(step.turned_too(falling, Course::STILL, Expected::at(way, 1e-14))?)
+    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))?)
 }
 
-/// The pitch of the threads, and their inner and outer radii.
+/// The pitch of the threads.
 const PITCH: f64 = 0.2;
+/// The inner and outer radii of the threads.
 const THREAD: [f64; 2] = [0.9, 1.0];
 
-/// T18: the flank of a screw turns between those of its nut at the pitch of both.
+/// T18: the flank of a screw rotates between those of its nut at their common pitch.
 fn screw(turns: f64) -> Result<Step, StepError> {
     threads(turns, 0.5)
 }
 
-/// T18: as above, by one turn, with one flank close to the other.
+/// T18, with one turn, and one flank close to the other.
 fn tight_screw(play: f64) -> Result<Step, StepError> {
     threads(1.0, play)
 }
@@ -93,21 +94,21 @@ fn threads(turns: f64, play: f64) -> Result<Step, StepError> {
     // here: the flanks keep more than half of their play.
     let sides = 64;
     let flank = ribbon(THREAD, PITCH, sides, 3)?;
-    let turning = Course {
+    let turning = BodyMotion {
         spin: TAU * turns * DVec3::Z,
-        ..Course::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
+        ..BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
     };
     let step = Step::new(flank.clone(), flank);
     let step = Step {
         tolerance: 0.1 * play * PITCH,
         ..step
     };
-    Ok(step.turned_too(turning, Course::STILL, Expected::Free)?)
+    Ok(step.turned_too(turning, BodyMotion::STILL, Expected::Free)?)
 }
 
-/// A sheet slides between two others, one on either side.
+/// A sheet slides between two others.
 fn between(gap: f64) -> Result<Step, StepError> {
-    let sliding = Course::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
+    let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free(
         Step::new(sheet(1.0)?, stacked(1.0, [-gap, gap])?),
         gap,
@@ -115,13 +116,13 @@ fn between(gap: f64) -> Result<Step, StepError> {
     )
 }
 
-/// T16: a plate, tilted, moves through a slit that is a gap wider than its edges reach.
+/// T16: a tilted plate moves through a slit that is wider than its edges by a gap.
 fn through_slit(gap: f64) -> Result<Step, StepError> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
-    let moving = Course {
+    let moving = BodyMotion {
         turned: DQuat::from_rotation_y(tilt),
-        ..Course::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
+        ..BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
     };
     free(
         Step::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
@@ -130,30 +131,30 @@ fn through_slit(gap: f64) -> Result<Step, StepError> {
     )
 }
 
-fn free(step: Step, gap: f64, moving: Course) -> Result<Step, StepError> {
+fn free(step: Step, gap: f64, moving: BodyMotion) -> Result<Step, StepError> {
     let step = Step {
         tolerance: greater(0.25 * gap, 1e-11),
         ..step
     };
     Ok(if gap >= 1e-12 {
-        step.turned_too(moving, Course::STILL, Expected::Free)?
+        step.turned_too(moving, BodyMotion::STILL, Expected::Free)?
     } else {
-        step.exactly(moving, Course::STILL, Expected::Free)?
+        step.exactly(moving, BodyMotion::STILL, Expected::Free)?
     })
 }
 
-/// T3: a rod turns into a wall, and its mesh is turned in its frame, about the same axis or across it.
+/// T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
 fn turned_frame(degrees: f64) -> Result<Step, StepError> {
     let (long, thin, wall) = (2.0f64, 0.05, 1.2);
     let rod = cuboid(thin, 0.3, long)?;
     let angle = (wall / long.hypot(thin)).asin() - thin.atan2(long);
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
-    let turning = Course {
+    let turning = BodyMotion {
         turned: frame,
         spin: PI * DVec3::Y,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
     let step = Step::new(turned(&rod, frame.inverse())?, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / PI, 1e-14);
-    Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
+    Ok(step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)?)
 }

@@ -1,6 +1,6 @@
-//! Many triangles, and bad ones.
+//! Meshes with many triangles, and with bad ones.
 
-use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
 use super::super::shapes::{
     TOOTH, ball, comb, cone, cube, field_of_cubes, layers, slab, sliver_slab, turned,
     with_bad_faces,
@@ -60,56 +60,56 @@ fn comb_into_comb(teeth: f64) -> Result<Step, StepError> {
     let step = Step::new(comb(teeth as u32)?, comb(teeth as u32)?);
     // Turned over about y, a tooth ends where it began: in the middle of a gap, at 1/2 + TOOTH of the step.
     let shift = 1.0 - (0.5 - TOOTH) / teeth;
-    let falling = Course {
+    let falling = BodyMotion {
         turned: DQuat::from_rotation_y(PI),
-        ..Course::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
+        ..BodyMotion::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
     };
-    Ok(step.turned_too(falling, Course::STILL, Expected::at(0.5, 1e-14))?)
+    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))?)
 }
 
 /// T22: a ball with a corner at its pole falls onto a slab.
 fn ball_onto_slab(triangles: f64) -> Result<Step, StepError> {
     let step = Step::new(ball(0.5, triangles as usize / 2 + 2)?, slab()?);
-    let falling = Course {
+    let falling = BodyMotion {
         spin: 2.0 * DVec3::Z,
-        ..Course::FALLING
+        ..BodyMotion::FALLING
     };
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
 /// A cone falls onto a slab, tip first.
 fn tip_onto_slab(sides: f64) -> Result<Step, StepError> {
     let step = Step::new(cone(sides as u32, 0.7)?, slab()?);
-    let falling = Course {
+    let falling = BodyMotion {
         spin: 2.0 * DVec3::Z,
-        ..Course::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z)
+        ..BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z)
     };
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
 /// A cube falls onto the first of many open sheets.
 fn layered(count: f64) -> Result<Step, StepError> {
     let step = Step::new(cube()?, layers(count as u32)?);
-    let falling = Course::FALLING;
-    Ok(step.turned_too(falling, Course::STILL, Expected::at(0.625, 1e-14))?)
+    let falling = BodyMotion::FALLING;
+    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(0.625, 1e-14))?)
 }
 
 /// T21: a cube with repeated and collapsed faces.
 fn bad_faces(count: f64) -> Result<Step, StepError> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
     let step = Step::new(cube, slab()?);
-    let falling = Course::FALLING;
+    let falling = BodyMotion::FALLING;
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
-/// A cube falls onto a slab, on a triangle that is next to none.
+/// A cube falls onto a sliver triangle of a slab.
 fn sliver(width: f64) -> Result<Step, StepError> {
     let step = Step::new(cube()?, sliver_slab(width)?);
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(Course::FALLING, Course::UNDER, expected)?)
+    Ok(step.turned_too(BodyMotion::FALLING, BodyMotion::UNDER, expected)?)
 }
 
 /// A cube falls onto one mesh of many cubes, of which every other one is inside out.
@@ -117,20 +117,20 @@ fn field_of_solids(count: f64) -> Result<Step, StepError> {
     // The cube covers the middle of the field, where at least four others are.
     let step = Step::new(cube()?, field_of_cubes(count as u32)?);
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(Course::FALLING, Course::STILL, expected)?)
+    Ok(step.turned_too(BodyMotion::FALLING, BodyMotion::STILL, expected)?)
 }
 
-/// Two cones meet beside their tips: where each has the other one's tip on a face.
+/// Two cones meet beside their tips: the tip of each touches a face of the other.
 fn tip_onto_tip(aside: f64) -> Result<Step, StepError> {
     let (sides, radius) = (8, 0.7);
     // Turned by half a side, a face looks along x. It rises by 1 over the way to its middle.
     let half_side = PI / f64::from(sides);
     let cone = turned(&cone(sides, radius)?, DQuat::from_rotation_z(half_side))?;
     let slope = 1.0 / (radius * half_side.cos());
-    let falling = Course::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
-    let upside_down = Course {
+    let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
+    let upside_down = BodyMotion {
         turned: DQuat::from_rotation_y(PI),
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
     let step = Step::new(cone.clone(), cone);
     let step = Step {

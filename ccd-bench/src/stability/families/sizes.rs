@@ -1,6 +1,6 @@
 //! Sizes, distances and units far from 1.
 
-use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
 use super::super::shapes::{cone, cube, cuboid, slab};
 use super::{family, tens, tenths};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -74,21 +74,21 @@ fn margins() -> Vec<f64> {
     margins
 }
 
-/// A cube falls onto a larger or smaller one, half-way of its fall.
+/// A cube falls onto a larger or smaller one, which it meets halfway.
 fn size_against_size(size: f64) -> Result<Step, StepError> {
     let way = greater(size, 1.0);
-    let falling = Course::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
+    let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step = Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?);
     let step = Step {
         tolerance: 1e-6 * way,
         ..step
     };
-    Ok(step.turned_too(falling, Course::STILL, Expected::at(0.5, 1e-14))?)
+    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))?)
 }
 
-/// T1 in other units.
+/// T1 in other units of length.
 fn unit_of_length(size: f64) -> Result<Step, StepError> {
-    let falling = Course::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
+    let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
     let step = Step::new(
         cuboid(half, half, half)?,
@@ -98,92 +98,92 @@ fn unit_of_length(size: f64) -> Result<Step, StepError> {
         tolerance: 1e-6 * size,
         ..step
     };
-    let slab = Course::rest(-size * DVec3::Z);
+    let slab = BodyMotion::rest(-size * DVec3::Z);
     Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
 }
 
 /// T1 in other units of time.
 fn unit_of_time(duration: f64) -> Result<Step, StepError> {
-    let falling = Course::FALLING;
+    let falling = BodyMotion::FALLING;
     let step = Step::new(cube()?, slab()?);
     let step = Step { duration, ..step };
-    let slab = Course::UNDER;
+    let slab = BodyMotion::UNDER;
     Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
 }
 
 /// A cube falls onto another one, and both travel far to the side.
 fn moving_together(travel: f64) -> Result<Step, StepError> {
-    let falling = Course::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
-    let fleeing = Course::straight(DVec3::ZERO, travel * DVec3::X);
+    let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
+    let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = Step::new(cube()?, cube()?);
     Ok(step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))?)
 }
 
-/// A cube turns about a centre far below it, so that it moves nearly straight to a wall.
+/// A cube rotates about a centre far below it, and so moves nearly straight to a wall.
 fn far_centre(distance: f64) -> Result<Step, StepError> {
     let spin = 1.0 / distance;
-    let turning = Course {
+    let turning = BodyMotion {
         spin: spin * DVec3::Y,
         centre: -distance * DVec3::Z,
-        ..Course::STILL
+        ..BodyMotion::STILL
     };
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = Step::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-14);
-    Ok(step.exactly(turning, Course::rest(2.0 * DVec3::X), expected)?)
+    Ok(step.exactly(turning, BodyMotion::rest(2.0 * DVec3::X), expected)?)
 }
 
 /// A cone falls onto a slab on its tip; its sides are long and thin triangles.
 fn needle(width: f64) -> Result<Step, StepError> {
     let step = Step::new(cone(8, 0.5 * width)?, slab()?);
-    let falling = Course::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
-/// T20: cubes of half extent 1/2 at a distance that adds to their way without rounding.
+/// T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
 fn far_from_the_origin(distance: f64) -> Result<Step, StepError> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
-    let falling = Course::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let step = Step::new(cube()?, cube()?);
-    Ok(step.exactly(falling, Course::rest(origin), Expected::at(0.5, 1e-14))?)
+    Ok(step.exactly(falling, BodyMotion::rest(origin), Expected::at(0.5, 1e-14))?)
 }
 
-/// A needle falls onto a slab: its sides are long and thin triangles.
+/// A needle falls onto a slab; its sides are long and thin triangles.
 fn slender(ratio: f64) -> Result<Step, StepError> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
-    let falling = Course {
+    let falling = BodyMotion {
         turned: DQuat::from_rotation_x(0.3),
-        ..Course::FALLING
+        ..BodyMotion::FALLING
     };
     let reach = thin * (sin + cos);
     let expected = Expected::at((3.0 - reach) / 4.0, 1e-14);
     let step = Step::new(cuboid(1.0, thin, thin)?, slab()?);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
-/// T13: a bullet flies a way of 1 at a thin sheet half-way.
+/// T13: a bullet travels distance 1; a thin sheet stands halfway.
 fn bullet_and_paper(ratio: f64) -> Result<Step, StepError> {
     let (bullet, half) = (0.005, 0.05 / ratio);
-    let flying = Course::straight(DVec3::ZERO, DVec3::X);
-    let paper = Course::rest(0.5 * DVec3::X);
+    let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
+    let paper = BodyMotion::rest(0.5 * DVec3::X);
     let step = Step::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = Expected::at(0.5 - half - bullet, 1e-14);
     Ok(step.turned_too(flying, paper, expected)?)
 }
 
-/// A cube falls onto a slab, and comes as near as the margin half-way.
+/// A cube falls onto a slab, and comes as near as the margin halfway.
 fn margin(margin: f64) -> Result<Step, StepError> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
-    let falling = Course::straight(height * DVec3::Z, -speed * DVec3::Z);
+    let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
     let step = Step::new(cube()?, slab()?);
     let step = Step { margin, ..step };
-    let slab = Course::UNDER;
+    let slab = BodyMotion::UNDER;
     Ok(step.turned_too(falling, slab, Expected::at(0.5, 1e-14))?)
 }
 
@@ -191,6 +191,6 @@ fn margin(margin: f64) -> Result<Step, StepError> {
 fn inside(size: f64) -> Result<Step, StepError> {
     let half = 0.9 * size;
     let step = Step::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
-    let moving = Course::straight(DVec3::ZERO, 0.05 * DVec3::X);
-    Ok(step.turned_too(moving, Course::STILL, Expected::Start)?)
+    let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
+    Ok(step.turned_too(moving, BodyMotion::STILL, Expected::Start)?)
 }

@@ -1,4 +1,4 @@
-//! Holds the exact answers of the families against the referee.
+//! Compares the exact answers of the families with the referee's.
 
 use super::families;
 use crate::stability::{Case, Expected, Family, Step};
@@ -6,11 +6,10 @@ use crate::truth::{Referee, Surface, Truth};
 use rayon::prelude::*;
 use std::collections::HashSet;
 
-/// Larger meshes take the referee too long.
+/// The number of triangles above which the referee takes too long.
 const TRIANGLES: usize = 3000;
 
-/// The share of the values, from the easy ones, at which a family's answers are checked: the referee takes
-/// ever longer.
+/// The share of the values, from the easy ones, that are checked; the referee is slow on harder ones.
 const CHECKED: f64 = 0.4;
 
 #[test]

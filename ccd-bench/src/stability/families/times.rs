@@ -1,6 +1,6 @@
-//! Contacts next to the start and next to the end.
+//! Contacts close to the start and close to the end.
 
-use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
 use super::super::shapes::{cube, sheet, slab};
 use super::tenths;
 use ccd_core::glam::DVec3;
@@ -21,12 +21,12 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// Returns a cube that falls at speed 1 onto a slab, and reaches it at a time.
-fn falling(time: f64) -> Result<(Step, Course), StepError> {
+/// Returns a cube that falls at speed 1 onto a slab, and reaches it at a given time.
+fn falling(time: f64) -> Result<(Step, BodyMotion), StepError> {
     let step = Step::new(cube()?, slab()?);
     Ok((
         step,
-        Course::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
+        BodyMotion::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
     ))
 }
 
@@ -37,13 +37,13 @@ fn after_the_start(time: f64) -> Result<Step, StepError> {
         ..step
     };
     let expected = Expected::at(time, 1e-14);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
 fn before_the_end(before: f64) -> Result<Step, StepError> {
     let (step, falling) = falling(1.0 - before)?;
     let expected = Expected::at(1.0 - before, 1e-14);
-    Ok(step.turned_too(falling, Course::UNDER, expected)?)
+    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
 }
 
 fn after_the_end(after: f64) -> Result<Step, StepError> {
@@ -52,7 +52,7 @@ fn after_the_end(after: f64) -> Result<Step, StepError> {
         tolerance: greater(0.25 * after, 1e-11),
         ..step
     };
-    let slab = Course::UNDER;
+    let slab = BodyMotion::UNDER;
     Ok(if after > 1e-12 {
         step.turned_too(falling, slab, Expected::Free)?
     } else {
@@ -60,13 +60,13 @@ fn after_the_end(after: f64) -> Result<Step, StepError> {
     })
 }
 
-/// Two flat sheets without thickness, a small way apart, meet face to face.
+/// Two flat sheets without thickness, a small distance apart, meet face to face.
 fn sheets(way: f64) -> Result<Step, StepError> {
-    let falling = Course::straight(way * DVec3::Z, DVec3::NEG_Z);
+    let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
     let step = Step::new(sheet(1.0)?, sheet(1.0)?);
     let step = Step {
         tolerance: greater(0.1 * way, 1e-11),
         ..step
     };
-    Ok(step.turned_too(falling, Course::STILL, Expected::at(way, 1e-14))?)
+    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))?)
 }

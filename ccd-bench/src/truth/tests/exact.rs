@@ -4,13 +4,13 @@ use super::super::{Bracket, Referee, Surface, Truth};
 use super::{at, cuboid, judge, query, still};
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// The change of a contact by the rounded numbers of a scene, as a fraction of the duration.
+/// The change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.
 const SCENE_ROUNDED: f64 = 1e-14;
 
-fn assert_hit(bodies: [&Surface; 2], query: &Query, exact: f64) {
+fn assert_hit(bodies: [&Surface; 2], query: &Motions, exact: f64) {
     let truth = judge(bodies, query);
     let Truth::Hit { lo, hi } = truth else {
         panic!("{truth:?}, expected {exact}");

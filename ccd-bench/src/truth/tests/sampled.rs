@@ -59,7 +59,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
     );
 }
 
-/// Returns true if an edge of any triangle passes through another, by the engine's own placement.
+/// Returns true if an edge of any triangle passes through another one, with the engine's own poses.
 fn meet(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
     let placed = [0, 1].map(|body| {
         let pose = motions[body].pose(time);

@@ -1,4 +1,4 @@
-//! Writes and reads tables.
+//! Tables that are written and read back.
 
 use super::super::{Truth, TruthRow, read_truths, write_truths};
 

@@ -4,7 +4,7 @@ fn shown(progress: &Progress) -> String {
     line(&progress.bar, progress.total, &progress.steps)
 }
 
-/// Rows are read before they are answered: those of a batch all at once.
+/// A batch of rows is read at once, before any of them is answered.
 #[test]
 fn what_is_answered_counts_and_not_what_is_read() {
     let progress = Progress::new(Total::Bytes(110));
@@ -19,7 +19,7 @@ fn what_is_answered_counts_and_not_what_is_read() {
     assert!(shown(&progress).ends_with(", 100 %"));
 }
 
-/// A run that is continued, or begins at a later row.
+/// A run may continue an earlier one, or begin at a later row.
 #[test]
 fn rows_that_were_skipped_count_as_answered() {
     let progress = Progress::new(Total::Bytes(100));

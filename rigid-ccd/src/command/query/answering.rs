@@ -1,4 +1,4 @@
-//! The rows of a query: answered batch by batch, written in order.
+//! Answers the rows of a query batch by batch, and writes them in order.
 
 use super::args::QueryArgs;
 use super::journal::Checkpoint;
@@ -26,7 +26,7 @@ pub(super) struct Answering<'a> {
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
     pub(super) batch: BatchSize,
     pub(super) outputs: Outputs,
-    /// The rows for a page, if there is to be one.
+    /// The rows for a page, if one was requested.
     pub(super) shown: Option<Chosen>,
     pub(super) summary: Summary,
     pub(super) bad_rows: BadRows,
@@ -34,7 +34,7 @@ pub(super) struct Answering<'a> {
 }
 
 impl Answering<'_> {
-    /// Answers the selected rows from `start` on, and returns where they end.
+    /// Answers the selected rows from `start` on, and returns the last checkpoint.
     pub(super) fn answer_all(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
         let mut done = start;
         self.progress.answering(0, rows.bytes());
@@ -104,7 +104,7 @@ impl Answering<'_> {
         self.write_contacts(&answered)
     }
 
-    /// Returns the row of the results for an answer.
+    /// Returns the row of results for an answer.
     fn result(&self, course: &Course, timed: &Timed) -> ResultRow {
         let Timed { answer, micros } = timed;
         let compared = Compared::of(self.bodies, self.args.clearance);
@@ -115,7 +115,7 @@ impl Answering<'_> {
         }
     }
 
-    /// Writes the contacts of rows that are answered; rows with too many contacts are bad rows.
+    /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
     fn write_contacts(
         &mut self,
         answered: &[(RowPosition, &Course, &Timed)],
@@ -151,10 +151,10 @@ impl Answering<'_> {
     }
 }
 
-/// The number of rows whose contacts are in memory at one time.
+/// The number of rows whose contacts are in memory at the same time.
 const ROWS_OF_CONTACTS: usize = 64;
 
-/// Reads up to `count` rows, and the error that ended the table early, if any.
+/// Reads up to `count` rows, and returns the error that ended the table early, if any.
 fn read_batch(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
     let mut batch = Vec::new();
     for row in rows.take(count) {

@@ -108,7 +108,7 @@ pub(in crate::command) struct QueryArgs {
 }
 
 impl QueryArgs {
-    /// Returns the set of columns that the table of results has.
+    /// Returns the optional columns of the table of results.
     pub(super) fn extent(&self) -> Extent {
         Extent {
             last_time: self.ask == Question::ContactInterval,
@@ -116,7 +116,7 @@ impl QueryArgs {
         }
     }
 
-    /// Returns the options that the tables depend on, with their values.
+    /// Returns the options that determine the tables, with their values.
     pub(super) fn recorded(&self) -> Vec<(&'static str, String)> {
         // Exhaustive: a new option does not compile until it is recorded or left out here.
         let QueryArgs {
@@ -217,7 +217,7 @@ impl From<InstructionsArg> for Instructions {
 pub(super) struct RowRange {
     /// The first row.
     pub(super) start: usize,
-    /// The row after the last one; none for a range without an end.
+    /// The row after the last one; `None` for a range without an end.
     pub(super) end: Option<usize>,
 }
 

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// The progress of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Checkpoint {
-    /// The number of rows of motions that are done, with those skipped before the first one selected.
+    /// The number of finished rows of the table of motions, including rows skipped before the selected ones.
     pub(super) rows: usize,
     /// The checksum of these rows.
     pub(super) checksum: u32,
@@ -24,27 +24,27 @@ pub(super) struct Checkpoint {
     pub(super) bad: usize,
     /// The number of rows of each status in the results.
     pub(super) counts: [usize; Status::ALL.len()],
-    /// What there is of the results, set when they are flushed.
+    /// The length and checksum of the table of results, set when it is flushed.
     pub(super) results: Written,
-    /// What there is of the contacts, set when they are flushed.
+    /// The length and checksum of the table of contacts, set when it is flushed.
     pub(super) contacts: Written,
-    /// True when these are all rows.
+    /// Whether all rows are finished.
     #[serde(rename = "whole")]
     pub(super) finished: bool,
 }
 
-/// Everything that the tables of a run depend on: options with their values.
+/// The options that determine the tables of a run, with their values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Recorded(pub(super) Vec<(String, String)>);
 
-/// The prefix of an entry that holds the checksum of the file that an option names.
+/// The prefix of an entry with the checksum of the file that an option names.
 pub(super) const CONTENT: &str = "content-of:";
 
-/// The file of the options and the checkpoints.
+/// The journal file: options, then checkpoints.
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
-    /// The checksum of all that is in it.
+    /// The checksum of the file's content.
     sum: Hasher,
 }
 
@@ -61,7 +61,7 @@ impl Recorded {
         text.trim_end().to_owned()
     }
 
-    /// Describes the options that have changed; returns none when all are the same.
+    /// Describes the changed options; `None` if all are the same.
     fn changes(&self, before: &str) -> Option<String> {
         let now = self.to_text();
         if before == now {
@@ -113,7 +113,7 @@ impl Journal {
     }
 }
 
-/// Ends a checkpoint with a checksum, to which it is added.
+/// Appends the checksum to a checkpoint's line, and adds the line to the checksum.
 fn ended(mut line: String, sum: &mut Hasher) -> String {
     sum.update(line.as_bytes());
     let _ = writeln!(line, " {:08x}", sum.clone().finalize());
@@ -123,21 +123,21 @@ fn ended(mut line: String, sum: &mut Hasher) -> String {
 /// The journal of an earlier run.
 pub(super) struct Earlier {
     recorded: String,
-    /// The number of rows that it answered.
+    /// The number of rows that the earlier run answered.
     pub(super) rows: usize,
     /// The last checkpoint.
     pub(super) checkpoint: Checkpoint,
     /// The length of the journal without an incomplete last line.
     bytes: u64,
-    /// Its checksum.
+    /// The checksum of these bytes.
     sum: Hasher,
 }
 
-/// A journal that is missing or damaged.
+/// The error of a journal that is missing or damaged.
 pub(super) struct Lost;
 
 impl Earlier {
-    /// Reads a journal; returns none for a run that ended before its first checkpoint.
+    /// Reads a journal; `None` for a run that ended before its first checkpoint.
     ///
     /// # Errors
     /// [`Lost`] when the journal is missing or damaged.
@@ -188,7 +188,7 @@ impl Earlier {
     }
 }
 
-/// Reads a checkpoint that [ends](ended) with its checksum.
+/// Parses a checkpoint and verifies its [checksum](ended).
 fn checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, Lost> {
     let (checkpoint, _) = line.rsplit_once(' ').ok_or(Lost)?;
     if ended(checkpoint.to_owned(), sum) == line {

@@ -1,8 +1,8 @@
-//! The limits that end a query early, with advice.
+//! The limits that end a query early, with advice for each.
 
 use ccd_core::Limit;
 
-/// Each limit with its advice.
+/// All limits, each with its advice.
 const LIMITS: [(Limit, &str); 5] = [
     (
         Limit::Budget,
@@ -30,9 +30,9 @@ const LIMITS: [(Limit, &str); 5] = [
 
 /// The number of queries that each limit ended.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Reached([usize; LIMITS.len()]);
+pub(crate) struct LimitCounts([usize; LIMITS.len()]);
 
-impl Reached {
+impl LimitCounts {
     /// Counts a query.
     pub(crate) fn add(&mut self, limit: Limit) {
         let place = LIMITS.iter().position(|(known, _)| *known == limit);

@@ -22,15 +22,15 @@ pub(super) struct Outputs {
 
 /// The tables of a run, and the rows left to answer.
 pub(super) enum Opened {
-    /// New tables: all rows.
+    /// New tables: all rows are left.
     New(Outputs),
-    /// The tables of an interrupted run with the same options: the rows after this checkpoint.
+    /// The tables of an interrupted run with the same options: the rows after the checkpoint are left.
     Resumed(Outputs, Checkpoint),
-    /// The tables of a finished run with the same options: no rows.
+    /// The tables of a finished run with the same options: no row is left.
     Finished(Checkpoint),
 }
 
-/// The places of the tables, which no other run writes to meanwhile.
+/// The claimed files of the tables.
 pub(super) struct Places {
     results: Output,
     contacts: Option<Output>,
@@ -120,7 +120,7 @@ impl Places {
         }
     }
 
-    /// Returns whether the tables of a finished run are there, and names those that had no time to be named.
+    /// Returns whether the tables of a finished run exist; renames those that still have a temporary name.
     fn finished(self, run: &Earlier, recorded: &Recorded) -> Result<bool> {
         let Checkpoint {
             results, contacts, ..
@@ -134,7 +134,7 @@ impl Places {
     }
 }
 
-/// Gives a complete table its final name, if it has none yet. Returns whether the table is there.
+/// Gives a complete table its final name, unless it already has it. Returns whether the table is there.
 fn named(table: Output, written: Written) -> Result<bool> {
     let Output::File(mut claim, _) = table else {
         return Ok(true);
@@ -160,7 +160,7 @@ fn named(table: Output, written: Written) -> Result<bool> {
     }
 }
 
-/// Refuses to continue with other options: all rows of a table answer the same question.
+/// Returns an error if the options differ from those of the earlier run.
 fn check_options(earlier: &Earlier, recorded: &Recorded, run: &str, advice: &str) -> Result<()> {
     match earlier.changes(recorded) {
         Some(changes) => bail!(

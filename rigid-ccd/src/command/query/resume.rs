@@ -1,4 +1,4 @@
-//! `ccd query --resume`: the rows that an earlier run has answered.
+//! `ccd query --resume`: skips the rows that an earlier run answered.
 
 use super::args::QueryArgs;
 use super::journal::Checkpoint;
@@ -22,7 +22,7 @@ pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     }
 }
 
-/// Skips the rows that are answered or not selected, and returns where the run starts.
+/// Skips the rows that are answered or not selected, and returns the checkpoint at which the run starts.
 pub(super) fn skip_rows(
     args: &QueryArgs,
     rows: &mut Rows,
@@ -48,7 +48,7 @@ pub(super) fn skip_rows(
     }
 }
 
-/// Says which rows a page of a resumed run does not show.
+/// Prints that a page of a resumed run shows only the rows answered now.
 fn tell_of_page(args: &QueryArgs) {
     if args.html.is_some() {
         complain(
@@ -57,7 +57,7 @@ fn tell_of_page(args: &QueryArgs) {
     }
 }
 
-/// Leaves the tables of a finished run unchanged, if the motions are those of that run.
+/// Leaves the tables of a finished run unchanged, if the motions are the same.
 pub(super) fn leave_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
     tell_of_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());

@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::limits::Reached;
+use super::limits::LimitCounts;
 use crate::batch::Timed;
 use crate::table::results::Status;
 use ccd_core::order::greater;
@@ -15,7 +15,7 @@ use std::fmt;
 pub(super) struct Summary {
     /// The number of rows of each status, in the order of [`Status::ALL`].
     counts: [usize; Status::ALL.len()],
-    /// The number of rows that an earlier run answered; only their status is known.
+    /// The number of rows answered by an earlier run; only their status is known.
     earlier: usize,
     times: Times,
     /// The sum of the pairs of nodes visited.
@@ -28,15 +28,15 @@ pub(super) struct Summary {
     pub(super) oracle_steps: u64,
     /// The tolerance of the queries.
     tolerance: f64,
-    limits: Reached,
-    /// The number of answers with a larger tolerance.
+    limits: LimitCounts,
+    /// The number of answers whose tolerance was raised.
     pub(super) raised: usize,
     /// The largest tolerance of an answer.
     pub(super) largest_tolerance: f64,
 }
 
 impl Summary {
-    /// Creates an empty summary of queries with that tolerance.
+    /// Creates an empty summary of queries with the given tolerance.
     pub(super) fn new(tolerance: f64) -> Self {
         Summary {
             counts: [0; Status::ALL.len()],
@@ -47,7 +47,7 @@ impl Summary {
             advancements: 0,
             oracle_steps: 0,
             tolerance,
-            limits: Reached::default(),
+            limits: LimitCounts::default(),
             raised: 0,
             largest_tolerance: tolerance,
         }
@@ -62,7 +62,7 @@ impl Summary {
         self
     }
 
-    /// Adds an answer of that status.
+    /// Adds an answer with the given status.
     pub(super) fn add(&mut self, status: Status, timed: &Timed) {
         let answer = &timed.answer;
         self.counts[status as usize] += 1;
@@ -93,7 +93,7 @@ impl Summary {
         self.counts
     }
 
-    /// Returns the median time of a query in microseconds, to a thousandth; NaN without queries.
+    /// Returns the median time of a query in microseconds, rounded to a thousandth; NaN without queries.
     pub(super) fn median_micros(&self) -> f64 {
         self.times.median()
     }
@@ -108,7 +108,7 @@ impl Summary {
         self.counts[status as usize]
     }
 
-    /// Returns the means of the counters as one line; none without answers.
+    /// Returns the means of the counters as one line; `None` without answers.
     pub(super) fn means(&self) -> Option<String> {
         let mean = |total: u64| total as f64 / self.answered() as f64;
         (self.answered() > 0).then(|| {
@@ -127,16 +127,16 @@ impl Summary {
     }
 }
 
-/// A histogram of times, each to a thousandth: its size does not grow with their number.
+/// A histogram of times with a relative resolution of a thousandth; its size does not grow with their number.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Times {
-    /// The counts by the leading bits of the time, which have the order of the times.
+    /// The counts by the leading bits of the time, which sort as the times do.
     counts: BTreeMap<u64, u64>,
     count: u64,
     total: f64,
 }
 
-/// The number of bits of a time that are dropped: all except 10 of its fraction.
+/// The number of low bits dropped from a time: all except 10 of its fraction.
 const DROPPED: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
 impl Times {

@@ -68,16 +68,16 @@ pub(in crate::command) struct ViewArgs {
     pub(super) quiet: bool,
 }
 
-/// What is to be shown.
+/// The subject of a page.
 pub(super) enum Subject<'a> {
-    /// Rows of a table of motions, about two bodies.
+    /// Rows of a table of motions of two bodies.
     Rows(BodiesArgs, &'a Path),
-    /// The bodies of a table.
+    /// The bodies of a scene's table.
     Scene(&'a Path, SceneArgs<'a>),
 }
 
 impl ViewArgs {
-    /// Returns what is to be shown; none where the options name nothing, which is refused before.
+    /// Returns the subject of the page; `None` without the options for one, which the parser refuses.
     pub(super) fn subject(&self) -> Option<Subject<'_>> {
         let ViewArgs { meshes, pieces, .. } = self;
         if let Some(scene) = &self.scene {

@@ -1,20 +1,20 @@
-//! The rows that are shown.
+//! The choice of the rows on a page.
 
 use crate::table::courses::Course;
 use crate::table::results::{ResultRow, Status};
 
-/// The most rows of one status that are shown, where none are named.
+/// The maximum number of rows of one status, if no ids are given.
 const OF_EACH: usize = 4;
-/// The most rows on a page.
+/// The maximum number of rows on a page.
 const MOST: usize = 100;
 
-/// A choice among rows.
+/// A choice of rows.
 #[derive(Debug)]
 pub(in crate::command) struct Chosen {
-    /// The ids to show; empty for some of each status.
+    /// The ids to show; if empty, some rows of each status.
     ids: Vec<String>,
     rows: Vec<(Course, ResultRow)>,
-    /// The number of rows that cannot be shown, and what is wrong with the first.
+    /// The number of rows that cannot be shown, and the fault of the first.
     left_out: usize,
     first_fault: Option<String>,
 }
@@ -30,7 +30,7 @@ impl Chosen {
         }
     }
 
-    /// Returns whether an id is one of those named; none where none are.
+    /// Returns whether an id is one of those given; `None` if no ids are given.
     pub(super) fn is_named(&self, id: &str) -> Option<bool> {
         if self.ids.is_empty() {
             None
@@ -39,7 +39,7 @@ impl Chosen {
         }
     }
 
-    /// Takes a row, if it is to be shown.
+    /// Adds a row if it belongs to the choice.
     pub(in crate::command) fn offer(&mut self, course: &Course, row: &ResultRow) {
         let wanted = self.is_named(&row.id).unwrap_or_else(|| {
             let alike = self
@@ -58,12 +58,12 @@ impl Chosen {
         }
     }
 
-    /// Returns whether no other row can be wanted.
+    /// Returns whether no further row can be added.
     pub(super) fn is_full(&self) -> bool {
         self.rows.len() >= MOST || (!self.ids.is_empty() && self.missing().next().is_none())
     }
 
-    /// Returns the ids that no row had.
+    /// Returns the given ids that no row had.
     pub(super) fn missing(&self) -> impl Iterator<Item = &str> {
         let has = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
         self.ids
@@ -72,7 +72,7 @@ impl Chosen {
             .map(String::as_str)
     }
 
-    /// Takes out the rows, in the order in which they were offered.
+    /// Takes the rows out, in the order in which they were added.
     pub(super) fn take_rows(&mut self) -> Vec<(Course, ResultRow)> {
         std::mem::take(&mut self.rows)
     }
@@ -83,7 +83,7 @@ impl Chosen {
         self.first_fault.get_or_insert(fault);
     }
 
-    /// Returns whether nothing was chosen or left out.
+    /// Returns whether no row was added or left out.
     pub(super) fn is_empty(&self) -> bool {
         self.rows.is_empty() && self.left_out == 0
     }
@@ -93,7 +93,7 @@ impl Chosen {
         self.left_out == 0
     }
 
-    /// Says what was left out.
+    /// Describes the rows that were left out.
     pub(super) fn faults(&self) -> Option<String> {
         let fault = self.first_fault.as_ref()?;
         Some(match self.left_out {

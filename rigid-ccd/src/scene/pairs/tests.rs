@@ -1,4 +1,4 @@
-//! All pairs, as by comparing each box with each.
+//! The pairs from the tree equal those from comparing every two boxes.
 
 use super::*;
 use ccd_core::glam::DVec3;

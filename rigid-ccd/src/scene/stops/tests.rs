@@ -1,4 +1,4 @@
-//! Bodies that stop, at sampled times: none overlaps another one, and none stops early.
+//! Bodies that stop, checked at sampled times: none overlaps another one, and none stops early.
 
 use super::super::tests::{bodies, parts};
 use super::*;
@@ -14,7 +14,7 @@ use rand_pcg::Pcg64;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
 
-/// The poses of all bodies at a time, at which some have stopped.
+/// The poses of all bodies at a time, with some of them stopped.
 fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
     let pose = |(member, stop): (&super::super::Member<'_>, &Stop)| {
         member.movement.pose(lesser(time, stop.time)).unwrap()
@@ -113,8 +113,8 @@ fn bodies_that_stop_never_overlap() {
     );
 }
 
-/// Its contact is with what stops it, at the time at which it stops, or later where it rests. There the witnesses are
-/// near, and one behind the other along the normal.
+/// Checks that the contact is with the body that stops this one, at the time of the stop, or later at rest. There the
+/// witnesses are near, and one behind the other along the normal.
 fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
     let by = stop.by.unwrap();
     let Impact { bodies, hit } = stop.contact.expect("no limit was reached");
@@ -184,7 +184,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     assert_eq!((stop.by, stop.contact), (Some(1), None));
 }
 
-/// A body that has stopped is in the way of the next one.
+/// A stopped body stops the next one.
 #[test]
 fn a_queue_of_balls_stops_one_behind_the_other() {
     let (ball, wall) = (
@@ -217,7 +217,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
     }
 }
 
-/// Step by step, a ball that is pressed onto a floor keeps half of the tolerance.
+/// A ball that is pressed onto a floor keeps half of the tolerance over many steps.
 #[test]
 fn what_is_pressed_stays_above() {
     let (ball, floor) = (
@@ -280,7 +280,7 @@ fn what_is_out_of_range_or_unresolved_is_told_or_stops() {
     assert!(matches!(first.hit.kind, HitKind::Touching(_)), "{first:?}");
 }
 
-/// Over a wide floor distances are rounded by more. What is pressed onto it would sink by that in each step.
+/// Distances over a wide floor have larger rounding errors. What is pressed onto it would sink by that in each step.
 #[test]
 fn what_is_pressed_does_not_sink_by_rounding() {
     let mut rng = Pcg64::seed_from_u64(7);

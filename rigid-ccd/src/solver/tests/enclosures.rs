@@ -10,20 +10,20 @@ use ccd_core::{Answer, Round};
 /// The radius of both cylinders.
 const RADIUS: f64 = 1.0;
 
-/// What one of them may exceed its cylinder by: their polygons have some twenty corners.
+/// The allowed excess of a cylinder: its polygons have some twenty corners.
 const EXCESS: f64 = 0.01;
 
-/// Two cylinders side by side, each turned about its axis, the first of which moves across the way between them. Their
-/// axes are never nearer than `apart`, and their surfaces than `least`.
+/// Two cylinders side by side, each rotated about its axis; the first moves between two places. Their axes are never
+/// nearer than `apart`, and their surfaces than `least`.
 struct Pair {
     body: Body,
-    /// Where the moving one is at time 0 and 1, and the second one.
+    /// The poses of the first cylinder at times 0 and 1, and that of the second.
     places: [Pose; 3],
     least: f64,
 }
 
 impl Pair {
-    /// The pair of a number: the larger it is, the more both are turned.
+    /// Creates the pair with a number: both cylinders are rotated in proportion to it.
     fn new(number: u32) -> Self {
         let round = Round::cylinder(RADIUS, 2.0).unwrap();
         let apart = 2.05 + 0.03 * f64::from(number % 9);
@@ -53,7 +53,7 @@ impl Pair {
         [passes, Motion::still(self.places[2])]
     }
 
-    /// Asks for the least distance: of motions, along a trajectory of the same way, and at rest where it is least.
+    /// Returns the least distance for motions, along an equal trajectory, and at rest where it is least.
     fn closest(&self, solver: &mut Solver) -> [Answer; 3] {
         let [passes, stands] = self.ways();
         let (a, b) = (&self.body, &self.body);
@@ -155,7 +155,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
     assert!(between > 200, "{between}");
 }
 
-/// A clearance less than the excess cannot be violated for certain, but it can be kept.
+/// A clearance smaller than the excess cannot be proven violated, but it can be kept.
 #[test]
 fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     let pair = Pair::new(0);
@@ -189,7 +189,7 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     }
 }
 
-/// A ball above a slot, which the one hull about the block fills.
+/// A ball above a slot, which the single hull of the block fills.
 #[cfg(feature = "meshes")]
 #[test]
 fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {

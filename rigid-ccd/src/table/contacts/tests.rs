@@ -1,5 +1,5 @@
 use super::*;
-use crate::table::motions::Query;
+use crate::table::motions::Motions;
 use ccd_core::Unresolved;
 use ccd_core::{Feature, Limit, Stats};
 
@@ -44,7 +44,7 @@ fn outcomes_without_a_contact_have_no_rows() {
     let body = ccd_core::Body::ball(1.0).unwrap();
     let bodies = Bodies { a: &body, b: &body };
     let still = ccd_core::Motion::still(ccd_core::Pose::IDENTITY);
-    let course = Course::Motions(Query {
+    let course = Course::Motions(Motions {
         id: String::new(),
         a: still,
         b: still,

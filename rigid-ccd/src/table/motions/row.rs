@@ -1,6 +1,6 @@
 //! One row of the table, parsed as the motions of two bodies.
 
-use super::Query;
+use super::Motions;
 use crate::table::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
 use crate::table::error::RowProblem;
 use crate::table::records::{Cells, Record};
@@ -8,7 +8,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::Range;
 
-/// Parses a row of a table of motions; `index` is the id of a row without one.
+/// Parses a row of a table of motions; `index` is the default id.
 ///
 /// # Errors
 /// What is wrong with the row.
@@ -16,7 +16,7 @@ pub fn query<R: Record + ?Sized>(
     columns: &Columns,
     record: &R,
     index: usize,
-) -> Result<Query, RowProblem> {
+) -> Result<Motions, RowProblem> {
     let row = Row {
         columns,
         cells: record.cells(columns)?,
@@ -36,7 +36,7 @@ pub fn query<R: Record + ?Sized>(
     for motion in [&a, &b] {
         columns.oddities().note_motion(motion, duration);
     }
-    Ok(Query {
+    Ok(Motions {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
         a,
         b,
@@ -44,18 +44,18 @@ pub fn query<R: Record + ?Sized>(
     })
 }
 
-/// How both bodies are at a time.
+/// The poses of both bodies at a time.
 pub(in crate::table) struct Poses {
     pub(in crate::table) time: f64,
-    pub(in crate::table) a: Posed,
-    pub(in crate::table) b: Posed,
+    pub(in crate::table) a: BodyPose,
+    pub(in crate::table) b: BodyPose,
 }
 
-/// How a body is at a time.
+/// The pose of a body in a row of a path.
 #[derive(Clone, Copy)]
-pub(in crate::table) struct Posed {
+pub(in crate::table) struct BodyPose {
     pub(in crate::table) pose: Pose,
-    /// The angular velocity to the next row; zero for the shortest turn.
+    /// The angular velocity to the next row; zero for the shortest rotation.
     pub(in crate::table) spin: DVec3,
     pub(in crate::table) centre: DVec3,
 }
@@ -74,12 +74,12 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
     }
     Ok(Poses {
         time: row.number(TIME)?.ok_or_else(|| row.empty(TIME))?,
-        a: row.posed(Side::A)?,
-        b: row.posed(Side::B)?,
+        a: row.body_pose(Side::A)?,
+        b: row.body_pose(Side::B)?,
     })
 }
 
-/// Returns the id of a row, which may be unreadable otherwise; none where it has none.
+/// Returns the id of a row, even if other cells are unreadable; `None` without one.
 pub(in crate::table) fn id<R: Record + ?Sized>(columns: &Columns, record: &R) -> Option<String> {
     record.text(columns.index(ID)?)
 }
@@ -89,8 +89,8 @@ struct Row<'a, C> {
     cells: C,
 }
 
-/// How a row gives a motion.
-enum Given {
+/// The two ways in which a row specifies a motion.
+enum MotionKind {
     EndPose,
     Velocities,
 }
@@ -106,8 +106,8 @@ impl<C: Cells> Row<'_, C> {
         )?)
     }
 
-    fn posed(&self, side: Side) -> Result<Posed, RowProblem> {
-        Ok(Posed {
+    fn body_pose(&self, side: Side) -> Result<BodyPose, RowProblem> {
+        Ok(BodyPose {
             pose: self.start(side)?,
             spin: self.vector(side, Quantity::Spin)?.unwrap_or_default(),
             centre: self.vector(side, Quantity::Centre)?.unwrap_or_default(),
@@ -117,13 +117,13 @@ impl<C: Cells> Row<'_, C> {
     fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
         let start = self.start(side)?;
         let centre = self.vector(side, Quantity::Centre)?.unwrap_or(DVec3::ZERO);
-        match self.given(side)? {
-            Given::Velocities => {
+        match self.motion_kind(side)? {
+            MotionKind::Velocities => {
                 let velocity = self.vector(side, Quantity::Velocity)?.unwrap_or_default();
                 let spin = self.vector(side, Quantity::Spin)?.unwrap_or_default();
                 Ok(Motion::about(start, velocity, spin, centre)?)
             }
-            Given::EndPose => {
+            MotionKind::EndPose => {
                 let position = self.vector(side, Quantity::EndPosition)?;
                 let orientation = self.quaternion(side, Quantity::EndOrientation)?;
                 let end = Pose::new(
@@ -135,8 +135,8 @@ impl<C: Cells> Row<'_, C> {
         }
     }
 
-    /// Tells how the row gives a motion: the cells of the other way are empty.
-    fn given(&self, side: Side) -> Result<Given, RowProblem> {
+    /// Returns how the row specifies the motion; the cells of the other way must be empty.
+    fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::Spin];
         let is_given = |cell| self.cells.is_given(cell);
@@ -148,17 +148,17 @@ impl<C: Cells> Row<'_, C> {
                 end: self.columns.name(end).to_owned(),
                 velocity: self.columns.name(velocity).to_owned(),
             }),
-            (Some(_), None) => Ok(Given::EndPose),
-            (None, Some(_)) => Ok(Given::Velocities),
+            (Some(_), None) => Ok(MotionKind::EndPose),
+            (None, Some(_)) => Ok(MotionKind::Velocities),
             // In a table that has the columns, an empty cell is told when it is read.
             (None, None) => match self.slot_where(side, end, |_| true) {
-                Some(_) => Ok(Given::EndPose),
-                None => Ok(Given::Velocities),
+                Some(_) => Ok(MotionKind::EndPose),
+                None => Ok(MotionKind::Velocities),
             },
         }
     }
 
-    /// Returns the slot of the first column of two quantities whose cell is as wanted.
+    /// Returns the slot of the first column of two quantities whose cell satisfies a condition.
     fn slot_where(
         &self,
         side: Side,
@@ -170,14 +170,14 @@ impl<C: Cells> Row<'_, C> {
         slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
     }
 
-    /// Returns a vector, with 0 for columns that the table does not have; none where it has none of them.
+    /// Returns a vector, with 0 for missing columns; `None` if all of its columns are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
         let parts = self.numbers::<3>(self.columns.slots(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
 
-    /// Returns a quaternion that is not normalised yet, but can be; none where the table has no columns for it.
+    /// Returns a nonzero quaternion before normalisation; `None` if the table has no columns for it.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
         let slots = self.columns.slots(side, quantity);
         // A table has all four columns, or none.
@@ -208,7 +208,7 @@ impl<C: Cells> Row<'_, C> {
         Ok(out)
     }
 
-    /// Returns a number; none for a column that the table does not have.
+    /// Returns a number; `None` if the table does not have the column.
     ///
     /// An empty cell is an error: writers of tables leave one for a NaN, and 0 would be another motion.
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {

@@ -9,7 +9,7 @@ fn read(text: &str) -> MotionTable {
     MotionTable::read(text.as_bytes()).expect("a header that can be used")
 }
 
-fn only_query(text: &str) -> Query {
+fn only_query(text: &str) -> Motions {
     let table = read(text);
     assert_eq!(table.errors, []);
     assert_eq!(table.rows.len(), 1);
@@ -116,7 +116,7 @@ fn a_row_leaves_the_velocities_or_the_end_pose_empty() {
     assert_eq!(table.rows[1].1.a.velocity(), DVec3::new(1.0, 2.0, 3.0));
 }
 
-/// Others write a number that is missing as an empty cell.
+/// Some programs write a missing number as an empty cell.
 #[test]
 fn other_empty_cells_are_errors() {
     for (text, column) in [
@@ -222,7 +222,7 @@ fn large_numbers_have_few_digits_in_messages() {
     }
 }
 
-/// Two rotations have the same length: the sign of the quaternion decides.
+/// A half turn has two rotation vectors of the same length: the sign of the quaternion decides.
 #[test]
 fn half_a_turn_is_about_the_axis_as_given() {
     let spin = |end: &str| {

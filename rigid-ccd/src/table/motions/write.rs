@@ -1,19 +1,19 @@
-//! The table of motions, written.
+//! Writes the table of motions.
 
-use super::Query;
+use super::Motions;
 use crate::table::columns::{DURATION, Form, ID, Quantity, Side};
 use ccd_core::Motion;
 use std::io;
 
-/// Writes queries as start poses and velocities; columns with their default in every row are omitted.
+/// Writes motions as start poses and velocities; columns with their default in every row are omitted.
 ///
 /// Numbers read back to the same bits, orientations up to rounding.
 ///
 /// # Errors
 /// `output` cannot be written to.
-pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error> {
+pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Error> {
     let names = Form::Motions.names();
-    let defaults = cells(&Query {
+    let defaults = cells(&Motions {
         id: String::new(),
         a: Motion::still(ccd_core::Pose::IDENTITY),
         b: Motion::still(ccd_core::Pose::IDENTITY),
@@ -42,7 +42,7 @@ pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error
 }
 
 /// Returns a cell for every known column.
-fn cells(query: &Query) -> Vec<String> {
+fn cells(query: &Motions) -> Vec<String> {
     let mut cells = vec![String::new(); Form::Motions.names().len()];
     cells[ID].clone_from(&query.id);
     cells[DURATION] = query.duration.to_string();

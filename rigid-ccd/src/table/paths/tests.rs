@@ -18,7 +18,7 @@ fn paths(text: &str) -> Vec<Path> {
     .collect()
 }
 
-/// The row of the only error, and its message.
+/// Returns the row of the only error, and the message.
 fn only_problem(text: &str) -> (usize, String) {
     let rows = rows(text, Grouping::ById);
     let mut errors = rows.into_iter().filter_map(Result::err);
@@ -127,7 +127,8 @@ fn a_path_that_cannot_be_followed_is_an_error() {
     }
 }
 
-/// The centre moves straight, and the origin about it: half a turn about z, of a centre at (1, 0, 0).
+/// The centre moves in a straight line, and the origin turns about it: a half turn about z, with the centre at (1, 0,
+/// 0).
 #[test]
 fn a_path_has_a_centre_of_rotation() {
     let read = paths("t,a_px,a_qw,a_qx,a_qy,a_qz,a_cx,b_cy\n0,0,1,0,0,0,1,7\n2,2,0,0,0,1,1,7\n");
@@ -144,7 +145,7 @@ fn a_path_has_a_centre_of_rotation() {
     );
 }
 
-/// By 3.25 turns, three more than poses alone tell; the last velocity leads nowhere.
+/// Rotations of 3.25 turns, of which poses alone show 0.25; the last velocity has no effect.
 #[test]
 fn angular_velocities_give_whole_turns_to_the_next_row() {
     let spin = 3.25 * std::f64::consts::TAU / 2.0;
@@ -186,7 +187,7 @@ fn columns_of_motions_are_no_columns_of_paths() {
     assert!(message("id,t,a_pX\n").ends_with("did you mean `a_px`?"));
 }
 
-/// The same digits in other cells are another path.
+/// The same digits in other cells give another checksum.
 #[test]
 fn checksums_tell_cells_apart() {
     let sum = |row: &str| {
@@ -221,7 +222,7 @@ fn checksums_are_of_the_paths_that_are_read() {
     assert_eq!(rows.skip_rows(5).unwrap(), 1);
 }
 
-/// The first row of the next path is read with a path, to see its id.
+/// Reading a path also reads the first row of the next one.
 #[test]
 fn bytes_are_those_up_to_the_last_path() {
     let text = "id,t\nx,0\nx,1\ny,0\ny,1\n";

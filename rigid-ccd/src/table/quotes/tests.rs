@@ -1,6 +1,6 @@
 use super::*;
 
-/// Returns the line of an unclosed quote in a text that is read in pieces of that size.
+/// Returns the line of an unclosed quote in a text, read in chunks of `size` bytes.
 fn unclosed_line(text: impl AsRef<[u8]>, size: usize) -> Option<u64> {
     let mut quotes = Quotes::new(text.as_ref());
     let mut piece = vec![0; size];

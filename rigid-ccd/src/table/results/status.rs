@@ -1,4 +1,4 @@
-//! What became of a row, in one word.
+//! The status of a row.
 
 use crate::batch::Question;
 use ccd_core::{Clearance, HitKind, Outcome};
@@ -61,7 +61,7 @@ impl Status {
         }
     }
 
-    /// Returns whether it proves that the bodies stay as far apart as was asked.
+    /// Returns whether the status proves that the bodies keep the required distance.
     pub fn is_proof(self) -> bool {
         match self {
             Status::Free | Status::Kept => true,

@@ -1,5 +1,5 @@
 use super::*;
-use crate::table::motions::Query;
+use crate::table::motions::Motions;
 use ccd_core::{Effort, Feature, Hit, Limit, Motion, Separation, Unresolved};
 
 fn answer(outcome: Outcome) -> Answer {
@@ -30,9 +30,9 @@ fn contact() -> Contact {
     }
 }
 
-/// A query of that duration.
+/// A query of the given duration.
 fn course(duration: f64) -> Course {
-    Course::Motions(Query {
+    Course::Motions(Motions {
         id: "a,b".into(),
         a: Motion::STILL,
         b: Motion::STILL,
@@ -40,7 +40,7 @@ fn course(duration: f64) -> Course {
     })
 }
 
-/// A table of one row.
+/// A table with one row.
 fn table(extent: Extent, row: &ResultRow) -> String {
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
@@ -50,12 +50,12 @@ fn table(extent: Extent, row: &ResultRow) -> String {
     String::from_utf8(writer.into_inner().unwrap()).unwrap()
 }
 
-/// The cells of a row as written, by column.
+/// The written cells of the row of an outcome, by column.
 fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
     cells_of((Question::FirstContact, outcome), None, Extent::default())
 }
 
-/// The cells of a row of any answer as written, by column.
+/// The written cells of the row of any answer, by column.
 fn cells_of(
     asked: (Question, Outcome),
     clearance: Option<f64>,
@@ -298,7 +298,7 @@ fn distances_are_compared_to_the_clearance() {
     }
 }
 
-/// Bodies that exceed their shapes: overlapping ones violate no clearance up to the excess, and the reason names it.
+/// Bodies that exceed their shapes: an overlap violates no clearance up to the excess, and the reason names the excess.
 #[test]
 fn what_bodies_exceed_their_shapes_by_is_told() {
     let overlapping = |overlap| Outcome::Overlapping {

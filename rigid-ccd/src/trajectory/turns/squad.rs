@@ -1,4 +1,4 @@
-//! A spherical quadrangle `[SHOEMAKE87]`, and bounds of its derivatives.
+//! A spherical quadrangle `[SHOEMAKE87]`, and bounds on its derivatives.
 //!
 //! With `p(u)` and `r(u)` at constant rates on the unit sphere of quaternions, and `h = 2u (1 − u)`, it is
 //! `σ = slerp(p, r, h) = E p + g d`, where `d = r − p`, `Ω` is the angle between `p` and `r`, and
@@ -27,13 +27,13 @@ use ccd_core::order::greater;
 use ccd_core::vector::length;
 use std::f64::consts::PI;
 
-/// Returns the inner orientation of the quadrangles that meet at the middle one of three.
+/// Returns the inner orientation at the middle one of three orientations.
 pub(super) fn inner(before: DQuat, at: DQuat, after: DQuat) -> DQuat {
     let log = |other: DQuat| logarithm(at.conjugate() * other);
     (at * exponential(-0.25 * (log(before) + log(after)))).normalize()
 }
 
-/// A quadrangle that is passed in a duration.
+/// A quadrangle with a duration.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Squad {
     p: Arc,
@@ -43,11 +43,11 @@ pub(super) struct Squad {
     acceleration: f64,
 }
 
-/// A turn at a constant rate along the body's axes, for u from 0 to 1.
+/// A rotation at a constant rate along the body's axes, for u from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 struct Arc {
     start: DQuat,
-    /// Per unit of u.
+    /// The angular velocity per unit of u.
     spin: DVec3,
 }
 
@@ -63,14 +63,14 @@ impl Arc {
         self.start * exponential(u * self.spin)
     }
 
-    /// The speed on the sphere of quaternions.
+    /// Returns the speed on the sphere of quaternions.
     fn speed(&self) -> f64 {
         0.5 * length(self.spin)
     }
 }
 
 impl Squad {
-    /// Creates the quadrangle from its ends and its inner orientations; none if they are too far apart.
+    /// Creates the quadrangle from its ends and its inner orientations; `None` if they are too far apart.
     pub(super) fn new(ends: [DQuat; 2], inner: [DQuat; 2], duration: f64) -> Option<Self> {
         let [p, r] = [Arc::new(ends), Arc::new(inner)];
         let apart = |u: f64| {
@@ -103,7 +103,7 @@ impl Squad {
         self.acceleration
     }
 
-    /// The orientation after a time, and the angular velocity along the world's axes.
+    /// Returns the orientation after a time, and the angular velocity along the world's axes.
     pub(super) fn at(&self, passed: f64) -> (DQuat, DVec3) {
         let u = passed / self.duration;
         let (h, rate) = (2.0 * u * (1.0 - u), 2.0 - 4.0 * u);
@@ -121,11 +121,10 @@ impl Squad {
     }
 }
 
-/// The number of steps in which the distance of both arcs is measured.
+/// The number of samples of the distance between both arcs.
 const LOOKS: u32 = 16;
 
-/// Bounds the angular speed and acceleration per unit of u, for arcs that are at most `d` apart and have these
-/// speeds.
+/// Bounds the angular speed and acceleration per unit of u, for arcs with these speeds that are at most `d` apart.
 fn bounds(d: f64, [p1, r1]: [f64; 2]) -> [f64; 2] {
     let z = 0.25 * d * d;
     let x = z.sqrt().asin();
@@ -170,7 +169,7 @@ fn bounds(d: f64, [p1, r1]: [f64; 2]) -> [f64; 2] {
     [speed, acceleration].map(|bound| 2.0 * (1.0 + 1e-9) * bound)
 }
 
-/// Bounds of the partial derivatives of a function of h and z.
+/// Bounds on the partial derivatives of a function of h and z.
 struct Function {
     h: f64,
     z: f64,
@@ -193,7 +192,7 @@ impl Function {
     }
 }
 
-/// The rotation vector of a unit quaternion, the shortest way.
+/// Returns the shortest rotation vector of a unit quaternion.
 pub(super) fn logarithm(q: DQuat) -> DVec3 {
     let q = if q.w < 0.0 { -q } else { q };
     let sine = q.xyz().length();
@@ -208,7 +207,7 @@ fn exponential(turn: DVec3) -> DQuat {
     DQuat::from_scaled_axis(turn)
 }
 
-/// Returns the angular velocity, along the body's axes, of the turn by a rotation vector that changes.
+/// Returns the angular velocity, along the body's axes, of a changing rotation vector.
 fn jacobian(turn: DVec3, change: DVec3) -> DVec3 {
     let angle = turn.length();
     // The first terms of both series; the next ones are below rounding.
@@ -225,7 +224,7 @@ fn jacobian(turn: DVec3, change: DVec3) -> DVec3 {
     change - first * turn.cross(change) + second * turn.cross(turn.cross(change))
 }
 
-/// Undoes [`jacobian`].
+/// The inverse of [`jacobian`].
 fn inverse_jacobian(turn: DVec3, spin: DVec3) -> DVec3 {
     let angle = turn.length();
     let second = if angle < 1e-4 {

@@ -1,6 +1,6 @@
 //! Draws random inputs.
 
-use crate::course::RawPose;
+use crate::raw_motion::RawPose;
 use crate::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;

@@ -12,14 +12,14 @@ mod shells;
 mod turns;
 
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::{RawMotion, RawPose};
 use ccd_core::Settings;
 use clap::ValueEnum;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Family {
-    /// Needles and slivers, components down to denormal, faces of no area.
+    /// Needles and slivers, denormal components, faces without area.
     Needles,
     /// End poses and centres of rotation far from the origin, and tight tolerances.
     Far,
@@ -29,7 +29,7 @@ pub enum Family {
     Margins,
     /// Every small budget.
     Budget,
-    /// Bodies in contact at the start that are released.
+    /// Bodies in contact at the start that are released under `StartPolicy::Leave`.
     Leave,
     /// Turns of up to a thousand radians.
     Turns,
@@ -58,8 +58,8 @@ impl Family {
     }
 }
 
-/// Returns a case of two shapes that pass each other half-way, or meet: their centres come within
-/// about the sum of their radii. Both move, and turn by up to `turn` over a duration of 1.
+/// Returns a case of two shapes that pass each other halfway, or meet: their centres come within about the sum of their
+/// radii. Both move, and turn by up to `turn` over a duration of 1.
 fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
     let (way, aside) = (draw.direction(), draw.point());
@@ -71,7 +71,7 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Cas
     let course = |draw: &mut Draw, side: f64, at: [f64; 3]| {
         let start = draw.pose(plus(times(half, -side), at));
         let moved = plus(times(half, 2.0 * side), common);
-        Course::velocities(start, moved, spin(draw))
+        RawMotion::velocities(start, moved, spin(draw))
     };
     let courses = [course(draw, 1.0, miss), course(draw, -1.0, [0.0; 3])];
     Case {
@@ -84,8 +84,8 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Cas
 }
 
 /// Returns a body at rest at the origin.
-fn still() -> Course {
-    Course::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
+fn still() -> RawMotion {
+    RawMotion::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
 fn tolerance(draw: &mut Draw) -> Settings {

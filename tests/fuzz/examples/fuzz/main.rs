@@ -21,7 +21,7 @@ mod tally;
 mod trial;
 
 use ccd_fuzz::targets::encode;
-use ccd_fuzz::{case, course, engine, judge, vector};
+use ccd_fuzz::{case, engine, judge, raw_motion, vector};
 use clap::{Parser, ValueEnum};
 use families::Family;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -128,7 +128,7 @@ fn run(family: Family, args: &Args) -> bool {
     tally.failed()
 }
 
-/// Writes the query of a trial as a seed of the fuzz target `query`, asked of a method that goes with its number.
+/// Writes the query of a trial as a seed of the fuzz target `query`, with a method chosen by its number.
 fn write_seed(folder: &Path, family: Family, number: u64, trial: &Trial) -> io::Result<()> {
     match encode(&trial.case, (number % 15) as u8) {
         Some(bytes) => fs::write(

@@ -1,4 +1,4 @@
-//! Meshes made by code, around the origin and about 1 in size.
+//! Generated meshes around the origin, of size about 1.
 
 use crate::case::{Form, Shape};
 use crate::draw::{Draw, times};
@@ -65,7 +65,7 @@ pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
     shape(vertices, faces, Form::Solid)
 }
 
-/// Returns corners around an axis and two poles: convex, or a star.
+/// Returns a bipyramid: corners around an axis and two poles, convex or star-shaped.
 pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
     let mut vertices = vec![
         [0.0, 0.0, draw.within(0.2..1.0)],
@@ -87,7 +87,7 @@ pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
     shape(vertices, faces, form)
 }
 
-/// Returns the hull of points on a stretched sphere, facet by facet as points are added.
+/// Returns the hull of points on a stretched sphere, built facet by facet.
 pub fn hull(draw: &mut Draw, count: usize) -> Shape {
     let stretch = [(); 3].map(|()| draw.log(0.2..1.0));
     let point = |draw: &mut Draw| {
@@ -116,7 +116,7 @@ pub fn hull(draw: &mut Draw, count: usize) -> Shape {
     shape(vertices, faces, Form::Points)
 }
 
-/// Returns any of the above shapes, of up to about 30 triangles.
+/// Returns any of the above shapes, with up to about 30 triangles.
 pub fn any(draw: &mut Draw) -> Shape {
     match draw.count(0..7) {
         0 | 1 => {

@@ -1,4 +1,4 @@
-//! One query of a family: drawn, and answered by several methods, under a watch.
+//! One query of a family: drawn, and answered by several methods, with a time limit.
 
 use crate::case::{Case, Form};
 use crate::draw::Draw;
@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
-/// The time after which a query is called a hang.
+/// The time after which a query counts as a hang.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 pub fn run(family: Family, seed: u64, number: u64, watch: &Watch) -> Trial {
@@ -55,7 +55,7 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     asked
 }
 
-/// Returns the text of a failure, with the command that runs its query again.
+/// Returns the text of a failure, with the command that repeats its query.
 pub fn report(failure: &Failure, family: Family, seed: u64, number: u64, case: &Case) -> String {
     let name = format!("{family:?}").to_lowercase();
     let command = format!("fuzz --family {name} --seed {seed} --only {number}");

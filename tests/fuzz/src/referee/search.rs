@@ -1,9 +1,9 @@
 //! Conservative advancement over all pairs of triangles, in f64, judged in [`Double`].
 
 use super::{Ball, Evidence, Limit, NOISE, Scene};
-use crate::course::Snapshot;
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
+use crate::raw_motion::Snapshot;
 use crate::vector::{Number, larger, smaller};
 
 /// The largest number of steps of one pair, and of all pairs, before the rest is sampled.
@@ -22,7 +22,7 @@ pub(super) struct Search<'a> {
     proven: bool,
 }
 
-/// A gap, its closing rate, and a bound of the change of the rate.
+/// A gap, its closing rate, and a bound on the change of the rate.
 struct Near {
     gap: f64,
     rate: f64,
@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns a time after `begin` until which the bodies are well apart, all pairs taken together.
+    /// Returns a time after `begin` until which the bodies are well apart, for all pairs together.
     fn together(&self, begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
@@ -158,7 +158,7 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// Returns the gap of two balls above the threshold, its closing rate, and a bound of its change.
+    /// Returns the gap of two balls above the threshold, its closing rate, and a bound on the change of the rate.
     fn near(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> Near {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;
@@ -201,7 +201,7 @@ impl<'a> Search<'a> {
         ]
     }
 
-    /// Checks whether the pair really is below the threshold. If so, nothing later is of interest.
+    /// Checks in [`Double`] whether the pair is below the threshold. If so, nothing later is of interest.
     fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());

@@ -8,7 +8,7 @@ use ccd_decomp::Model;
 /// The budget of each query.
 const BUDGET: u64 = 4000;
 
-/// Checks that a model that is stored reads back to the same bytes.
+/// Checks that a stored model reads back to the same bytes.
 pub(super) fn stored_and_read(model: &Model) {
     let bytes = stored(model);
     let again = Model::read(&bytes[..]).expect("a model that was stored");
@@ -27,7 +27,7 @@ pub(super) fn stored(model: &Model) -> Vec<u8> {
     bytes
 }
 
-/// Asks all methods about a ball that flies past the body, and checks that no answer excludes another.
+/// Runs all methods on a ball that flies past the body, and checks that no two answers contradict each other.
 pub(super) fn queries_agree(body: &Body) {
     let points = body.pieces().points();
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
@@ -83,8 +83,8 @@ fn agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
     }
 }
 
-/// Returns whether the first answer proves that the second is false: a contact well within the tolerance
-/// at a time before which nothing is said to touch.
+/// Returns whether the first answer proves that the second is false: a contact well within the tolerance at a time
+/// before which there is none.
 fn excludes(free: &Answer, contact: &Answer) -> bool {
     let safe_until = match free.outcome {
         Outcome::Contact { time, .. } => time,

@@ -1,4 +1,4 @@
-//! Mesh files: bytes to polygons, triangles, pieces and bodies.
+//! Mesh files: from bytes to polygons, triangles, pieces and bodies.
 
 use super::bodies;
 use crate::memory;
@@ -6,22 +6,22 @@ use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_ob
 use rawzip::ZipArchiveWriter;
 use std::io::Write;
 
-/// The most bytes of a file that is tried. Faults of readers need few, and short files are read fast.
+/// The maximum size of a file, in bytes. Faults of readers need few, and short files are read fast.
 const MOST_BYTES: usize = 1 << 14;
 
-/// The memory that a reader may take, and some for each byte of the file.
+/// The memory limit of a reader, besides some for each byte of the file.
 const MEMORY: usize = 1 << 20;
 const MEMORY_PER_BYTE: usize = 1 << 10;
-/// The memory that a reader of a scene may take: a few bytes may name the same mesh many times.
+/// The memory limit of a reader of scenes, in which a few bytes may use the same mesh many times.
 const MEMORY_OF_SCENES: usize = 1 << 28;
-/// The memory that bodies may take: approximate hulls are made of up to two million voxels.
+/// The memory limit of bodies: approximate hulls use up to two million voxels.
 const MEMORY_OF_BODIES: usize = 1 << 28;
 
-/// The most triangles that are made into patches and hulls of all kinds. `Auto` has a budget of its own.
+/// The maximum number of triangles for patches and hulls of all kinds. `Auto` has a budget of its own.
 const MOST_TRIANGLES: usize = 48;
-/// The most triangles that are made into bodies at all: scenes of few bytes may have many.
+/// The maximum number of triangles for any bodies: scenes of few bytes may have many.
 const MOST_OF_SCENES: usize = 1 << 11;
-/// Approximate hulls take a hundred times as long as all else, and are made of one file in so many.
+/// Approximate hulls are made of one file in this many, because they take a hundred times as long as the rest.
 const APPROXIMATED: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {
@@ -36,7 +36,7 @@ pub(super) fn scene(format: Format, bytes: &[u8]) {
     }
 }
 
-/// Reads a model of a 3MF: the bytes are a package or, in one that is made about them, the model.
+/// Reads a 3MF model: the bytes are a package, or else the model in a generated package.
 pub(super) fn packed(bytes: &[u8]) {
     scene(Format::ThreeMf, bytes);
     scene(Format::ThreeMf, &package(bytes));
@@ -64,7 +64,7 @@ fn read(format: Format, bytes: &[u8], memory: usize) {
     }
 }
 
-/// Checks that the parts of a file, put together, are the file.
+/// Checks that the parts of a file, put together, are the whole file.
 fn parts(format: Format, bytes: &[u8]) {
     let read = || MeshFile::from_reader(format, bytes);
     let (Ok(file), Ok(again), Ok(third)) = (read(), read(), read()) else {
@@ -86,7 +86,7 @@ fn parts(format: Format, bytes: &[u8]) {
     }
 }
 
-/// A package of one model, not compressed.
+/// Returns an uncompressed package of one model.
 fn package(model: &[u8]) -> Vec<u8> {
     let pack = || {
         let mut bytes = Vec::new();
@@ -119,7 +119,7 @@ fn check(mesh: &TriangleMesh) {
     reads_back(mesh);
 }
 
-/// Checks that a mesh that is written reads back to the same bits.
+/// Checks that a written mesh reads back to the same bits.
 fn reads_back(mesh: &TriangleMesh) {
     let mut obj = Vec::new();
     write_obj(mesh, &mut obj).expect("memory takes all bytes");

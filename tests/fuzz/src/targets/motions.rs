@@ -1,13 +1,13 @@
 //! Tables of motions.
 
 use crate::memory;
-use rigid_ccd::table::motions::{MotionRows, MotionTable, Query, RowPosition, write};
+use rigid_ccd::table::motions::{MotionRows, MotionTable, Motions, RowPosition, write};
 use std::io::{self, Read};
 
-/// The most bytes that are tried.
+/// The maximum size of the input, in bytes.
 const MOST_BYTES: usize = 1 << 14;
 
-/// The memory that is allowed, and some for each byte: a row of one byte is a whole query.
+/// The memory limit, besides some for each byte: a row of one byte is a whole query.
 const MEMORY: usize = 1 << 24;
 const MEMORY_PER_BYTE: usize = 1 << 11;
 
@@ -26,14 +26,14 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Runs a check of a table of few bytes, in limited memory.
+/// Runs a check of a small table with limited memory.
 pub(super) fn within_limits(bytes: &[u8], check: impl FnOnce()) {
     if bytes.len() <= MOST_BYTES {
         memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);
     }
 }
 
-/// A reader that hands out one byte at a time.
+/// A reader that returns one byte at a time.
 pub(super) struct Dripping<'a>(pub(super) &'a [u8]);
 
 impl Read for Dripping<'_> {
@@ -66,7 +66,7 @@ fn check(bytes: &[u8], table: &MotionTable) {
     written(table);
 }
 
-/// Checks that skipped rows change nothing of those after them.
+/// Checks that skipped rows do not affect the rows after them.
 fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
     let half = rows / 2;
     let mut rest = MotionRows::new(bytes).expect("a header that was read");
@@ -76,9 +76,9 @@ fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
     assert!(rest.iter().eq(expected.into_iter()));
 }
 
-/// Checks that rows that are written read back to the same numbers, orientations up to rounding.
+/// Checks that written rows read back to the same numbers, orientations up to rounding.
 fn written(table: &MotionTable) {
-    let queries: Vec<Query> = table.rows.iter().map(|(_, query)| query.clone()).collect();
+    let queries: Vec<Motions> = table.rows.iter().map(|(_, query)| query.clone()).collect();
     let mut bytes = Vec::new();
     write(&mut bytes, &queries).expect("memory takes all bytes");
     let again = MotionTable::read(&bytes[..]).expect("a table that was written");
@@ -93,8 +93,8 @@ fn written(table: &MotionTable) {
     }
 }
 
-/// The parts of a query that are written without loss.
-fn exact(query: &Query) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
+/// Returns the parts of a row that are written without loss.
+fn exact(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
     let numbers = [query.a, query.b].map(|motion| {
         [
             motion.start().translation(),

@@ -18,7 +18,7 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Checks that a table is the same at once, byte by byte, and after rows that are skipped.
+/// Checks that a table is the same when read at once, byte by byte, and after skipped rows.
 fn check(bytes: &[u8], grouping: Grouping) {
     let (whole, slow) = (read(bytes, grouping), read(Dripping(bytes), grouping));
     match (whole, slow) {
@@ -55,7 +55,7 @@ fn check_row(row: &CourseRow) {
     }
 }
 
-/// Checks that skipped rows change nothing of those after them, but what they are called without an id.
+/// Checks that skipped rows do not affect the rows after them, except the default ids.
 fn skipped(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
     let half = rows.len() / 2;
     let mut rest = Courses::new(bytes, grouping).expect("a header that was read");

@@ -10,11 +10,11 @@ use crate::trial::ask;
 use ccd_core::{ContactsError, Instructions, Outcome, Settings};
 pub use encode::encode;
 
-/// A query, and whom to ask.
+/// A query and the methods that answer it.
 struct Question {
     case: Case,
     asked: Vec<(Kind, Method)>,
-    /// Asks for more than answers: equal bits, and the features in contact.
+    /// Whether to check equal bits and the features in contact as well.
     more: bool,
 }
 

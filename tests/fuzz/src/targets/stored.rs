@@ -1,18 +1,19 @@
-//! Stored bodies: a `.ccd` file whose frame is mended, so that changed payloads get past its checksum.
+//! Stored bodies: a `.ccd` file with a repaired frame, so that changed payloads pass the checksum.
 
 use super::bodies;
 use crate::memory;
 use ccd_decomp::{Detail, Format, Model, TriangleMesh, prepare};
 use std::sync::LazyLock;
 
-/// The most bytes that are tried.
+/// The maximum size of the input, in bytes.
 const MOST_BYTES: usize = 1 << 14;
 
-/// The memory that is allowed: see the readers of meshes.
+/// The memory limit, as for the readers of meshes.
 const MEMORY: usize = 1 << 25;
 const MEMORY_PER_BYTE: usize = 1 << 10;
 
-/// The parts of the frame: a magic number and a version, the length of the payload, and its checksum.
+/// The length of the frame's first part, a magic number and a version; the length of the payload and its checksum
+/// follow.
 const START: usize = 12;
 const LENGTH: usize = 8;
 const CHECKSUM: usize = 4;
@@ -36,7 +37,7 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Returns the file with the head, the length and the checksum that belong to its payload.
+/// Returns the file with the right head, length and checksum for its payload.
 fn mended(bytes: &[u8]) -> Vec<u8> {
     let end = bytes.len().saturating_sub(CHECKSUM);
     let payload = bytes.get(START + LENGTH..end).unwrap_or_default();

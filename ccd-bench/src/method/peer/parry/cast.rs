@@ -23,7 +23,7 @@ use super::shapes::{rigid_motion, tri_mesh};
 use crate::method::peer::{PeerError, contact_at};
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 /// Two meshes to cast. It does not report steps.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ impl Cast {
 }
 
 impl Solver for Cast {
-    fn answer(&mut self, query: &Query) -> Reply {
+    fn answer(&mut self, query: &Motions) -> Reply {
         // `true`: bodies that penetrate at the start are reported at once.
         let hit = cast_shapes_nonlinear(
             &rigid_motion(&query.a),

@@ -8,7 +8,7 @@ use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
 
-/// Returns the same triangles in the same order.
+/// Converts a mesh, with the same triangles in the same order.
 pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, PeerError> {
     let vertices = mesh.vertices().iter().map(|&v| vector(v)).collect();
     TriMesh::new(vertices, mesh.faces().to_vec()).map_err(|error| PeerError {
@@ -16,7 +16,7 @@ pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, PeerError> {
     })
 }
 
-/// Returns the same motion: each body turns about a centre that moves straight, both at constant rates.
+/// Converts a motion exactly: the body rotates about a centre that moves straight, both at constant rates.
 pub fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose(motion, 0.0),

@@ -7,7 +7,7 @@
 //! its status is `Hit` or `Failed`, as in the library and in the physics engine on top of it.
 //!
 //! Its sweeps interpolate two quaternions by a normalised mix, the shorter way, which does not turn
-//! at a constant rate. A motion is therefore cut into stretches of equal length. A stretch is short
+//! at a constant rate. A motion is therefore cut into segments of equal length. A segment is short
 //! enough for the mix to stay within a quarter of the tolerance of the motion, and for no body to
 //! travel far beyond the size of the smaller one, which keeps swept boxes small. Unlike in the
 //! library's own composition, boxes are widened by the bulge of the arcs.
@@ -31,10 +31,10 @@ use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::f64::consts::FRAC_PI_4;
 
-/// Two meshes to sweep. Steps are the stretches examined.
+/// Two meshes to sweep. Steps are the segments examined.
 #[derive(Clone, Debug)]
 pub struct SweptPairs {
     a: Swept,
@@ -42,16 +42,16 @@ pub struct SweptPairs {
     tolerance: f64,
 }
 
-/// A hit is reported at up to this multiple of the library's `linear_slop`.
+/// The largest distance at which a hit is reported, as a multiple of the library's `linear_slop`.
 const SLOPS_AT_HIT: f64 = 1.25;
-/// The largest error of a stretch's turn, as a fraction of the tolerance.
+/// The largest error due to rotation within a segment, as a fraction of the tolerance.
 const SHARE_OF_TURN: f64 = 0.25;
-/// The largest turn, in radians, for which the library calls its sweeps a good approximation.
+/// The largest rotation, in radians, for which the library's documentation calls its sweeps a good approximation.
 const LARGEST_TURN: f64 = FRAC_PI_4;
-/// The largest travel of the bodies in a stretch, as a multiple of the smaller one's radius.
+/// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
 const LONGEST_TRAVEL: f64 = 0.5;
-/// Motions of more stretches are refused.
-const MOST_STRETCHES: f64 = 65_536.0;
+/// The maximum number of segments; longer motions are refused.
+const MOST_SEGMENTS: f64 = 65_536.0;
 
 impl SweptPairs {
     /// Prepares two meshes.
@@ -66,8 +66,8 @@ impl SweptPairs {
         })
     }
 
-    /// Returns the number of stretches of a query, or `None` if there are too many.
-    fn stretches(&self, query: &Query) -> Option<u64> {
+    /// Returns the number of segments of a query, or `None` if there are too many.
+    fn segments(&self, query: &Motions) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
@@ -77,10 +77,10 @@ impl SweptPairs {
         let travel =
             speed * query.duration / (LONGEST_TRAVEL * lesser(self.a.radius, self.b.radius));
         let count = greater(1.0, turns.into_iter().fold(travel, greater).ceil());
-        (count <= MOST_STRETCHES).then_some(count as u64)
+        (count <= MOST_SEGMENTS).then_some(count as u64)
     }
 
-    /// Returns the largest turn of a body in a stretch.
+    /// Returns the largest rotation of a body in a segment.
     fn turn_within(&self, reach: f64) -> f64 {
         // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
         // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
@@ -88,10 +88,10 @@ impl SweptPairs {
         lesser(LARGEST_TURN, 4.0 * off.cbrt())
     }
 
-    /// Returns the time in a stretch at which triangles first meet, as a fraction of it.
-    fn first_hit(&self, query: &Query, from: f64, to: f64) -> Option<Real> {
-        let a = self.a.stretch(&query.a, from, to);
-        let b = self.b.stretch(&query.b, from, to);
+    /// Returns the time in a segment at which triangles first meet, as a fraction of it.
+    fn first_hit(&self, query: &Motions, from: f64, to: f64) -> Option<Real> {
+        let a = self.a.segment(&query.a, from, to);
+        let b = self.b.segment(&query.b, from, to);
         // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
@@ -127,8 +127,8 @@ impl SweptPairs {
 }
 
 impl Solver for SweptPairs {
-    fn answer(&mut self, query: &Query) -> Reply {
-        let Some(count) = self.stretches(query) else {
+    fn answer(&mut self, query: &Motions) -> Reply {
+        let Some(count) = self.segments(query) else {
             let claim = Claim::Unresolved { safe_until: 0.0 };
             return Reply::new(claim, 0);
         };
@@ -154,11 +154,11 @@ struct Swept {
     radius: f64,
 }
 
-/// The motion of a body over a stretch.
-struct Stretch {
+/// The motion of a body over a segment.
+struct Segment {
     poses: [Pose; 2],
     sweep: Sweep,
-    /// The largest distance of its points from the straight line between start and end.
+    /// The largest distance of the body's points from the straight line between start and end.
     bulge: Real,
 }
 
@@ -177,16 +177,16 @@ impl Swept {
         })
     }
 
-    /// Returns a bound of the distance of all points from the centre of the motion.
+    /// Returns a bound on the distance of all points from the centre of the motion.
     fn reach(&self, motion: &Motion) -> f64 {
         let [low, high] = self.corners.map(|c| (c - motion.centre()).abs());
         low.max(high).length()
     }
 
-    fn stretch(&self, motion: &Motion, from: f64, to: f64) -> Stretch {
+    fn segment(&self, motion: &Motion, from: f64, to: f64) -> Segment {
         let poses = [pose(motion, from), pose(motion, to)];
         let turn = motion.spin().length() * (to - from);
-        Stretch {
+        Segment {
             sweep: Sweep::from_poses(&poses[0], &poses[1], vector(motion.centre())),
             poses,
             // Half of the bound of the second derivative, ρ θ²/8, is for a constant rate. The mix
@@ -201,7 +201,7 @@ impl Swept {
     }
 }
 
-/// Returns the box around a box at the start and at the end.
+/// Returns the box that contains a box at the start and at the end.
 fn boxed(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))

@@ -1,21 +1,21 @@
 //! Bounds the closing speed of nodes of two moving bodies along a direction.
 
 use crate::method::rival::swept_spheres::{Gap, Pair, SphereTree, Trees};
-use crate::method::rival::{Course, Placement};
+use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
-/// Both motions of a query as seen from body A at one time, and bounds of the speeds of nodes.
+/// Both motions of a query in the frame of body A at one time, with bounds on the speeds of nodes.
 #[derive(Clone, Debug)]
 pub(super) struct Closing {
     a: Spin,
     b: Spin,
     /// The velocity of A's centre relative to B's, in the world.
     velocity_w: DVec3,
-    /// The same velocity as seen from A.
+    /// The same velocity in A's frame.
     velocity: DVec3,
     /// B's axis in the world.
     axis_b_w: DVec3,
-    /// The same axis as seen from A.
+    /// The same axis in A's frame.
     axis_b: DVec3,
 }
 
@@ -26,7 +26,7 @@ struct Spin {
     /// The axis in the body's frame, where it is fixed.
     axis: DVec3,
     rate: f64,
-    /// The lever of each node, with the number of the motion that it was computed for.
+    /// The lever of each node, with the number of the motion for which it was computed.
     levers: Vec<(u64, f64)>,
     motion: u64,
 }
@@ -44,7 +44,7 @@ impl Closing {
     }
 
     /// Sets the motions of a query.
-    pub(super) fn begin(&mut self, a: &Course, b: &Course) {
+    pub(super) fn begin(&mut self, a: &RivalMotion, b: &RivalMotion) {
         self.a.begin(a);
         self.b.begin(b);
         self.velocity_w = a.velocity - b.velocity;
@@ -58,8 +58,8 @@ impl Closing {
         self.axis_b = to_a * self.axis_b_w;
     }
 
-    /// Returns a time during which two nodes, or triangles in them, do not touch. It is the time to
-    /// close their gap along its direction, which is fixed, at the speed
+    /// Returns a time during which two nodes, or triangles in them, do not touch. It is the time to close their gap
+    /// along its direction, which is fixed, at the speed
     ///
     /// `v·n + |n × ω_A| l_A + |n × ω_B| l_B`
     ///
@@ -93,7 +93,7 @@ impl Spin {
         }
     }
 
-    fn begin(&mut self, course: &Course) {
+    fn begin(&mut self, course: &RivalMotion) {
         let axis = course.orientation.transpose() * course.axis;
         self.rate = course.rate;
         if self.motion == 0 || axis != self.axis || course.centre != self.centre {
@@ -103,8 +103,8 @@ impl Spin {
         }
     }
 
-    /// Returns a bound of the speed of a node's points along a direction, from its cross product
-    /// with the axis.
+    /// Returns a bound on the speed of a node's points along a direction, from the direction's cross product with the
+    /// axis.
     #[inline]
     fn speed(&mut self, tree: &SphereTree, node: u32, across: DVec3) -> f64 {
         if self.rate == 0.0 {

@@ -5,14 +5,14 @@ use crate::method::rival::interval::cross_sum;
 use crate::method::rival::obb_tree::Obb;
 use ccd_core::glam::{DMat3, DVec3};
 
-/// Added to the cosines between the axes of two boxes: their rounding. Without it the cross product
-/// of parallel axes would separate anything.
+/// A bound on the rounding of cosines between the axes of two boxes. Without it the cross product of parallel axes
+/// would separate anything.
 const COSINE_SLACK: f64 = 1e-14;
 
 /// The relation of two boxes over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
-    /// They do not meet.
+    /// The boxes do not meet.
     Apart,
     /// No axis separates them over the whole interval.
     Near {

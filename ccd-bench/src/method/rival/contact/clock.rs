@@ -1,4 +1,4 @@
-//! Halves time, and encloses the motion over each of the intervals.
+//! Halves time, and encloses the motion over each interval.
 
 use super::relative::{Enclosure, Relative, Span};
 
@@ -9,24 +9,24 @@ pub(super) const MAX_LEVEL: usize = 52;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slice {
     pub(super) span: Span,
-    /// The number of halvings that led to it.
+    /// The number of halvings that led to the interval.
     pub(super) level: usize,
 }
 
-/// Keeps the last enclosure of every level, since the search stays within one interval for many pairs.
+/// A cache of the last enclosure at every level, because the search stays within one interval for many pairs.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     relative: Relative,
     resolution: f64,
     most_halvings: u64,
-    placements: Vec<Kept>,
-    rates: Vec<Kept>,
+    placements: Vec<CachedEnclosure>,
+    rates: Vec<CachedEnclosure>,
     /// The number of halvings so far.
     pub(super) halvings: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct CachedEnclosure {
     span: Span,
     enclosure: Enclosure,
 }
@@ -52,9 +52,9 @@ impl Slice {
 }
 
 impl Clock {
-    /// Starts the clock of a motion, with the width and the number at which halving ends.
+    /// Creates the clock of a motion, with the width and the number at which halving ends.
     pub(super) fn new(relative: Relative, resolution: f64, most_halvings: u64) -> Self {
-        let nothing = Kept {
+        let nothing = CachedEnclosure {
             span: Span {
                 start: f64::NAN,
                 end: f64::NAN,

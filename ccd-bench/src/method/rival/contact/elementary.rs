@@ -10,7 +10,7 @@ use ccd_core::order::{greater, lesser};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     corners: [DVec3; 3],
-    /// Edge k leads from corner k to the next.
+    /// The edge vectors: edge k leads from corner k to the next.
     edges: [DVec3; 3],
     normal: DVec3,
     /// Vectors in the plane, away from edge k towards the third corner.
@@ -20,11 +20,11 @@ pub(super) struct Facet {
 /// One elementary test of a pair of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Test {
-    /// A corner of the first against the second's face.
+    /// A corner of the first triangle against the second's face.
     CornerFace(usize),
     /// The first's face against a corner of the second.
     FaceCorner(usize),
-    /// An edge of each.
+    /// An edge of each triangle.
     EdgeEdge(usize, usize),
 }
 

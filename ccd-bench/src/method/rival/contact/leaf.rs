@@ -8,9 +8,9 @@ use ccd_core::order::{greater, lesser};
 /// The result for two triangles over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Touch {
-    /// They touch at this time, and not before.
+    /// The triangles touch at this time, and not before.
     At(f64),
-    /// They do not touch.
+    /// The triangles do not touch.
     Never,
     /// The work limit was reached.
     Unknown,
@@ -74,7 +74,7 @@ fn earlier(first: Touch, time: f64) -> Touch {
 enum Root {
     None,
     At(f64),
-    /// There may be any number of roots.
+    /// There may be several roots.
     Several,
 }
 

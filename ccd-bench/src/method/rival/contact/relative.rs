@@ -1,10 +1,10 @@
-//! The motion of one body as seen from the other: at a time, and enclosed over an interval of time.
+//! The relative motion of two bodies: at a time, and enclosed over an interval of time.
 
 use crate::method::rival::interval::{Arc, Interval, IntervalMat, IntervalVec};
-use crate::method::rival::{Course, Placement};
+use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
-/// The motion of the first body as seen from the second, both about their reference points.
+/// The motion of the first body in the frame of the second, both about their reference points.
 ///
 /// For a point `x` of the first body relative to its reference point, `rotation(t) x + offset(t)`
 /// is the same point relative to the reference point of the second body, along that body's axes.
@@ -28,8 +28,8 @@ struct BodyMotion {
     lever: DVec3,
 }
 
-/// An enclosure of all placements of one body as seen from another over an interval of time, or of
-/// their rates of change.
+/// An enclosure of all placements of one body in the frame of another over an interval of time, or of their rates of
+/// change.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Enclosure {
     pub(super) rotation: IntervalMat,
@@ -55,7 +55,7 @@ impl Span {
 
 impl Relative {
     /// Combines two motions; the reference points are given in each body's frame.
-    pub(super) fn new(first: (&Course, DVec3), second: (&Course, DVec3)) -> Self {
+    pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
         // The axes are those of the second body at the start: a body that does not turn then needs
         // no rotation back.
         let axes = second.0.orientation.transpose();
@@ -123,7 +123,7 @@ impl Relative {
 }
 
 impl BodyMotion {
-    fn new(course: &Course, reference: DVec3, axes: DMat3) -> Self {
+    fn new(course: &RivalMotion, reference: DVec3, axes: DMat3) -> Self {
         let axis = axes * course.axis;
         let orientation = axes * course.orientation;
         let still = course.rate == 0.0;
@@ -148,8 +148,7 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the position of the reference point of a body that does not turn, without its
-    /// straight part.
+    /// Returns the position of the reference point of a body that does not rotate, without the linear motion.
     fn still_position(&self) -> DVec3 {
         self.from + self.fixed * self.lever
     }
@@ -214,7 +213,7 @@ fn swing(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
     }
 }
 
-/// Does the same as [`swing`] for vectors.
+/// Like [`swing`], for vectors.
 fn swing_vec(cos: DVec3, sin: DVec3, arc: Arc) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {

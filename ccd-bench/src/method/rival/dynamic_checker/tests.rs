@@ -6,7 +6,7 @@ use crate::method::solver::{Claim, Solver};
 use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
 #[test]
 fn exact_times_are_met() {
@@ -40,7 +40,7 @@ fn motions_beyond_numbers_are_given_up() {
     assert_eq!(reply.claim, Claim::Unresolved { safe_until: 0.0 });
 }
 
-/// A touch seen at a halving, which all parts before it are free of, up to rounding.
+/// The bodies touch at a halving time, and all earlier segments are free up to rounding.
 #[test]
 fn a_touch_at_a_halving_is_a_contact() {
     let cuboid = |x, y, z| Board {
@@ -51,7 +51,7 @@ fn a_touch_at_a_halving_is_a_contact() {
     for k in 0..20 {
         let world = DQuat::from_rotation_x(0.1 * f64::from(k)) * DQuat::from_rotation_y(0.7);
         let pose = |z: f64| Pose::new(world * (z * DVec3::Z), world).unwrap();
-        let query = Query {
+        let query = Motions {
             id: String::new(),
             a: Motion::new(pose(2.5), world * (-4.0 * DVec3::Z), DVec3::ZERO).unwrap(),
             b: Motion::still(pose(-1.0)),

@@ -6,16 +6,16 @@ use crate::method::rival::interval::cross_sum;
 use crate::method::rival::triangles_cross::triangles_cross;
 use ccd_core::glam::{DMat3, DVec3};
 
-/// Added to the cosines between the axes of two boxes, so that the cross product of parallel axes,
-/// which is mere rounding, separates nothing \[OBBTREE96 §5\].
+/// A bound on the rounding of cosines between the axes of two boxes, so that the cross product of parallel axes
+/// separates nothing \[OBBTREE96 §5\].
 const COSINE_SLACK: f64 = 1e-14;
 
 /// The result of the search for a common point of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::method::rival) enum Crossing {
-    /// They do.
+    /// The surfaces have a common point.
     Found,
-    /// They do not.
+    /// The surfaces have no common point.
     None,
 }
 
@@ -63,7 +63,7 @@ pub(in crate::method::rival) fn crossing(
     Crossing::None
 }
 
-/// Returns true if A's node is the one to open, since B's is a leaf or smaller.
+/// Returns true if A's node is to be opened, because B's is a leaf or smaller.
 fn other_is_smaller(other: Content, a: &Obb, b: &Obb) -> bool {
     matches!(other, Content::Triangle(_)) || a.half.max_element() > b.half.max_element()
 }

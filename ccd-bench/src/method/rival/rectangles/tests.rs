@@ -48,7 +48,7 @@ const HERE: Placement = Placement {
     translation: DVec3::ZERO,
 };
 
-/// Computes the distance another way: each rectangle as two triangles.
+/// Returns the distance computed with each rectangle as two triangles.
 fn by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let halves = |[p, q, r, s]: [DVec3; 4]| [[p, q, r], [q, r, s]];
     let mut least = f64::INFINITY;
@@ -60,8 +60,7 @@ fn by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     least
 }
 
-/// Computes the distance a third way: it sets each of the four coordinates of the two points in
-/// turn to where their distance is least, until nothing moves.
+/// Returns the distance computed by coordinate descent over the four coordinates of the two points.
 fn by_descent(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let axes = [
         DVec3::X,

@@ -3,7 +3,7 @@ use crate::method::rival::tests::samples::{cuboid, moving, query, still};
 use ccd_core::glam::{DQuat, DVec3};
 
 /// A cube of side 1 at height 3 falls by 4 onto a slab whose top is at height 0.
-fn fall() -> Query {
+fn fall() -> Motions {
     let a = moving(
         3.0 * DVec3::Z,
         DQuat::IDENTITY,

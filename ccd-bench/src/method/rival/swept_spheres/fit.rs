@@ -7,11 +7,10 @@ use ccd_core::glam::{DMat3, DVec2, DVec3};
 use ccd_core::order::greater;
 use std::ops::Range;
 
-/// A fraction of the coordinates by which radii grow, so that no rounding, here or in computations
-/// with the tree, leaves a point outside.
+/// The relative increase of radii, which covers the rounding here and in computations with the tree.
 const ROUNDING: f64 = 1e-14;
 
-/// Returns the tree over triangles, whose order becomes that of the leaves.
+/// Returns the tree over triangles, which are sorted into the order of the leaves.
 pub(super) fn tree(mut triangles: Vec<Triangle>) -> SphereTree {
     let mut tree = SphereTree {
         nodes: Vec::with_capacity(2 * triangles.len()),
@@ -64,7 +63,7 @@ impl SphereTree {
 
 /// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
 fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
-    /// The fraction of all triangles that is too few for one side.
+    /// The fraction of all triangles below which a side is too small.
     const LOPSIDED: f64 = 1.0 / 16.0;
 
     let part = &mut triangles[range.clone()];
@@ -82,8 +81,7 @@ fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     range.start + below
 }
 
-/// Returns a rectangle across the direction in which triangles are thinnest, and the radius that it
-/// needs \[PQP99 §3\].
+/// Returns a rectangle across the direction in which triangles are thinnest, and the required radius \[PQP99 §3\].
 fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     let (_, axes) = principal_axes(triangles.iter().flatten().copied());
     let to_axes = axes.transpose();
@@ -130,21 +128,21 @@ impl Stadium {
         greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
-    /// Extends each side, as a line, to reach a point.
+    /// Moves each side outwards, as a line, until a point is within the radius.
     fn reach_sides(&mut self, point: DVec3) {
         let reach = self.reach(point);
         self.low = self.low.min(point.truncate() + reach);
         self.high = self.high.max(point.truncate() - reach);
     }
 
-    /// Repairs sides that have passed each other: everything between them reaches all points.
+    /// Repairs sides that have passed each other: every position between them is valid.
     fn straighten(&mut self) {
         let middle = 0.5 * (self.low + self.high);
         self.low = self.low.min(middle);
         self.high = self.high.max(middle);
     }
 
-    /// Moves the corner nearest to a point outwards along its diagonal until it reaches the point.
+    /// Moves the corner nearest to a point outwards along its diagonal until the point is within the radius.
     fn reach_corner(&mut self, point: DVec3) {
         let flat = point.truncate();
         let side = DVec2::select(

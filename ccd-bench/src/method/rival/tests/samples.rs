@@ -7,9 +7,9 @@ use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 
-/// Draws random inputs.
+/// A source of random inputs.
 pub(in crate::method::rival) struct Samples(Pcg64);
 
 impl Samples {
@@ -21,7 +21,7 @@ impl Samples {
         self.0.random_range(low..high)
     }
 
-    /// Returns a vector in a cube.
+    /// Returns a random vector in a cube.
     pub(in crate::method::rival) fn vector(&mut self, half: f64) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.number(-half, half)))
     }
@@ -34,21 +34,21 @@ impl Samples {
         [(); 3].map(|()| self.vector(1.0))
     }
 
-    /// Returns a motion with a turn of up to `spin` about any centre.
+    /// Returns a random motion with an angular velocity of up to `spin` about any centre.
     pub(in crate::method::rival) fn motion(&mut self, speed: f64, spin: f64) -> Motion {
         let start = Pose::new(self.vector(2.0), self.rotation()).unwrap();
         let (velocity, spin) = (self.vector(speed), self.vector(spin));
         Motion::about(start, velocity, spin, self.vector(1.0)).unwrap()
     }
 
-    pub(in crate::method::rival) fn query(&mut self, speed: f64, spin: f64) -> Query {
+    pub(in crate::method::rival) fn query(&mut self, speed: f64, spin: f64) -> Motions {
         query(self.motion(speed, spin), self.motion(speed, spin))
     }
 }
 
 /// Returns a query of duration 1.
-pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Query {
-    Query {
+pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Motions {
+    Motions {
         id: String::new(),
         a,
         b,
@@ -74,8 +74,7 @@ pub(in crate::method::rival) fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
     Board { half_extents }.mesh().unwrap()
 }
 
-/// Returns the distance of two triangles that do not cross: the least over corners and triangles,
-/// and over edges.
+/// Returns the distance of two triangles that do not cross: the least over vertex-face and edge-edge pairs.
 pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 {
     let edge = |t: &[DVec3; 3], k: usize| [t[k], t[(k + 1) % 3]];
     let mut least = f64::INFINITY;
@@ -88,7 +87,7 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
     least
 }
 
-/// Returns the distance from a triangle's plane if the foot lies in the triangle.
+/// Returns the distance of a point from a triangle's plane, if its foot lies in the triangle.
 fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;

@@ -1,8 +1,8 @@
-//! The common trials of the rivals: scenes with exact answers, and shots checked by brute force.
+//! The tests that all rivals share: scenes with exact answers, and shots checked by brute force.
 
 use crate::method::rival::patience::Patience;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
-use crate::method::rival::{Course, Placement};
+use crate::method::rival::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Solver};
 use crate::scene::Shots;
 use crate::scene::model::Model;
@@ -10,7 +10,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
+use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, SQRT_2};
 
 /// Two bodies, their motions, and the first contact.
@@ -18,9 +18,9 @@ struct Exact {
     name: &'static str,
     a: TriangleMesh,
     b: TriangleMesh,
-    query: Query,
+    query: Motions,
     time: f64,
-    /// The closing speed at contact of the points that meet.
+    /// The closing speed at the contact point.
     closing_speed: f64,
 }
 
@@ -62,8 +62,8 @@ fn still(at: DVec3) -> Motion {
     Motion::still(Pose::at(at).unwrap())
 }
 
-fn query(a: Motion, b: Motion) -> Query {
-    Query {
+fn query(a: Motion, b: Motion) -> Motions {
+    Motions {
         id: String::new(),
         a,
         b,
@@ -75,7 +75,7 @@ fn query(a: Motion, b: Motion) -> Query {
 /// third half extent.
 const SLAB: DVec3 = DVec3::new(10.0, 10.0, 1.0);
 
-/// The position of that slab.
+/// The position of the slab, with its top at 0.
 const SUNK: DVec3 = DVec3::new(0.0, 0.0, -1.0);
 
 fn falling_boxes() -> Vec<Exact> {
@@ -160,7 +160,7 @@ fn turning_rods() -> Vec<Exact> {
     scenes
 }
 
-/// Returns a rod with an edge along z that meets an edge of a post; the rod turns.
+/// Returns a rotating rod with an edge along z that meets an edge of a post.
 fn rod_on_post() -> Exact {
     let (length, width, distance, at) = (2.0, 0.05_f64, 1.3, 1.0_f64);
     let near = DVec3::new(at.cos(), at.sin(), 0.0);
@@ -186,7 +186,7 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
     tolerance: f64,
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
 ) {
-    /// A fraction of the duration: the lateness allowed for rounding.
+    /// The allowed lateness due to rounding, as a fraction of the duration.
     const ROUNDING: f64 = 1e-12;
 
     for scene in falling_boxes().into_iter().chain(turning_rods()) {
@@ -210,7 +210,7 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
     }
 }
 
-/// The distances of two knots by all pairs of triangles.
+/// The distance of two knots over all pairs of triangles.
 struct BruteForce {
     triangles: Vec<Triangle>,
     balls: Vec<(DVec3, f64)>,
@@ -259,8 +259,7 @@ impl BruteForce {
 /// Asserts for shots of small knots that nothing touches until the reported time, and that the
 /// bodies are within the tolerance at that time.
 pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl Solver) {
-    /// A fraction of the duration: the spacing of samples is at most the time to close the
-    /// distance, or this.
+    /// The least spacing of samples, as a fraction of the duration; otherwise it is the time to close the distance.
     const SAMPLE: f64 = 5e-4;
 
     let shots = Shots {
@@ -276,7 +275,7 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
     let reach = corners.map(|p| p.length()).fold(0.0, greater);
     let (mut hits, mut free) = (0, 0);
     for query in shots.queries().unwrap() {
-        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+        let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let apart = |time: f64| brute_force.distance(&b.at(time).seen_from(&a.at(time)));
         let until = match rival.answer(&query).claim {
             Claim::Contact { time } => {
@@ -310,7 +309,7 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
     assert!(hits >= 20 && free >= 10, "{hits} hits, {free} free");
 }
 
-/// Asserts that a rival whose patience is short ends with a time, for either kind of patience.
+/// Asserts that a rival with a small work limit ends with a time, for either kind of limit.
 pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
     give: impl Fn(&mut C, Patience),
@@ -338,9 +337,8 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
     }
 }
 
-/// Returns two boxes that turn past each other without touching, so close that it takes many steps
-/// to decide.
-pub(in crate::method::rival) fn hovering() -> (TriangleMesh, TriangleMesh, Query) {
+/// Returns two boxes that rotate past each other without contact, so close that the decision takes many steps.
+pub(in crate::method::rival) fn hovering() -> (TriangleMesh, TriangleMesh, Motions) {
     // Its upright edges are at a distance of 1 from its axis.
     let turning = boxed(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(

@@ -8,7 +8,7 @@ fn random_vec(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Returns triangles with corners in the plane, on a grid, the same twice, or anywhere.
+/// Returns triangles with corners in the plane, on a grid, or anywhere, or twice the same triangle.
 fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     let kind = rng.random_range(0..5);
     let mut triangle = |shift: DVec3| {
@@ -28,8 +28,7 @@ fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     (a, b.map(|corner| corner + shift))
 }
 
-/// Returns the distance of a point from a triangle, by points of the triangle `1/steps` of an edge
-/// apart.
+/// Returns the distance of a point from a triangle, computed by points of the triangle `1/steps` of an edge apart.
 fn sampled(point: DVec3, [a, b, c]: &Triangle, steps: u32) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..=steps {

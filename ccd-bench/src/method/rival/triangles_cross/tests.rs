@@ -1,8 +1,7 @@
 use super::*;
 use crate::method::rival::tests::samples::Samples;
 
-/// Returns true if an edge of one triangle passes through the other, the condition for a crossing
-/// in general position.
+/// Returns true if an edge of one triangle passes through the other, which every crossing in general position has.
 fn pierced(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let pierces = |edge: [DVec3; 2], t: &[DVec3; 3]| {
         let normal = (t[1] - t[0]).cross(t[2] - t[0]);

@@ -94,7 +94,7 @@ fn columns_that_need_each_other_come_together() {
     assert!(MotionTable::read(&b"a_px,b_vy,a_wz,b_cx\n"[..]).is_ok());
 }
 
-/// A table of Euler angles that is read with other columns would be another motion.
+/// A table of Euler angles, read without these columns, would describe another motion.
 #[test]
 fn angles_are_pointed_to_quaternions() {
     for (column, columns) in [

@@ -29,7 +29,7 @@ fn a_byte_order_mark_is_ignored() {
     assert_eq!(only_query("\u{feff}id\nx\n").id, "x");
 }
 
-/// The rows before it are read, and those after it are not read as its cell.
+/// Rows before the unclosed cell are read; rows after it are not read as the cell's content.
 #[test]
 fn an_unclosed_quote_is_reported_where_it_opens() {
     for (text, rows, expected) in [
@@ -63,7 +63,7 @@ fn an_unclosed_quote_is_reported_where_it_opens() {
     ));
 }
 
-/// With many rows in the buffer after the current one.
+/// Closed quotes are legal, with many rows in the buffer after the current one.
 #[test]
 fn closed_quotes_are_legal() {
     let mut text = "id,a_px\n".to_owned();
@@ -75,7 +75,7 @@ fn closed_quotes_are_legal() {
     assert_eq!(table.rows[7].1.id, "7\n, \"x\"");
 }
 
-/// Whatever ends the lines: every row is message by the line that an editor shows it on.
+/// Messages give the line that an editor shows, for any kind of line end.
 #[test]
 fn lines_are_counted_as_editors_count_them() {
     let text = "\u{feff}\nid,a_px\n\nx1,x\n\n\n\"a\nb\",x\nx3,x\n  ,x\n\"c\n\n\",\"\n1\n\"\nlast,x";
@@ -97,7 +97,7 @@ fn lines_are_counted_as_editors_count_them() {
     }
 }
 
-/// One byte at a time, so that every pair of a return and a line feed is split.
+/// A reader of one byte at a time, which splits every pair of a return and a line feed.
 struct Drip<'a>(&'a [u8]);
 
 impl io::Read for Drip<'_> {
@@ -118,7 +118,7 @@ fn lines_split_anywhere_are_the_same_lines() {
     assert_eq!(rows.bytes(), text.len() as u64);
 }
 
-/// The whole table is read at once: what waits in the buffer is not behind.
+/// The whole table is buffered at once: buffered rows do not count as read.
 #[test]
 fn bytes_are_those_up_to_the_last_row() {
     let header = "id,a_px\n";

@@ -2,8 +2,8 @@
 
 use super::pass;
 use crate::case::Case;
-use crate::course::{Course, Goal, RawPose};
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::Settings;
 
@@ -34,8 +34,8 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// Returns the same motion between end poses, about any centre, far from the origin.
-fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Course {
+/// Returns the same motion given by end poses, about any centre, far from the origin.
+fn ended(draw: &mut Draw, course: &RawMotion, far: [f64; 3], duration: f64) -> RawMotion {
     let Goal::Velocities { linear, .. } = course.goal else {
         return *course;
     };
@@ -54,7 +54,7 @@ fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Cour
             linear: slow(linear),
             spin: slow(draw.point()),
         };
-        return Course {
+        return RawMotion {
             start,
             goal,
             centre,
@@ -73,7 +73,7 @@ fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Cour
         position: plus(start.position, linear),
         quaternion,
     };
-    Course {
+    RawMotion {
         start,
         goal: Goal::End(end),
         centre,

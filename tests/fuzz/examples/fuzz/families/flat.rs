@@ -2,8 +2,8 @@
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
@@ -32,7 +32,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
             draw.within(-2.0..2.0),
         )
     };
-    let mut courses = [still(), Course::velocities(RawPose::at(start), along, spin)];
+    let mut courses = [
+        still(),
+        RawMotion::velocities(RawPose::at(start), along, spin),
+    ];
     if draw.chance(0.3) {
         // The same scene in another frame.
         let far = times(draw.point(), draw.log(1.0..1e4));

@@ -1,9 +1,9 @@
-//! Bodies in contact at the start that are released: they part, slide, approach, turn.
+//! Bodies in contact at the start that are released: they part, slide, approach or rotate.
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::StartPolicy;
 
@@ -41,7 +41,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         half_height + gap,
     ];
     let (velocity, spin, expect) = way(draw, gap, config.margin);
-    let mut courses = [still(), Course::velocities(RawPose::at(at), velocity, spin)];
+    let mut courses = [
+        still(),
+        RawMotion::velocities(RawPose::at(at), velocity, spin),
+    ];
     if draw.chance(0.3) {
         // The drift has no upward part, so that the gap is unchanged.
         let by = [draw.within(-1e3..1e3), draw.within(-1e3..1e3), 0.0];
@@ -72,7 +75,7 @@ fn resting(shape: Shape) -> (Shape, f64) {
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
 }
 
-/// Returns the velocity and spin of the departure, and the expected result.
+/// Returns the velocity and angular velocity of the departure, and the expected result.
 fn way(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
     let along = times(draw.point(), draw.within(0.0..3.0));
     match draw.count(0..5) {

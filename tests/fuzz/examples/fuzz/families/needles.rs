@@ -1,9 +1,9 @@
-//! Needles and slivers, components down to denormal, faces of no area.
+//! Needles and slivers, denormal components, faces without area.
 
 use super::{pass, still, tolerance};
 use crate::case::{Case, Shape};
-use crate::course::Goal;
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::Goal;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {

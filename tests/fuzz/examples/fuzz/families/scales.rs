@@ -2,8 +2,8 @@
 
 use super::{pass, tolerance};
 use crate::case::Case;
-use crate::course::Goal;
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::Goal;
 use crate::shapes;
 use ccd_core::order::{greater, lesser};
 

@@ -2,8 +2,8 @@
 
 use super::{pass, still, tolerance};
 use crate::case::{Case, Expect, Form, Shape};
-use crate::course::Course;
 use crate::draw::{Draw, plus, times};
+use crate::raw_motion::RawMotion;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
@@ -33,7 +33,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     let start = draw.pose(at);
     let velocity = times(draw.direction(), draw.within(0.0..4.0));
     let spin = times(draw.direction(), turn);
-    let courses = [still(), Course::velocities(start, velocity, spin)];
+    let courses = [still(), RawMotion::velocities(start, velocity, spin)];
     Case {
         shapes: [several, other],
         courses,

@@ -1,4 +1,4 @@
-//! Turns of up to a thousand radians.
+//! Rotations of up to a thousand radians.
 
 use super::{pass, tolerance};
 use crate::case::Case;

@@ -1,19 +1,19 @@
-//! Bytes to a query of two small bodies.
+//! Decodes bytes as a query of two small bodies.
 
 use super::Question;
 use super::source::Source;
 use crate::case::{Case, Expect, Form, Shape};
-use crate::course::{Course, Goal, RawPose};
 use crate::engine::{Kind, Method};
+use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
 
-/// The most iterations of a query, so that thousands of queries are asked in a minute.
+/// The budget of a query, small enough for thousands of queries in a minute.
 const BUDGET: u64 = 20_000;
-/// The largest turn of a body, in radians. The referee takes a time that is proportional to it.
+/// The largest rotation of a body, in radians. The referee takes a time that is proportional to it.
 const MOST_TURN: f64 = 40.0;
 
-/// The bits of the byte before a shape, next to its kind.
+/// The bits of the byte before a shape, besides its kind.
 pub(super) const KIND: u8 = 7;
 pub(super) const FLIPPED: u8 = 64;
 pub(super) const SCALED: u8 = 128;
@@ -32,7 +32,7 @@ pub(super) const TOLERANCE: u8 = 16;
 pub(super) const AIMED: u8 = 32;
 pub(super) const MORE: u8 = 64;
 
-/// A mesh of any vertices and faces, by its number among the shapes.
+/// The number of the shape that is a mesh of any vertices and faces.
 pub(super) const MESH: u8 = 0;
 
 pub(super) fn question(bytes: &[u8]) -> Question {
@@ -87,7 +87,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Settings {
     }
 }
 
-/// Always asks the default, and mostly another.
+/// Returns the methods: always the default, and mostly another one.
 fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
     const METHODS: [Method; 5] = [
         Method::Direct,
@@ -170,7 +170,7 @@ fn tetrahedron(source: &mut Source<'_>) -> Shape {
     }
 }
 
-/// Corners around an axis, on two circles by turns, and two poles.
+/// Returns a bipyramid: corners around an axis, alternately on two circles, and two poles.
 fn bipyramid(source: &mut Source<'_>) -> Shape {
     let corners = u32::from(source.count(3, 9));
     let [top, bottom, even, odd] = source.numbers();
@@ -190,7 +190,7 @@ fn bipyramid(source: &mut Source<'_>) -> Shape {
     }
 }
 
-/// A field of heights over a grid of squares.
+/// Returns a height field over a grid of squares.
 fn grid(source: &mut Source<'_>) -> Shape {
     let side = u32::from(source.count(1, 5));
     let at = |i: u32, j: u32| i * (side + 1) + j;
@@ -210,7 +210,7 @@ fn grid(source: &mut Source<'_>) -> Shape {
     shape
 }
 
-fn course(source: &mut Source<'_>) -> Course {
+fn course(source: &mut Source<'_>) -> RawMotion {
     let flags = source.byte();
     let has = |bit: u8| flags & bit > 0;
     let none = [0.0; 3];
@@ -230,14 +230,14 @@ fn course(source: &mut Source<'_>) -> Course {
             spin: source.numbers_if(has(SPINS), none),
         }
     };
-    Course {
+    RawMotion {
         start,
         goal,
         centre,
     }
 }
 
-fn limit_turn(course: &mut Course, duration: f64) {
+fn limit_turn(course: &mut RawMotion, duration: f64) {
     if let Goal::Velocities { spin, .. } = &mut course.goal {
         let turn = Vector(*spin).length() * duration;
         if turn > MOST_TURN {
@@ -246,8 +246,8 @@ fn limit_turn(course: &mut Course, duration: f64) {
     }
 }
 
-/// Moves A so that one of its corners meets one of B's at some time, but for an offset: bodies at random
-/// places hardly ever meet.
+/// Moves A so that one of its corners meets one of B's at some time, up to an offset: bodies at random places rarely
+/// meet.
 fn aim(source: &mut Source<'_>, case: &mut Case) {
     let share = f64::from(source.byte()) / 255.0;
     let time = share * case.duration;

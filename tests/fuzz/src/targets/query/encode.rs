@@ -1,15 +1,15 @@
-//! A query to bytes: cases become seeds.
+//! Encodes a query as bytes, to turn cases into seeds.
 
 use super::decode::{
     BUDGETED, CENTRED, ENDS, LASTS, LEAVE, MARGIN, MESH, MOVES, SPINS, TOLERANCE, TURNED,
 };
 use super::source::{RAW, SIXTEENTHS};
 use crate::case::{Case, Form, Shape};
-use crate::course::{Course, Goal};
+use crate::raw_motion::{Goal, RawMotion};
 use ccd_core::StartPolicy;
 
-/// Returns bytes that mean the case, asked of the method of a number from 0 to 14. The budget is only kept if it
-/// is small, and meshes must have fewer than 33 vertices and 49 faces.
+/// Returns bytes that decode to the case and to the method with a number from 0 to 14. The budget is only kept if it is
+/// small, and meshes must have fewer than 33 vertices and 49 faces.
 pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
     let mut out = Writer(Vec::new());
     let config = &case.config;
@@ -72,7 +72,7 @@ impl Writer {
         Some(())
     }
 
-    fn course(&mut self, course: &Course) {
+    fn course(&mut self, course: &RawMotion) {
         let goal = match course.goal {
             Goal::Velocities { .. } => MOVES | SPINS,
             Goal::End(_) => ENDS | SPINS,

@@ -6,9 +6,9 @@ pub(super) struct Source<'a> {
     seen: Vec<f64>,
 }
 
-/// The tag of a number that follows in eight bytes.
+/// The tag before a number in eight bytes.
 pub(super) const RAW: u8 = 255;
-/// Tags below this are multiples of a sixteenth.
+/// The number of tags for multiples of a sixteenth.
 pub(super) const SIXTEENTHS: u8 = 128;
 
 impl<'a> Source<'a> {
@@ -19,7 +19,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Reads a byte; there are zeros after the last one.
+    /// Reads a byte; zero after the end.
     pub(super) fn byte(&mut self) -> u8 {
         let [byte] = self.array();
         byte
@@ -67,7 +67,7 @@ impl<'a> Source<'a> {
         x
     }
 
-    /// Returns an earlier number, the last for 0.
+    /// Returns an earlier number, the last one for 0.
     fn seen(&self, back: u8) -> f64 {
         let at = self.seen.len().checked_sub(1 + usize::from(back));
         at.map_or(0.0, |at| self.seen[at])
@@ -77,7 +77,7 @@ impl<'a> Source<'a> {
         [(); N].map(|()| self.number())
     }
 
-    /// Reads numbers if a bit is set; otherwise they are the given ones.
+    /// Reads numbers if a bit is set; otherwise returns the given ones.
     pub(super) fn numbers_if<const N: usize>(&mut self, bit: bool, or: [f64; N]) -> [f64; N] {
         if bit { self.numbers() } else { or }
     }

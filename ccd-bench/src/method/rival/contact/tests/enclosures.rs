@@ -8,13 +8,13 @@ use crate::method::rival::contact::relative::{Enclosure, Relative, Span};
 use crate::method::rival::obb_tree::Obb;
 use crate::method::rival::tests::samples::{Samples, distance};
 use crate::method::rival::triangles_cross::triangles_cross;
-use crate::method::rival::{Course, Placement};
+use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
 fn relative(samples: &mut Samples, speed: f64, spin: f64) -> Relative {
     let query = samples.query(speed, spin);
-    let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+    let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
     Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
 }
 
@@ -46,7 +46,7 @@ fn placements_are_those_of_the_motions() {
     let mut samples = Samples::new(1);
     for _ in 0..200 {
         let query = samples.query(3.0, 5.0);
-        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+        let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let (from_a, from_b) = (samples.vector(1.0), samples.vector(1.0));
         let relative = Relative::new((&a, from_a), (&b, from_b));
         let (point, time) = (samples.vector(2.0), samples.number(0.0, 1.0));
@@ -66,7 +66,7 @@ fn enclosures_contain_all_placements_and_rates_between() {
         if k % 2 == 0 {
             let query = samples.query(3.0, 3.0);
             let still = ccd_core::Motion::still(query.b.start());
-            let (a, b) = (Course::new(&query.a), Course::new(&still));
+            let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&still));
             relative = Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
         }
         let span = span(&mut samples);
@@ -171,7 +171,7 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     };
     let enclosure = |offset: DVec3| {
         let still = crate::method::rival::tests::samples::still(DVec3::ZERO);
-        let course = Course::new(&still);
+        let course = RivalMotion::new(&still);
         let relative = Relative::new((&course, -offset), (&course, DVec3::ZERO));
         assert_eq!(relative.at(0.3).rotation, at.rotation);
         relative.over(Span {
@@ -193,14 +193,14 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     }
 }
 
-/// A bound of the speed of a triangle's points as seen from the other below: centres move by √3 (2
-/// + 4), points up to 3 √3 from them by √3 times as much, twice.
+/// A bound on the relative speed of the triangles' points below: centres move by √3 (2 + 4), points up to 3 √3 from
+/// them by √3 times as much, twice.
 const MAX_SPEED: f64 = 30.0;
 
 /// Returns a motion of the first body towards the second one's start.
 fn approach(samples: &mut Samples) -> Relative {
     let query = samples.query(1.0, 1.0);
-    let (mut a, b) = (Course::new(&query.a), Course::new(&query.b));
+    let (mut a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
     a.velocity += query.b.start().translation() - query.a.start().translation();
     Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
 }

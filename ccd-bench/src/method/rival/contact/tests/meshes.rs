@@ -13,13 +13,13 @@ use ccd_core::order::lesser;
 /// The number of samples of a motion for the reference answer.
 const SAMPLES: u32 = 1000;
 
-fn placement(query: &Query, time: f64) -> Placement {
-    let [a, b] = [query.a, query.b].map(|motion| Course::new(&motion).at(time));
+fn placement(query: &Motions, time: f64) -> Placement {
+    let [a, b] = [query.a, query.b].map(|motion| RivalMotion::new(&motion).at(time));
     a.seen_from(&b)
 }
 
 /// Returns the first sample at which the meshes cross.
-fn first_crossing(tree: &ObbTree, query: &Query) -> Option<f64> {
+fn first_crossing(tree: &ObbTree, query: &Motions) -> Option<f64> {
     let mut stack = Vec::new();
     (0..=SAMPLES)
         .map(|k| query.duration * f64::from(k) / f64::from(SAMPLES))
@@ -39,7 +39,7 @@ fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
 }
 
 /// Compares answers with samples. Returns the number of hits.
-fn judge(queries: &[Query], tolerance: f64) -> usize {
+fn judge(queries: &[Motions], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
     let mut contact = Contact::new(&mesh, &mesh, tolerance);
@@ -62,7 +62,7 @@ fn judge(queries: &[Query], tolerance: f64) -> usize {
     hits
 }
 
-fn shots(count: usize) -> Vec<Query> {
+fn shots(count: usize) -> Vec<Motions> {
     let shots = Shots {
         count,
         translations: count / 3,
@@ -85,11 +85,11 @@ fn shots_are_answered_never_late_and_within_the_tolerance() {
 #[test]
 fn both_bodies_may_move_and_turn_far() {
     let mut samples = Samples::new(8);
-    let queries: Vec<Query> = shots(20)
+    let queries: Vec<Motions> = shots(20)
         .into_iter()
         .map(|query| {
             let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
-            Query {
+            Motions {
                 // A drift along the axis makes the screw another motion.
                 a: turned(&query.a, query.a.velocity() + 0.1 * spin, spin),
                 b: turned(&query.b, DVec3::ZERO, far),

@@ -10,15 +10,14 @@ use std::f64::consts::{FRAC_PI_4, PI};
 const LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 
-fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Query) -> Claim {
+fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Motions) -> Claim {
     Contact::new(a, b, tolerance).answer(query).claim
 }
 
-/// Asserts at three tolerances that the answer is not late, and not earlier than the approach takes
-/// to close the tolerance.
-fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: f64) {
+/// Asserts at three tolerances that the answer is not late, and not earlier than the time to close the tolerance.
+fn assert_contact(meshes: [&TriangleMesh; 2], query: &Motions, exact: f64, speed: f64) {
     for tolerance in [1e-2, 1e-4, 1e-8] {
-        let swapped = Query {
+        let swapped = Motions {
             a: query.b,
             b: query.a,
             ..query.clone()
@@ -41,7 +40,7 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: 
 }
 
 /// Returns a fall from a height of 3 with speed 4 onto a body whose top is at 0.
-fn falling_flat() -> Query {
+fn falling_flat() -> Motions {
     let down = -4.0 * DVec3::Z;
     let a = moving(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);
     query(a, still(-0.5 * DVec3::Z))

@@ -1,12 +1,11 @@
-//! The look of a method, the same in every chart.
+//! The style of a method, the same in every chart.
 
 use super::sheet::{DrawError, Pen, Sheet, Spot, stroke};
 use super::{Family, MethodFacts};
 use plotters::style::{Color, RGBColor, ShapeStyle, WHITE};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Okabe and Ito's colours, which colour-blind people can distinguish, without the yellow, which is
-/// invisible on white.
+/// Okabe and Ito's colours, which colour-blind people can distinguish, without the yellow, which is invisible on white.
 pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),
@@ -23,7 +22,7 @@ pub(super) const MARKER: f64 = 4.0;
 
 /// The colour, marker and dash of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Look {
+pub(super) struct MethodStyle {
     pub(super) colour: RGBColor,
     pub(super) marker: Marker,
     pub(super) dash: Option<(f64, f64)>,
@@ -33,9 +32,9 @@ pub(super) struct Look {
 /// The interior of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fill {
-    /// For a method that was never late.
+    /// A solid marker, for a method that was never late.
     Solid,
-    /// For a method that is unsafe.
+    /// A hollow marker, for an unsafe method.
     Hollow,
 }
 
@@ -63,11 +62,10 @@ const MARKERS: [Marker; 8] = [
     Marker::Bar,
 ];
 
-/// Returns a look for each method, in their order. Looks within a family differ; families differ by
-/// the dash.
-pub(super) fn looks(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) -> Vec<Look> {
+/// Returns a style for each method, in their order. Styles within a family differ; families differ by the dash.
+pub(super) fn styles(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) -> Vec<MethodStyle> {
     let mut taken = [0; 4];
-    let look = |method: &MethodFacts<'_>| {
+    let style = |method: &MethodFacts<'_>| {
         let (family, dash, shift) = match method.family {
             Family::Ours => (0, None, 0),
             Family::Rival => (1, Some((7.0, 4.0)), 1),
@@ -76,17 +74,17 @@ pub(super) fn looks(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) ->
         };
         let number = taken[family];
         taken[family] += 1;
-        Look {
+        MethodStyle {
             colour: COLOURS[(number + shift) % COLOURS.len()],
             marker: MARKERS[(number + 3 * shift) % MARKERS.len()],
             dash,
             fill: fill(method.name),
         }
     };
-    methods.iter().map(look).collect()
+    methods.iter().map(style).collect()
 }
 
-impl Look {
+impl MethodStyle {
     pub(super) fn pen(&self, width: f64) -> Pen {
         Pen {
             dash: self.dash,
@@ -96,20 +94,20 @@ impl Look {
 }
 
 impl Sheet<'_> {
-    /// Draws a marker with its middle at a spot.
-    pub(super) fn marker(&self, at: Spot, look: &Look) -> Result<(), DrawError> {
-        let inside = match look.fill {
-            Fill::Solid => look.colour,
+    /// Draws a marker centred at a position.
+    pub(super) fn marker(&self, at: Spot, style: &MethodStyle) -> Result<(), DrawError> {
+        let inside = match style.fill {
+            Fill::Solid => style.colour,
             Fill::Hollow => WHITE,
         };
-        if look.marker == Marker::Circle {
+        if style.marker == Marker::Circle {
             self.disc(at, MARKER, inside.filled())?;
-            return self.disc(at, MARKER, outline(look.colour));
+            return self.disc(at, MARKER, outline(style.colour));
         }
-        let mut corners = corners(look.marker, at);
+        let mut corners = corners(style.marker, at);
         self.polygon(&corners, inside.to_rgba())?;
         corners.push(corners[0]);
-        self.line(&corners, Pen::solid(look.colour, OUTLINE))
+        self.line(&corners, Pen::solid(style.colour, OUTLINE))
     }
 }
 
@@ -120,7 +118,7 @@ fn outline(colour: RGBColor) -> ShapeStyle {
     stroke(colour, OUTLINE)
 }
 
-/// Returns the corners around the middle, at least three.
+/// Returns the corners of a marker around its centre, at least three.
 fn corners(marker: Marker, (x, y): Spot) -> Vec<Spot> {
     let around = |count: u32, first: f64, radius: fn(u32) -> f64| {
         (0..count)

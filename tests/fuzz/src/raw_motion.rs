@@ -5,12 +5,12 @@ use crate::vector::{Number, Vector};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 
-/// A motion in the numbers that the engine is given.
+/// A motion in the numbers that the engine receives.
 #[derive(Clone, Copy, Debug)]
-pub struct Course {
+pub struct RawMotion {
     pub start: RawPose,
     pub goal: Goal,
-    /// The point of the body that moves straight.
+    /// The point of the body that moves in a straight line.
     pub centre: [f64; 3],
 }
 
@@ -55,16 +55,16 @@ impl RawPose {
     }
 }
 
-impl Course {
+impl RawMotion {
     pub fn velocities(start: RawPose, linear: [f64; 3], spin: [f64; 3]) -> Self {
-        Course {
+        RawMotion {
             start,
             goal: Goal::Velocities { linear, spin },
             centre: [0.0; 3],
         }
     }
 
-    /// Returns the motion in the engine's form.
+    /// Converts the motion to the engine's form.
     pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
         let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
         match self.goal {
@@ -177,7 +177,7 @@ impl Track {
 }
 
 impl Snapshot {
-    /// Returns the vector from the centre to the point at `x` from it in the body's frame.
+    /// Returns the vector from the centre to a point; `x` is that vector in the body's frame.
     pub fn arm(&self, x: Vector<Double>) -> Vector<Double> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c

@@ -1,26 +1,26 @@
-//! What is left of a trajectory from a time on.
+//! The remainder of a trajectory after a time.
 
 use ccd_core::rounding::U64;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Movement, Stray, Stretch, Trajectory};
 
-/// A trajectory from a time on, which is its time 0.
-pub(super) struct Rest<'a> {
-    pub(super) of: Movement<'a>,
+/// A trajectory shifted in time: its time 0 is a given time of the inner one.
+pub(super) struct Shifted<'a> {
+    pub(super) inner: Movement<'a>,
     pub(super) from: f64,
 }
 
-impl Trajectory for Rest<'_> {
+impl Trajectory for Shifted<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = [from, to].map(|time| self.from + time);
-        let stretch = self.of.stretch(first, last)?;
+        let stretch = self.inner.stretch(first, last)?;
         // Times are rounded, and the body moves by as much as it does in that time.
-        let off = 4.0 * U64 * last;
+        let time_error = 4.0 * U64 * last;
         let speed =
             length(stretch.motion.velocity()) + length(stretch.acceleration) * (last - first);
         let rounding = Stray {
-            shift: speed * off,
-            turn: length(stretch.motion.spin()) * off,
+            shift: speed * time_error,
+            turn: length(stretch.motion.spin()) * time_error,
         };
         Ok(Stretch {
             stray: stretch.stray + rounding,
@@ -29,7 +29,7 @@ impl Trajectory for Rest<'_> {
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let corner = self.of.corner(self.from + from, self.from + to)?;
+        let corner = self.inner.corner(self.from + from, self.from + to)?;
         Some(corner - self.from)
     }
 }

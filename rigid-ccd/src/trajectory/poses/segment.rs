@@ -1,25 +1,26 @@
-//! From one pose to the next.
+//! The segment from one pose to the next.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose};
 use std::f64::consts::FRAC_PI_2;
 
-/// The way from a pose to the next one: at constant rates, up to what an angular velocity that is given leaves over.
+/// The segment from a pose to the next at constant rates, corrected for the rotation that a given angular velocity
+/// leaves over.
 ///
 /// With a rotation vector `w` of the motion and a shortest one `e` that leads from its end to the next pose, the
 /// orientation after a share `s` is `exp(s e) exp(s w)` times the first one.
-pub(super) struct Leg {
+pub(super) struct Segment {
     motion: Motion,
-    /// `e` per unit of time.
+    /// The rotation vector `e` left over, per unit of time.
     leftover: DVec3,
 }
 
-/// The most that an angular velocity may leave over: at half a turn nothing would tell the number of turns.
+/// The largest leftover rotation: half a turn would leave the number of turns ambiguous.
 pub(crate) const MOST_LEFT: f64 = FRAC_PI_2;
 
-impl Leg {
-    /// Turns the shortest way without an angular velocity, else about as often as it does.
+impl Segment {
+    /// Creates the segment with the shortest rotation, or with the number of turns nearest to a given angular velocity.
     pub(super) fn new(
         [from, to]: [Pose; 2],
         centre: DVec3,
@@ -27,21 +28,21 @@ impl Leg {
         spin: DVec3,
     ) -> Result<Self, InputError> {
         if spin == DVec3::ZERO {
-            return Ok(Leg {
+            return Ok(Segment {
                 motion: Motion::between(from, to, centre, duration)?,
                 leftover: DVec3::ZERO,
             });
         }
         let way = to.transform_point(centre) - from.transform_point(centre);
-        Ok(Leg {
+        Ok(Segment {
             motion: Motion::about(from, way / duration, spin, centre)?,
-            leftover: left_over([&from, &to], spin, duration) / duration,
+            leftover: leftover([&from, &to], spin, duration) / duration,
         })
     }
 
-    /// Returns the motion from a time after the first pose on, with the velocities of that time.
+    /// Returns the motion at a time after the first pose, with the velocities of that time.
     pub(super) fn at(&self, time: f64) -> Result<Motion, InputError> {
-        let Leg { motion, leftover } = self;
+        let Segment { motion, leftover } = self;
         if time == 0.0 && *leftover == DVec3::ZERO {
             return Ok(*motion);
         }
@@ -60,14 +61,15 @@ impl Leg {
         Motion::about(pose, motion.velocity(), spin, centre)
     }
 
-    /// Bounds how fast the angular velocity changes: it is `e + exp(s e) w`, per unit of time.
-    pub(super) fn bend(&self) -> f64 {
+    /// Bounds the angular acceleration: the angular velocity is `e + exp(s e) w`, per unit of time.
+    pub(super) fn angular_acceleration(&self) -> f64 {
         length(self.leftover) * length(self.motion.spin())
     }
 }
 
-/// Returns the shortest rotation vector from where an angular velocity leads to the next pose.
-pub(crate) fn left_over([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
+/// Returns the shortest rotation vector from the orientation that an angular velocity leads to, to that of the next
+/// pose.
+pub(crate) fn leftover([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
     let led = DQuat::from_scaled_axis(spin * duration) * from.rotation();
     let way = to.rotation() * led.conjugate();
     let way = if way.w < 0.0 { -way } else { way };

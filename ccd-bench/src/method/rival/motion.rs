@@ -1,11 +1,11 @@
-//! The position of a moving body, from the formula of its motion.
+//! The pose of a moving body, from the formula of its motion.
 
 use ccd_core::Motion;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
-/// A body's motion as the rivals see it: its centre moves straight, and the body turns about it.
+/// A body's motion in the form that the rivals use: its centre moves straight, and the body rotates about it.
 #[derive(Clone, Copy, Debug)]
-pub struct Course {
+pub struct RivalMotion {
     /// The centre of rotation in the body's frame.
     pub centre: DVec3,
     /// The centre at the start.
@@ -14,9 +14,9 @@ pub struct Course {
     pub velocity: DVec3,
     /// The orientation at the start.
     pub orientation: DMat3,
-    /// The unit axis of rotation; any axis if the body does not turn.
+    /// The unit axis of rotation; any axis if the body does not rotate.
     pub axis: DVec3,
-    /// Radians per unit of time.
+    /// The rate of rotation in radians per unit of time.
     pub rate: f64,
 }
 
@@ -29,12 +29,12 @@ pub struct Placement {
     pub translation: DVec3,
 }
 
-impl Course {
-    /// Returns the same motion. Its parameters are read, but no formula is shared.
+impl RivalMotion {
+    /// Converts a motion. Its parameters are read, but no formula is shared.
     pub fn new(motion: &Motion) -> Self {
         let orientation = DMat3::from_quat(motion.start().rotation());
         let rate = motion.spin().length();
-        Course {
+        RivalMotion {
             centre: motion.centre(),
             from: motion.start().translation() + orientation * motion.centre(),
             velocity: motion.velocity(),
@@ -61,7 +61,7 @@ impl Placement {
         self.rotation * point + self.translation
     }
 
-    /// Returns this placement as seen from the frame of another: `other⁻¹ ∘ self`.
+    /// Returns this placement in the frame of another: `other⁻¹ ∘ self`.
     pub fn seen_from(&self, other: &Placement) -> Placement {
         let back = other.rotation.transpose();
         Placement {

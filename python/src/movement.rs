@@ -1,4 +1,4 @@
-//! What moves a body: a motion, a link of an arm, a path.
+//! The movement of a body: a motion, a link of an arm, or a path.
 
 use crate::chain::PyLink;
 use crate::errors::{input, wrong_type};
@@ -8,27 +8,30 @@ use pyo3::prelude::*;
 use rigid_ccd::trajectory::{Link, Poses, Trajectory};
 use rigid_ccd::{Body, Motion, Moving, Remark};
 
-/// How a body moves.
-pub(crate) enum Course<'c> {
+/// The movement of a body.
+pub(crate) enum GivenMovement<'c> {
     Motion(Motion),
     Link(Link<'c>, f64),
     Path(&'c Poses),
 }
 
-impl<'c> Course<'c> {
-    /// Takes what Python passes as `motion_a` or `motion_b`; None is at rest.
-    pub(crate) fn of(given: Option<&'c Bound<'_, PyAny>>, what: &str) -> PyResult<Self> {
+impl<'c> GivenMovement<'c> {
+    /// Extracts a movement from the argument `motion_a` or `motion_b`; None is at rest.
+    pub(crate) fn extract(given: Option<&'c Bound<'_, PyAny>>, what: &str) -> PyResult<Self> {
         let Some(given) = given.filter(|given| !given.is_none()) else {
-            return Ok(Course::Motion(Motion::STILL));
+            return Ok(GivenMovement::Motion(Motion::STILL));
         };
         if let Ok(motion) = given.cast::<PyMotion>() {
-            return Ok(Course::Motion(motion.get().motion));
+            return Ok(GivenMovement::Motion(motion.get().motion));
         }
         if let Ok(link) = given.cast::<PyLink>() {
-            return Ok(Course::Link(link.get().link()?, link.get().duration()));
+            return Ok(GivenMovement::Link(
+                link.get().link()?,
+                link.get().duration(),
+            ));
         }
         if let Ok(path) = given.cast::<PyPath>() {
-            return Ok(Course::Path(&path.get().poses));
+            return Ok(GivenMovement::Path(&path.get().poses));
         }
         Err(wrong_type(
             what,
@@ -37,32 +40,32 @@ impl<'c> Course<'c> {
         ))
     }
 
-    /// When the course ends; none for a motion, which goes on.
+    /// Returns the end of the movement; `None` for a motion, which has no end.
     fn end(&self) -> Option<f64> {
         match self {
-            Course::Motion(_) => None,
-            Course::Link(_, duration) => Some(*duration),
-            Course::Path(poses) => Some(poses.end()),
+            GivenMovement::Motion(_) => None,
+            GivenMovement::Link(_, duration) => Some(*duration),
+            GivenMovement::Path(poses) => Some(poses.end()),
         }
     }
 
     fn trajectory(&self) -> &dyn Trajectory {
         match self {
-            Course::Motion(motion) => motion,
-            Course::Link(link, _) => link,
-            Course::Path(poses) => *poses,
+            GivenMovement::Motion(motion) => motion,
+            GivenMovement::Link(link, _) => link,
+            GivenMovement::Path(poses) => *poses,
         }
     }
 }
 
-/// Two bodies with their courses.
+/// Two bodies with their movements.
 pub(crate) struct Pair<'c> {
-    pub(crate) a: (&'c Body, Course<'c>),
-    pub(crate) b: (&'c Body, Course<'c>),
+    pub(crate) a: (&'c Body, GivenMovement<'c>),
+    pub(crate) b: (&'c Body, GivenMovement<'c>),
 }
 
 impl Pair<'_> {
-    /// Returns the duration of a query: by default that of links and paths, which is the same for both, or 1.
+    /// Returns the duration of a query. The default is that of links and paths, which must be equal for both, or 1.
     pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
         let courses = [&self.a.1, &self.b.1];
         let ends = courses.iter().filter_map(|course| course.end());
@@ -81,7 +84,7 @@ impl Pair<'_> {
             }
         };
         for course in courses {
-            if let Course::Link(_, end) = course
+            if let GivenMovement::Link(_, end) = course
                 && duration > *end
             {
                 return Err(input(format!(
@@ -92,12 +95,12 @@ impl Pair<'_> {
         Ok(duration)
     }
 
-    /// Remarks upon what turns a body, in a duration.
+    /// Returns remarks about the rotation of a body over a duration.
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {
-            Course::Motion(motion) => Remark::of_spin(motion.spin(), duration),
-            Course::Link(..) | Course::Path(_) => None,
+            GivenMovement::Motion(motion) => Remark::of_spin(motion.spin(), duration),
+            GivenMovement::Link(..) | GivenMovement::Path(_) => None,
         })
     }
 
