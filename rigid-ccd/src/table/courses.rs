@@ -37,31 +37,6 @@ impl Course {
         }
     }
 
-    /// Builds the query of two bodies with these motions. The distance is asked for at the start.
-    ///
-    /// # Errors
-    /// Those of [`ccd_core::Query::new`].
-    pub fn query<'q>(
-        &'q self,
-        question: Question,
-        bodies: Bodies<'q>,
-        settings: &'q Settings,
-    ) -> Result<ccd_core::Query<'q>, InputError> {
-        let Bodies { a, b } = bodies;
-        if question == Question::Distance {
-            let [pose_a, pose_b] = self.poses(0.0)?;
-            return ccd_core::Query::new((a, pose_a), (b, pose_b), 0.0, settings);
-        }
-        match self {
-            Course::Motions(row) => {
-                ccd_core::Query::new((a, row.a), (b, row.b), row.duration, settings)
-            }
-            Course::Path(path) => {
-                ccd_core::Query::new((a, &path.a), (b, &path.b), path.duration, settings)
-            }
-        }
-    }
-
     /// Returns the table's time at the start.
     pub fn start(&self) -> f64 {
         match self {
