@@ -156,7 +156,7 @@ impl PyBody {
             adjustments = adjustments.converted_to(unit);
         }
         class.py().detach(|| {
-            // A file that cannot be read is an OSError. A pipe would be waited for, and is none.
+            // An unreadable file is an OSError. A pipe would block, and is refused.
             let there = std::fs::metadata(&path).map_err(|error| of_file(&error, &path))?;
             if !there.is_file() {
                 return Err(input(format!("{}: is no file", path.display())));

@@ -169,7 +169,7 @@ impl PyChain {
     #[new]
     #[pyo3(signature = (joints, base = None))]
     fn new(joints: &Bound<'_, PyAny>, base: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        // One by one: what says that it is long may be no list.
+        // Collect one by one, because an object may report a wrong length.
         let joints = joints
             .try_iter()?
             .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));

@@ -77,7 +77,7 @@ pub(crate) fn answer(
         .into_iter()
         .collect::<Result<_, _>>()
         .map_err(unreadable)?;
-    // Of the piece that was stopped, the first rows are answered.
+    // The first rows of the piece that was stopped have answers.
     let stopped = found.iter().position(|&(_, is_whole)| !is_whole);
     let first = stopped.map_or(found.len(), |stopped| stopped + 1);
     let answered: Vec<RecordBatch> = found

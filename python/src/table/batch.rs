@@ -109,7 +109,7 @@ fn flat(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
         column.data_type(),
         DataType::Null | DataType::RunEndEncoded(..)
     );
-    // Text of runs takes more than this, but not by much more than there are rows.
+    // Text in run encoding may exceed this, but not by much more than the number of rows.
     let rows = column.len();
     if is_short && Vec::<f64>::new().try_reserve_exact(rows).is_err() {
         return Err(ArrowError::MemoryError(format!(

@@ -69,7 +69,7 @@ impl PieceSize {
 
     /// Adapts the size of later pieces to the duration of one.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
-        // A small piece at the end of a batch says nothing against larger ones.
+        // A small piece at the end of a batch is no reason for smaller pieces.
         if taken < PIECE / 2 {
             self.rows
                 .fetch_max(MOST_ROWS.min(2 * rows), Ordering::Relaxed);

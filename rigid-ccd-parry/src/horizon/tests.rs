@@ -60,7 +60,7 @@ fn travel_and_turn_stay_within_the_engines_limits() {
         panic!("it turns too often");
     };
     assert!(duration * 1e3 < MAX_TURN && duration * 1e3 > 0.99 * MAX_TURN);
-    // Both fly fast, and hardly past each other.
+    // Both bodies are fast, but have almost no relative velocity.
     let [a, b] = [1e9, 1e9 + 1e-3].map(|v| reaching([0.0; 3], [v, 0.0, 0.0], [0.0; 3], 1e3));
     let Horizon::Part(duration) = Horizon::of([a, b], 0.0, f64::INFINITY) else {
         panic!("it flies too far");

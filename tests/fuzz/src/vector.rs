@@ -85,7 +85,7 @@ impl<N: Number> Vector<N> {
     pub fn scaled(self) -> Self {
         let size = self.largest();
         match size > 0.0 && size.is_finite() {
-            // In two steps, since the reciprocal of a denormal overflows.
+            // Scale in two steps, because the reciprocal of a denormal overflows.
             true if size < 1e-290 => {
                 let v = self * N::of(2f64.powi(600));
                 v * N::of(1.0 / power_of_two(v.largest()))

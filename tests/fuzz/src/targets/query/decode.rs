@@ -124,7 +124,7 @@ fn shape(source: &mut Source<'_>) -> Shape {
         6 => bipyramid(source),
         _ => grid(source),
     };
-    // What it may be made of: the decomposition finds out whether that is possible.
+    // The kinds of pieces to try; the decomposition finds out whether they are possible.
     shape.form = match kind >> 3 & 3 {
         0 => Form::Convex,
         1 => Form::Solid,
