@@ -104,7 +104,7 @@ impl PyBody {
         let detail = detail(pieces, surface)?;
         py.detach(|| {
             let mesh = TriangleMesh::new(points, &faces).map_err(input)?;
-            PyBody::of(prepare(&mesh, detail).map_err(input)?)
+            PyBody::from_model(prepare(&mesh, detail).map_err(input)?)
         })
     }
 
@@ -178,7 +178,7 @@ impl PyBody {
                     prepare(&mesh, detail).map_err(|error| input(format!("{source}: {error}")))?
                 }
             };
-            PyBody::of(model)
+            PyBody::from_model(model)
         })
     }
 
@@ -317,7 +317,7 @@ impl PyBody {
     fn _from_bytes(class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
         class
             .py()
-            .detach(|| PyBody::of(Model::read(stored).map_err(input)?))
+            .detach(|| PyBody::from_model(Model::read(stored).map_err(input)?))
     }
 
     fn __repr__(&self) -> String {
@@ -326,7 +326,7 @@ impl PyBody {
 }
 
 impl PyBody {
-    fn of(model: Model) -> PyResult<Self> {
+    fn from_model(model: Model) -> PyResult<Self> {
         let body = model.body().map_err(input)?;
         Ok(PyBody {
             size: Remark::size(&body),

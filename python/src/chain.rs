@@ -41,7 +41,7 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::of(Kind::Revolute(finite(axis, "axis")?), origin, limits)
+        PyJoint::new(Kind::Revolute(finite(axis, "axis")?), origin, limits)
     }
 
     /// A joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
@@ -53,13 +53,13 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::of(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
+        PyJoint::new(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
     }
 
     /// A joint without a degree of freedom. It has a position all the same, which does not matter.
     #[classmethod]
     fn fixed(_class: &Bound<'_, PyType>, origin: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyJoint::of(Kind::Fixed, origin, None)
+        PyJoint::new(Kind::Fixed, origin, None)
     }
 
     fn __reduce__<'py>(
@@ -111,7 +111,7 @@ impl Kind {
 }
 
 impl PyJoint {
-    fn of(
+    fn new(
         kind: Kind,
         origin: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,

@@ -102,7 +102,7 @@ impl Cast<'_> {
             bodies,
             motions: sides.map(|side| side.motion),
             frames,
-            horizon: Horizon::of(sides, within, self.interval.length()),
+            horizon: Horizon::new(sides, within, self.interval.length()),
             interval: self.interval,
             target: self.target,
             settings,

@@ -49,7 +49,7 @@ impl Horizon {
     }
 
     /// Returns the horizon for bodies with contact distance `within`, for the time `wanted`.
-    pub(crate) fn of(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
+    pub(crate) fn new(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
         let needed = [passed(bodies, within), repeated(bodies)];
         Horizon::needed(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }

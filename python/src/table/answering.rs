@@ -63,7 +63,7 @@ pub(crate) fn answer(
     };
     let mut solver = on_threads(asked.threads, Solver::new);
     let (size, source) = (PieceSize::new(solver.threads()), (reader, columns.form()));
-    let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &size, stop)?;
+    let mut pieces = Pieces::new(source, asked.question, Names::LeftOut, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = rows(asked, &piece, &columns, solver, stop);
@@ -124,7 +124,7 @@ pub(crate) fn each(
 ) -> Result<(), TableError> {
     let columns = check(&reader)?;
     let (size, source) = (PieceSize::new(1), (reader, columns.form()));
-    let mut pieces = Pieces::of(source, asked.question, Names::Read, &size, stop)?;
+    let mut pieces = Pieces::new(source, asked.question, Names::Read, &size, stop)?;
     let settings = stopped_by(asked, stop);
     let asked = TableQuestion {
         settings: &settings,

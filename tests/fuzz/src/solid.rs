@@ -54,7 +54,7 @@ impl Solid {
     pub fn locate(&self, p: Vector<Double>) -> Where {
         let seen = DIRECTIONS
             .iter()
-            .find_map(|&ray| self.crossings(p, Vector::of(ray)));
+            .find_map(|&ray| self.crossings(p, Vector::from_array(ray)));
         let Some(seen) = seen else {
             return Where::Unknown;
         };

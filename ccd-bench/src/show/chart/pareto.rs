@@ -87,7 +87,7 @@ fn draw(
         subtitle: "One line per method, a marker for each tolerance; hollow in the strip beside: \
                    late or missed contacts somewhere, so no accuracy to show",
         remarks: remarks(&cells),
-        legend: Legend::of(&shown),
+        legend: Legend::of_methods(&shown),
         x,
         y,
         columns: layout.columns,

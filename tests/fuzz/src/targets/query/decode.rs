@@ -256,7 +256,7 @@ fn aim(source: &mut Source<'_>, case: &mut Case) {
         let corner = vertices[usize::from(source.byte()) % vertices.len()];
         let track = case.courses[k].track(case.duration);
         let placed = track.at(time);
-        let arm = placed.arm(Vector::of(corner) - track.centre);
+        let arm = placed.arm(Vector::from_array(corner) - track.centre);
         arm + placed.centre
     };
     let [from, to] = [corner(0), corner(1)];
