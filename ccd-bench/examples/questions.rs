@@ -107,7 +107,7 @@ impl Row {
             width <= self.tolerance,
             "the bracket is {width:e} wide: {closest:?}"
         );
-        // Near misses within the tolerance may be either.
+        // Near misses within the tolerance may have either outcome.
         let near_miss = closest.lower() > 0.0 && closest.upper() <= self.tolerance;
         ensure!(
             any_hit == self.is_hit() || near_miss,

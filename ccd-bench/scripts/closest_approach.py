@@ -33,7 +33,7 @@ santa board santa"""
 TOLERANCE = 1e-3
 # The rounding of distances and poses at coordinates of some units.
 ROUNDING = 1e-9
-# The least distances of the samples that are refined, and the looks at each.
+# The number of least samples that are refined, and the number of evaluations for each.
 REFINED, LOOKS = 3, 24
 
 
@@ -80,7 +80,7 @@ def check(ccd, options, out, a, b, motions):
             apart += 1
             widths.append(upper - lower)
             slacks.append(least - lower)
-        # Bodies that meet come to a distance of 0: their bounds are those of the first that is seen.
+        # Bodies that meet have a least distance of 0, with the bounds of the first contact found.
         bad |= answer["status"] not in ("measured", "overlapping") or max(lower, 0) + TOLERANCE * (1 + 1e-9) < upper
         if bad:
             wrong += 1
@@ -98,7 +98,7 @@ def separation(bodies, query, when):
 
 
 def sampled(distance, duration, samples):
-    """Returns the least distance at equal steps, and of a search by thirds about the least of them."""
+    """Returns the least distance at equal steps, and of a ternary search around the least ones."""
     times = [duration * k / samples for k in range(samples + 1)]
     seen = [(distance(time), time) for time in times]
     least = min(seen)[0]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what a visit of a pair of nodes costs, and how many visits a query needs at least.
+"""Measures the cost of a visit of a pair of nodes, and the least number of visits of a query.
 
     cost.py SCENES [--ccd PATH] [--rounds N] [--core K]
 
@@ -72,7 +72,7 @@ def pairs():
 
 
 def until_contact(file, results):
-    """Returns the motions of the rows in contact, ended just before, and the visits of these rows."""
+    """Returns the motions of the rows with a contact, shortened to end before it, and the visits of these rows."""
     out, visits = io.StringIO(), []
     with open(file) as motions:
         rows = csv.DictReader(motions)
@@ -86,7 +86,7 @@ def until_contact(file, results):
 
 
 def ended(row, part):
-    """Returns a row with the pose that A has after this part of its motion as its end."""
+    """Returns a row whose end pose of A is that after this share of the motion."""
     start, end = ([float(row[f"a_{which}q{k}"]) for k in "wxyz"] for which in ("", "end_"))
     rotation = turned(start, end, part)
     new = {f"a_end_q{k}": repr(value) for k, value in zip("wxyz", rotation)}
@@ -97,7 +97,7 @@ def ended(row, part):
 
 
 def turned(p, q, part):
-    """Returns the rotation after this part of the shorter turn from p to q."""
+    """Returns the rotation after this share of the shorter rotation from p to q."""
     turn = product(q, [p[0], -p[1], -p[2], -p[3]])
     turn = [-x for x in turn] if turn[0] < 0 else turn
     sine = math.hypot(*turn[1:])

@@ -39,7 +39,7 @@ from pathlib import Path
 import numpy as np
 
 ASKED = ["coal-steps", "fcl-ca", "fcl-naive"]
-# The numbers of a motion on a line of standard input.
+# The count of numbers for a motion on a line of standard input.
 COLUMNS = "px py pz qx qy qz qw vx vy vz wx wy wz cx cy cz"
 METHODS = ["coal-distance", "coal-steps", "fcl-ca", "fcl-naive"]
 EXAMPLE = """example:
@@ -47,7 +47,7 @@ EXAMPLE = """example:
 
 `scripts/peers.py answer --method fcl-ca --a A.obj --b B.obj --tolerance 1e-3` is for other programs: it reads
 queries from standard input and replies to each, as `ccd-bench answer` does."""
-# The largest turn of a stretch, since FCL turns the shorter way.
+# The largest rotation of a segment, because FCL rotates the shorter way.
 LONGEST_TURN = 0.9 * math.pi
 # The seconds that a worker may take to load its meshes.
 LOADING = 120
@@ -166,7 +166,7 @@ def work(pipe, folder, method):
 
 
 def opened(method, a, b):
-    """Returns the bodies of a method, and the function that answers about them."""
+    """Returns the bodies of a method, and the function that answers queries about them."""
     ask = {
         "coal-distance": Coal.distance,
         "coal-steps": Coal.steps,
@@ -178,7 +178,7 @@ def opened(method, a, b):
 
 
 class Motion:
-    """A motion: the centre has a constant velocity, and the body turns about it at a constant rate."""
+    """A motion: the centre has a constant velocity, and the body rotates about it at a constant rate."""
 
     def __init__(self, row, letter, duration):
         part = lambda names, default: vector(row, letter, names, default)
@@ -203,7 +203,7 @@ class Motion:
 
 
 class Query:
-    """The motions of a row, and a bound of the travel of any point towards the other body."""
+    """The motions of a row, and a bound on the displacement of any point towards the other body."""
 
     def __init__(self, row, reach):
         self.duration = float(row.get("duration") or 1)
@@ -215,7 +215,7 @@ class Query:
         self.way = (np.linalg.norm(self.a.velocity - self.b.velocity) + turning) * self.duration
 
     def tests(self, tolerance, cap):
-        """Returns the number of steps of the tolerance."""
+        """Returns the number of steps that move no point by more than the tolerance."""
         return int(min(max(math.ceil(self.way / tolerance), 1), cap))
 
 

@@ -91,7 +91,7 @@ def motions(path, rows):
 
 
 def towards(rng, a, b):
-    """Returns motions from outside the other body through it, turning about the own middle."""
+    """Returns motions that start outside the other body and pass through it, with a rotation about the body's middle."""
     (middle_a, size_a), (middle_b, size_b) = a, b
     rows = []
     for _ in range(3):
@@ -129,7 +129,7 @@ def line(ccd, name, a, b, table, tolerance, options, folder):
     for kind in KINDS:
         of_a, of_b = prepared(ccd, a, kind, folder), prepared(ccd, b, kind, folder)
         if kind == "hull":
-            # A hull of only one of them is of interest as well.
+            # The hull of only one of the bodies is measured as well.
             of_b = of_b or (of_a and prepared(ccd, b, "triangles", folder))
             of_a = of_a or (of_b and prepared(ccd, a, "triangles", folder))
         if of_a and of_b:
@@ -171,7 +171,7 @@ def main():
             extents = [extent(ccd, mesh, folder) for mesh in (a, b)]
             if None in extents:
                 continue
-            # Names are not unique in the folder.
+            # File names are not unique in the folder.
             copies = []
             for mesh in (a, b):
                 copy = folder / f"{meshes.index(mesh)}_{mesh.name}"

@@ -173,7 +173,7 @@ impl MotionKind {
     ///
     /// # Errors
     /// If a screw's parameters overflow.
-    pub fn of(self, query: Motions) -> Result<Motions, InputError> {
+    pub fn apply(self, query: Motions) -> Result<Motions, InputError> {
         match self {
             MotionKind::Given => Ok(query),
             MotionKind::Screw => screw(&query),

@@ -92,7 +92,7 @@ impl SceneBody {
 
     /// Returns the same body made of the given pieces, which are made on first use, or `None` if
     /// the mesh does not allow them.
-    pub fn of(&self, pieces: Pieces) -> Option<&Body> {
+    pub fn body_of(&self, pieces: Pieces) -> Option<&Body> {
         let others = match pieces {
             Pieces::Least => return Some(&self.body),
             Pieces::Triangles => &self.others.triangles,
@@ -168,8 +168,8 @@ impl Scene {
     /// Returns both bodies made of the given pieces, or `None` if a mesh does not allow them.
     pub fn bodies_of(&self, pieces: Pieces) -> Option<Bodies<'_>> {
         Some(Bodies {
-            a: self.a.of(pieces)?,
-            b: self.b.of(pieces)?,
+            a: self.a.body_of(pieces)?,
+            b: self.b.body_of(pieces)?,
         })
     }
 

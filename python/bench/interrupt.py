@@ -1,4 +1,4 @@
-"""How soon does Ctrl-C end a table whose rows take minutes?
+"""Measures how soon Ctrl-C ends a table whose rows take minutes.
 
     python bench/interrupt.py [REPEAT]
 """
@@ -20,10 +20,10 @@ from test_tables import knot  # noqa: E402
 
 
 def main() -> None:
-    # A shell's job in the background ignores it.
+    # A background job of a shell ignores Ctrl-C by default.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     body = knot(600)
-    # It turns a hundred thousand times past another one.
+    # The knot makes a hundred thousand turns past another one.
     rows = np.linspace(3.2, 3.4, 1000)
     motions = {"a_px": rows, "a_wx": np.full(1000, 6e5), "a_wy": np.full(1000, 6e5)}
     taken = []

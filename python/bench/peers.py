@@ -1,4 +1,4 @@
-"""The first contact of each row, beside one static distance and one discrete check of FCL and Coal, in one process.
+"""Times the first contact of each row, and one static distance and one discrete check of FCL and Coal.
 
     pip install python-fcl coal trimesh
     python bench/peers.py A.obj B.obj motions.csv
@@ -130,7 +130,7 @@ def of_coal(meshes: list[Any], starts: list[list[Any]]) -> dict[str, Callable[[i
 
 
 def agree(found: dict[str, list[Any]]) -> None:
-    """Holds the distances of both peers against our brackets."""
+    """Compares the distances of both peers with our brackets."""
     worst = 0.0
     for ours, *others in zip(
         found["ours, distance at rest"], found["FCL, static distance"], found["Coal, static distance"], strict=True

@@ -1,4 +1,4 @@
-"""What a table costs in Python, beside the command `ccd` and beside a loop in Rust, in one run.
+"""Compares the cost of a table in Python with that of the command `ccd` and of a loop in Rust, in one run.
 
     python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd --loop target/release/examples/rows
 
@@ -82,7 +82,7 @@ def answer(a: str, b: str, columns: dict[str, np.ndarray], threads: int) -> tupl
 
 
 def ratio(taken: dict[str, list[float]], other: str) -> float:
-    """How much longer Python took than another way, beside it."""
+    """Returns the ratio of the times of Python and another program."""
     return statistics.median(ours / theirs for ours, theirs in zip(taken["python"], taken[other], strict=True))
 
 

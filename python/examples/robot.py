@@ -1,4 +1,4 @@
-"""Edges of a planner for a Franka Panda: certified, beside checks at equal steps.
+"""Edges of a planner for a Franka Panda: certified, and compared with checks at equal steps.
 
     pip install example-robot-data yourdfpy trimesh python-fcl matplotlib
     python robot.py [PLOT.png]
@@ -52,7 +52,7 @@ ignored = {
 # A chain is serial, so the hand's two fingers get one each. Both have ten joints: seven that turn, two that are fixed,
 # and a finger's slide. The fingers move alike, and share the last position.
 def joints_to(tip: str) -> list[yourdfpy.Joint]:
-    """The joints from the robot's base to a link."""
+    """Returns the joints from the robot's base to a link."""
     above = {joint.child: joint for joint in robot.robot.joints}
     found = []
     while tip in above:
@@ -151,7 +151,7 @@ while len(obstacles) < 17:
     if np.hypot(*at[:2]) > 0.3:  # not in the robot's trunk
         turned = trimesh.transformations.random_rotation_matrix(random.random(3))
         obstacles.append(obstacle_of(f"cable {len(obstacles) - 4}", box((0.006, 0.006, 0.3)), at, turned))
-# One body of them all is the fastest where it does not matter which of them is hit.
+# A single body is fastest if it does not matter which obstacle is hit.
 placed = [obstacle.mesh.copy().apply_transform(obstacle.stands) for obstacle in obstacles]
 cell = obstacle_of("cell", trimesh.util.concatenate(placed), [0, 0, 0])
 
@@ -160,7 +160,7 @@ cell = obstacle_of("cell", trimesh.util.concatenate(placed), [0, 0, 0])
 # An edge moves each joint from one position to another. Ours is asked once for each pair of bodies, for the whole edge.
 # A pair of links is asked as the nearer one sees the other: what moves both costs nothing.
 def pairs(start: np.ndarray, end: np.ndarray, around: list[Obstacle]) -> Iterator[tuple[Link, Link | Obstacle, Any]]:
-    """Each pair of bodies that may meet, with their motions: what the queries take."""
+    """Returns each pair of bodies that may meet, with their motions, as arguments of queries."""
     for link in links:
         moves = link.chain.link(link.index, start, end)
         if link.index > 0:
@@ -200,7 +200,7 @@ for obstacle in obstacles:
 
 
 def place(at: np.ndarray) -> None:
-    """Puts FCL's links where our chains say."""
+    """Sets the poses of FCL's links to those of our chains."""
     for link in links:
         pose = link.pose(at)
         for holder in holders[link.name]:
@@ -213,12 +213,12 @@ def collides(at: np.ndarray) -> bool:
 
 
 def at_time(start: np.ndarray, end: np.ndarray, t: float) -> np.ndarray:
-    """The joints at a time from 0 to 1."""
+    """Returns the joint positions at a time from 0 to 1."""
     return start + t * (end - start)
 
 
 def first_step(start: np.ndarray, end: np.ndarray, steps: int) -> float | None:
-    """The time of the first of equal steps at which FCL finds a collision."""
+    """Returns the time of the first step at which FCL finds a collision."""
     return next((t for t in np.linspace(0, 1, steps + 1) if collides(at_time(start, end, t))), None)
 
 
@@ -236,7 +236,7 @@ def draw(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
 
 @dataclass
 class Touch:
-    """The first contact of an edge: two things, and a point of each in the world."""
+    """The first contact of an edge: two bodies, and a point of each in the world."""
 
     time: float
     things: tuple[Link, Link | Obstacle]
@@ -244,7 +244,7 @@ class Touch:
 
 
 def first_touch(start: np.ndarray, end: np.ndarray) -> Touch | None:
-    """The first contact of all pairs. Each pair is asked only up to the first contact so far."""
+    """Returns the first contact of all pairs. Each query ends at the first contact so far."""
     first: Touch | None = None
     until = 1.0
     for link, other, asked in pairs(start, end, obstacles):
@@ -257,7 +257,7 @@ def first_touch(start: np.ndarray, end: np.ndarray) -> Touch | None:
 
 
 def timed(check: Callable[..., Any]) -> tuple[list[Any], float]:
-    """The answer for each edge, and edges per second."""
+    """Returns the answer for each edge, and the number of edges per second."""
     began = time.perf_counter()
     found = [check(*edge) for edge in edges]
     return found, len(edges) / (time.perf_counter() - began)
@@ -280,17 +280,17 @@ for check, (found, rate) in answers.items():
 # %% Are these contacts real, and are the proofs?
 # FCL and trimesh judge. They know nothing of our answers.
 def off_surface(mesh: trimesh.Trimesh, pose: np.ndarray, point: np.ndarray) -> float:
-    """How far a point is from the surface of a mesh at a pose."""
+    """Returns the distance of a point from the surface of a mesh at a pose."""
     local = trimesh.transform_points([point], np.linalg.inv(pose))
     return trimesh.proximity.closest_point_naive(mesh, local)[1][0]
 
 
 for (start, end), touch, free in zip(edges, touches, answers["certified"][0]):
     seen = first_step(start, end, 200)
-    # What is certified never collides at 200 steps, and what collides does so after our time of contact.
+    # A certified edge has no collision at 200 steps, and any collision is after our time of contact.
     assert not (free and (touch or seen is not None))
     assert seen is None or (touch is not None and touch.time <= seen), (seen, touch and touch.time)
-    # No edge is refused without a reason: something comes nearer than the tolerance.
+    # Every refused edge has two bodies that come nearer than the tolerance.
     if not free and touch is None:
         nearest = min(closest_approach(*asked, tolerance=1e-6).upper for _, _, asked in pairs(start, end, [cell]))
         assert nearest <= TOLERANCE + 1e-6, nearest
@@ -317,7 +317,7 @@ print(f"Edge {k}, accepted at {finest}: {names[0]} meets {names[1]} at time {tou
 # Joint 1 goes through its travel in stretches. `closest_approach` of every moving link to every obstacle gives what the
 # clearance never falls below in a stretch, between steps too. The dots are FCL's distances at 41 equal steps.
 def clearance(start: np.ndarray, end: np.ndarray) -> tuple[float, float, float]:
-    """Bounds of the least distance from the arm to the obstacles over an edge, and when it is reached."""
+    """Returns bounds of the least distance from the arm to the obstacles over an edge, and its time."""
     found = [
         closest_approach(*asked, tolerance=TOLERANCE) for _, other, asked in pairs(start, end, [cell]) if other is cell
     ]

@@ -139,7 +139,7 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
 fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let given = plain(values, what)?;
     match kind(&given)? {
-        // Objects are numbers of other kinds, such as fractions.
+        // Arrays of objects contain other kinds of numbers, such as fractions.
         'f' | 'i' | 'u' | 'O' => as_array(&given, "float64", what),
         _ => {
             let dtype = given.getattr("dtype")?;

@@ -104,7 +104,7 @@ impl PyBody {
         let detail = detail(pieces, surface)?;
         py.detach(|| {
             let mesh = TriangleMesh::new(points, &faces).map_err(input)?;
-            PyBody::of(prepare(&mesh, detail).map_err(input)?)
+            PyBody::from_model(prepare(&mesh, detail).map_err(input)?)
         })
     }
 
@@ -156,7 +156,7 @@ impl PyBody {
             adjustments = adjustments.converted_to(unit);
         }
         class.py().detach(|| {
-            // A file that cannot be read is an OSError. A pipe would be waited for, and is none.
+            // An unreadable file is an OSError. A pipe would block, and is refused.
             let there = std::fs::metadata(&path).map_err(|error| of_file(&error, &path))?;
             if !there.is_file() {
                 return Err(input(format!("{}: is no file", path.display())));
@@ -178,7 +178,7 @@ impl PyBody {
                     prepare(&mesh, detail).map_err(|error| input(format!("{source}: {error}")))?
                 }
             };
-            PyBody::of(model)
+            PyBody::from_model(model)
         })
     }
 
@@ -317,7 +317,7 @@ impl PyBody {
     fn _from_bytes(class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
         class
             .py()
-            .detach(|| PyBody::of(Model::read(stored).map_err(input)?))
+            .detach(|| PyBody::from_model(Model::read(stored).map_err(input)?))
     }
 
     fn __repr__(&self) -> String {
@@ -326,7 +326,7 @@ impl PyBody {
 }
 
 impl PyBody {
-    fn of(model: Model) -> PyResult<Self> {
+    fn from_model(model: Model) -> PyResult<Self> {
         let body = model.body().map_err(input)?;
         Ok(PyBody {
             size: Remark::size(&body),

@@ -41,7 +41,7 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::of(Kind::Revolute(finite(axis, "axis")?), origin, limits)
+        PyJoint::new(Kind::Revolute(finite(axis, "axis")?), origin, limits)
     }
 
     /// A joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
@@ -53,13 +53,13 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::of(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
+        PyJoint::new(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
     }
 
     /// A joint without a degree of freedom. It has a position all the same, which does not matter.
     #[classmethod]
     fn fixed(_class: &Bound<'_, PyType>, origin: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyJoint::of(Kind::Fixed, origin, None)
+        PyJoint::new(Kind::Fixed, origin, None)
     }
 
     fn __reduce__<'py>(
@@ -111,7 +111,7 @@ impl Kind {
 }
 
 impl PyJoint {
-    fn of(
+    fn new(
         kind: Kind,
         origin: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
@@ -169,7 +169,7 @@ impl PyChain {
     #[new]
     #[pyo3(signature = (joints, base = None))]
     fn new(joints: &Bound<'_, PyAny>, base: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        // One by one: what says that it is long may be no list.
+        // Collect one by one, because an object may report a wrong length.
         let joints = joints
             .try_iter()?
             .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));

@@ -61,7 +61,7 @@ impl PyMotion {
             None => Ok([0.0; 3]),
         };
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
-        PyMotion::of(Made::Moving {
+        PyMotion::from_parts(Made::Moving {
             start: GivenPose(given(position, "position")?, turned),
             velocity: given(velocity, "velocity")?,
             spin: given(spin, "spin")?,
@@ -72,7 +72,7 @@ impl PyMotion {
     /// Makes the motion of a body at rest; the pose has the forms of `Motion.between`.
     #[classmethod]
     fn still(_class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyMotion::of(Made::Moving {
+        PyMotion::from_parts(Made::Moving {
             start: given_pose(pose, "pose")?,
             velocity: [0.0; 3],
             spin: [0.0; 3],
@@ -93,7 +93,7 @@ impl PyMotion {
         duration: f64,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyMotion::of(Made::Between {
+        PyMotion::from_parts(Made::Between {
             start: given_pose(start, "start")?,
             end: given_pose(end, "end")?,
             duration,
@@ -146,7 +146,7 @@ impl PyMotion {
 }
 
 impl PyMotion {
-    fn of(made: Made) -> PyResult<Self> {
+    fn from_parts(made: Made) -> PyResult<Self> {
         let motion = match &made {
             Made::Moving {
                 start,

@@ -79,7 +79,7 @@ fn run(
     )?;
     seen?;
     let found = found.map_err(input)?;
-    // With little time left, the first answer may have come farther.
+    // If little time is left, the first answer may be better.
     Ok(match &found.outcome {
         Outcome::Unresolved(known) if until > farther(known) => first,
         _ => found,

@@ -49,7 +49,7 @@ pub(crate) fn answer_table(
             Micros::LeftOut
         },
     };
-    // One query shows whether the settings can be used: an error of each row would only repeat it.
+    // One query checks the settings, whose error each row would only repeat.
     check(asked)?;
     if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
         return Err(wrong_type("progress", "a function", progress));

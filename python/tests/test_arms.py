@@ -44,7 +44,7 @@ def test_links_are_where_trigonometry_says() -> None:
     moves = chain.link(3, [0, 0, 0], [1, -2, 0], duration=2)
     for time in (0, 0.7, 2):
         assert moves.pose(time)[:3, 3] == pytest.approx(tip(time / 2, -time))
-    # As the forearm sees it, the tip rests.
+    # In the frame of the forearm, the tip is at rest.
     assert moves.seen_from(2).pose(0.7) == pytest.approx(moves.seen_from(2).pose(0))
 
 
@@ -123,7 +123,7 @@ def test_a_path_turns_as_often_as_its_spins_say() -> None:
     assert path.pose(0.3)[:2, 0] == pytest.approx([math.cos(angle), math.sin(angle)], abs=1e-12)
     again = pickle.loads(pickle.dumps(path))
     assert again.pose(0.3) == pytest.approx(path.pose(0.3))
-    # The arm comes by a post on its side after a quarter of the first turn.
+    # The arm passes a post on its side after a quarter of the first turn.
     rod = Body.box(2, 0.05, 0.05)
     hit = first_contact(rod, BALL, path, Motion([0, 1, 0]))
     assert hit is not None and hit.time < 2 / 14

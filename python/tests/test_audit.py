@@ -10,7 +10,7 @@ from rigid_ccd import Body, audit, first_contacts
 
 BALL = Body.sphere(0.5)
 WALL = Body.box(0.001, 5, 5)
-# A checker that looks at ten steps sees neither shot; "half" is no motion, "beside" is free.
+# A check at ten steps detects neither shot; "half" is an invalid motion, and "beside" is free.
 SHOTS: dict[str, Any] = {
     "id": ["beside", "fast", "half", "slow/../x", "fast"],
     "a_px": [-3.0, -3, np.nan, -3, -3],

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rigid_ccd import Body, InputError, Motion, closest_approach
 
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-# Outward.
+# The faces are oriented outward.
 FACES = np.array(
     [
         [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
@@ -101,7 +101,7 @@ def test_files_are_read(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError) as missing:
         Body.from_file(tmp_path / "nothing.obj")
     assert missing.value.filename == str(tmp_path / "nothing.obj")
-    # A pipe without a writer would be waited for.
+    # Reading a pipe without a writer would block.
     os.mkfifo(tmp_path / "pipe.obj")
     for other in ("pipe.obj", "."):
         with pytest.raises(InputError, match="is no file"):
@@ -119,7 +119,7 @@ def test_files_are_adjusted(tmp_path: Path) -> None:
     path.write_text("\n".join(lines))
 
     def gap(body: Body, at: list[float]) -> float:
-        # The cube is from 1 to 3, a ball of radius 1 beside it.
+        # The cube extends from 1 to 3, with a ball of radius 1 beside it.
         return closest_approach(body, Body.sphere(1), None, Motion(at), tolerance=1e-9).upper
 
     assert gap(Body.from_file(path), [10, 2, 2]) == pytest.approx(6)

@@ -1,4 +1,4 @@
-"""The examples for engines of many machines, on those that are installed: the results are those of one process."""
+"""The examples for the installed distributed engines give the same results as one process."""
 
 import importlib
 import os
@@ -15,7 +15,7 @@ from test_tables import BALL, knot
 
 from rigid_ccd import Table, TableQuery, first_contacts
 
-# Local clusters listen on loopback alone, and tell nobody.
+# Local clusters listen on loopback only, and send no usage statistics.
 os.environ |= {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0", "RAY_USAGE_STATS_ENABLED": "0", "SPARK_LOCAL_IP": "127.0.0.1"}
 # A JVM that compiles little starts in half the time.
 os.environ |= {"JAVA_TOOL_OPTIONS": "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"}
@@ -70,12 +70,12 @@ def test_engines_have_the_results_of_one_process(
     expected: Any = sys.modules["pyarrow"].table(first_contacts(BALL, knot(60), motions, micros=False))
     found = parquet.read_table(results).sort_by("id").select(expected.column_names)
     assert found.cast(expected.schema).equals(expected)
-    # Each file alone has the types of all.
+    # Each single file has the types of the whole table.
     assert len({str(parquet.read_schema(file).remove_metadata()) for file in results.glob("*.parquet")}) == 1
 
 
 def table() -> Any:
-    """Fifty motions that miss, fifty that are none, and a hundred of which about half hit."""
+    """Returns fifty motions that miss, fifty invalid ones, and a hundred of which about half hit."""
     random = np.random.default_rng(1)
     columns = {
         "id": [f"shot {k:03}" for k in range(200)],

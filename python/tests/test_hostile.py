@@ -1,4 +1,4 @@
-"""Whatever Python passes is answered, or refused by an exception that `except Exception` catches."""
+"""Every Python argument gives an answer or an exception that `except Exception` catches."""
 
 import datetime
 import decimal
@@ -53,7 +53,7 @@ def test_a_damaged_pickle_as_a_whole() -> None:
 
 
 def test_forged_bytes_are_no_more_than_they_say() -> None:
-    """Not even the checksum tells: nothing is allocated for what is not there, nothing panics."""
+    """Damage with a valid checksum causes no allocation for missing data, and no panic."""
     table = Table({"id": ["a", None], "time": [1.5, 2.5], "whole": np.array([1, 2], "int16")})
     make, (stored, _) = table.__reduce__()
     made = refused = 0
@@ -202,7 +202,7 @@ def test_an_interrupt_inside_a_stream_stays_one() -> None:
 
 
 class Raises:
-    """Raises an exception at whatever is asked of it."""
+    """Raises an exception at every access."""
 
     def __init__(self, error: type[BaseException]) -> None:
         self.error = error

@@ -1,4 +1,4 @@
-"""Questions that go to other processes."""
+"""Questions that are sent to other processes."""
 
 import multiprocessing
 import os
@@ -48,7 +48,7 @@ def test_bodies_are_saved_with_the_same_answers(tmp_path: Path) -> None:
 
 def test_other_processes_have_the_same_answers() -> None:
     query = TableQuery(knot(60), WALL)
-    # Forked processes would share this one's threads.
+    # Forked processes would inherit the state of this one's threads.
     with multiprocessing.get_context("spawn").Pool(2) as pool:
         for found in pool.map(query, [COLUMNS] * 4):
             same(found, expected(knot(60)))

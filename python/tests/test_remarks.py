@@ -1,4 +1,4 @@
-"""What is valid, and hardly what is meant, is warned of; what is usual is not."""
+"""Valid input that is probably a mistake gives a warning; usual input does not."""
 
 import math
 import warnings
@@ -44,7 +44,7 @@ def test_what_is_usual_is_not() -> None:
         warnings.simplefilter("error")
         for spin in (0, 1, 10, math.pi, 100, 20 * math.pi, 104.72):
             first_contact(BALL, WALL, Motion([3, 0, 0], spin=[0, 0, spin]))
-        # Some of these may be degrees; all of them together are not.
+        # Some of these numbers may be degrees, but not all of them.
         speeds = np.linspace(0, 180, 25)
         first_contacts(BALL, WALL, {"a_px": np.full(25, 3.0), "a_wz": speeds})
         first_contacts(BALL, WALL, {"a_px": [3.0, 3.0], **quaternions(1.01)})
@@ -75,5 +75,5 @@ def quaternions(length: float) -> dict[str, list[float]]:
 
 
 def arm() -> Chain:
-    """A joint that turns, and one that slides."""
+    """Returns a revolute and a prismatic joint."""
     return Chain([Joint.revolute(np.eye(4), [0, 0, 1]), Joint.prismatic(np.eye(4), [1, 0, 0])])

@@ -1,4 +1,4 @@
-"""Bad and good inputs from four threads at once: exceptions of the right type, and no memory that is kept.
+"""Valid and invalid inputs from four threads at once give exceptions of the right type, and leak no memory.
 
 CCD_TEST_CASES=50 multiplies the number of calls: a million.
 """
@@ -106,7 +106,7 @@ BAD: list[tuple[type[BaseException], Callable[[], Any]]] = [
 
 
 def call(number: int) -> None:
-    """Makes one of the calls, and looks at what comes of it."""
+    """Makes one of the calls, and checks its result."""
     draw = random.Random(number)
     if draw.random() < 0.3:
         draw.choice(GOOD)()
@@ -145,7 +145,7 @@ def from_four_threads(first: int, count: int) -> None:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the process's memory from /proc")
 def test_nothing_crashes_and_no_memory_is_kept() -> None:
-    # Allocators settle first.
+    # The first rounds warm up the allocators.
     from_four_threads(0, min(CALLS, 20_000))
     gc.collect()
     before = resident()

@@ -1,4 +1,4 @@
-"""Tables of motions, of all kinds, against single queries."""
+"""Tables of motions, of all kinds, compared with single queries."""
 
 import math
 import os
@@ -40,7 +40,7 @@ COLUMNS = (
 
 
 def shots(rows: int) -> dict[str, NDArray[Any]]:
-    """Balls from all sides, of which about half hit."""
+    """Returns motions of balls from all sides, of which about half hit."""
     random = np.random.default_rng(1)
     return {
         "id": np.array([f"shot {k}" for k in range(rows)]),
@@ -151,7 +151,7 @@ def test_a_pandas_frame_may_be_filtered() -> None:
 
 
 def a_frame(columns: Any) -> Any:
-    """A frame of a class made from that of pandas."""
+    """A subclass of the pandas frame."""
 
     class Frame(as_pandas({}).__class__):  # type: ignore[misc]
         pass
@@ -299,7 +299,7 @@ def test_ids_come_back_as_they_are() -> None:
         table = pyarrow.table(found)
         assert table.schema.field("id").type == ids.type
         assert table["id"].to_pylist() == ids.to_pylist() == [plain(id) for id in found["id"]]
-    # Dictionaries of parts may not fit into one.
+    # The dictionaries of parts may be too large for one.
     names = [f"n{k}" for k in range(300)]
     parts = [pyarrow.array(names[k : k + 50]).cast(pyarrow.dictionary(pyarrow.int8(), pyarrow.string())) for k in range(0, 300, 50)]
     chunks = pyarrow.concat_tables([pyarrow.table({"id": part, "a_px": np.full(50, -3.0)}) for part in parts])
@@ -619,8 +619,8 @@ def knot(size: int) -> Body:
 def test_ctrl_c_ends_a_table_with_what_is_done(rows: int) -> None:
     body = knot(600)
     random = np.random.default_rng(1)
-    # It turns a hundred thousand times, and barely misses each time: minutes of work. bench/interrupt.py tells how soon
-    # Ctrl-C ends it.
+    # The knot makes a hundred thousand turns, and barely misses each time: minutes of work. bench/interrupt.py measures
+    # how soon Ctrl-C ends it.
     columns = {"a_px": random.uniform(3.2, 3.4, rows), "a_wx": np.full(rows, 6e5), "a_wy": np.full(rows, 6e5)}
     interrupt(0.5)
     with pytest.raises(Interrupted) as error:
@@ -677,6 +677,6 @@ def test_ctrl_c_ends_a_single_query() -> None:
 
 def interrupt(seconds: float) -> None:
     """Sends Ctrl-C to this process, later."""
-    # A shell's job in the background ignores it, and so do the programs that it starts.
+    # A background job of a shell ignores Ctrl-C, and so do the programs that it starts.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT)).start()

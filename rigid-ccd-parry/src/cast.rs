@@ -102,7 +102,7 @@ impl Cast<'_> {
             bodies,
             motions: sides.map(|side| side.motion),
             frames,
-            horizon: Horizon::of(sides, within, self.interval.length()),
+            horizon: Horizon::new(sides, within, self.interval.length()),
             interval: self.interval,
             target: self.target,
             settings,
@@ -128,7 +128,7 @@ impl Cast<'_> {
         let wanted = self.interval.length();
         let reach = |horizon: Horizon| plane.reach(of_plane, side, within, horizon.duration());
         let horizon = plane.horizon(of_plane, side, within, wanted);
-        // The box is off by what the motion is at its farthest point, for which there is room.
+        // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);
         let away = length(of_plane.about - of_plane.motion.centre());
         let off = started[index].stray.at(4.0 * reach + away);
@@ -226,7 +226,7 @@ impl Cast<'_> {
 
 impl Started {
     fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
-        // All points of a body that does not turn move straight: a centre at its origin rounds least.
+        // All points of a body that does not rotate move straight; its origin as the centre rounds least.
         let centre = if motion.spin() == DVec3::ZERO {
             DVec3::ZERO
         } else {

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 /// Vertices at one place count as one.
 pub(crate) fn open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {
     let mut first_at: HashMap<[u64; 3], u32> = HashMap::new();
-    // Zero is added: both zeros are one place.
+    // Adding zero makes both zeros equal.
     let place = |v: u32| {
         vertices
             .get(v as usize)

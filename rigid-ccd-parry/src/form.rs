@@ -72,7 +72,7 @@ impl Form {
         let has_surface = *radius == 0.0 && !triangles.is_empty();
         let turned = |point: &DVec3| DVec3::new(point.y, point.z, point.x);
         let polytope = Polytope {
-            // The engine's are along z, parry's along y.
+            // The engine's axis is z, parry's is y.
             points: about.polytope().points.iter().map(turned).collect(),
             radius: *radius,
             ..about.polytope().clone()
@@ -290,7 +290,7 @@ impl Form {
                 None => Ok(body),
             };
         }
-        // Corners have the number of their part, by which its pieces are known after they are ordered anew.
+        // Corners have the number of their part, which identifies pieces after reordering.
         let numbered = |part: &Part| Polytope {
             vertex_ids: vec![part.number; part.polytope.points.len()],
             ..part.polytope.clone()

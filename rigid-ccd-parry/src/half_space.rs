@@ -51,7 +51,7 @@ impl HalfSpace {
         let needed = self.decided(plane, body, within);
         let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
         let horizon = Horizon::needed([plane, body], needed);
-        // What stands in for a plane is as wide as the way along it, and rounded as that is.
+        // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
         let size = body.reach + within + length(body.place() - plane.place());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
         let most = FARTHEST_ALONG * size / speed;
@@ -68,7 +68,7 @@ impl HalfSpace {
         let [p, b] = [plane.motion, body.motion];
         let (still, spin) = (p.spin() == DVec3::ZERO, b.spin());
         if p.velocity() == b.velocity() {
-            // In the plane's frame the body turns in place, or goes around.
+            // In the plane's frame the body rotates in place, or goes around.
             return match (still, spin == DVec3::ZERO) {
                 (true, true) => Some(0.0),
                 (true, false) => Some(TAU / length(spin) * BEYOND),
@@ -82,7 +82,7 @@ impl HalfSpace {
         let velocity = b.velocity() - p.velocity();
         let upright = p.start().rotation() == DQuat::IDENTITY;
         if upright && self.normal * velocity == DVec3::ZERO {
-            // Exactly along the plane.
+            // The body moves exactly along the plane.
             return Some(if spin == DVec3::ZERO {
                 0.0
             } else {

@@ -49,7 +49,7 @@ impl Horizon {
     }
 
     /// Returns the horizon for bodies with contact distance `within`, for the time `wanted`.
-    pub(crate) fn of(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
+    pub(crate) fn new(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
         let needed = [passed(bodies, within), repeated(bodies)];
         Horizon::needed(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
@@ -89,7 +89,7 @@ fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
         (true, true) => Some(0.0),
         (false, true) => Some(turn(a.spin())),
         (true, false) => Some(turn(b.spin())),
-        // About two axes at one rate, too, everything repeats itself.
+        // With two axes and equal rates, everything repeats too.
         (false, false) if a.spin() == b.spin() => Some(turn(a.spin())),
         (false, false) => None,
     }
@@ -97,7 +97,7 @@ fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
 
 /// Returns the longest duration for which the engine accepts both motions.
 fn possible(bodies: [Reaching; 2]) -> f64 {
-    // The engine's origin is at one of them.
+    // The engine's origin is at one of the bodies.
     let origins = bodies.map(|body| body.motion.start().translation());
     let of = |body: &Reaching| {
         let motion = &body.motion;

@@ -120,7 +120,7 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let velocity = other.1.velocity() - this.1.velocity();
     let displacement = velocity * scene.horizon.duration();
     let (middle, radius) = other.0.ball();
-    // In the world at the start.
+    // The position at the start, in the world.
     let from = other.1.start().transform_point(middle);
     let within = scene.settings.margin + scene.settings.tolerance + radius;
     let comes_near = |piece: &Piece<'_>| {
@@ -128,7 +128,7 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         let place = this.1.start().transform_point(middle);
         let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(displacement));
         let apart = distance_to_segment(place - from, displacement);
-        // Written so that NaN is near.
+        // The comparison treats NaN as near.
         !(apart > (within + radius) * BEYOND + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
@@ -161,7 +161,7 @@ fn begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> b
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
-    // Written so that NaN does not part.
+    // The comparison is false for NaN, which does not part.
     let least = -ALONG * length(velocity);
     direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= least)
 }

@@ -169,7 +169,7 @@ pub mod f32 {
 
 /// Casts for `parry3d-f64`, in double precision.
 #[cfg(feature = "f64")]
-// Both precisions are one source. Some conversions are needed in the other one only.
+// Both precisions share one source, and some conversions are needed only in the other precision.
 #[allow(
     clippy::duplicate_mod,
     clippy::unnecessary_cast,

@@ -42,7 +42,7 @@ pub enum RecordError {
 
 impl Recording {
     /// Records a scene.
-    pub(crate) fn of(scene: &Scene<'_>) -> Self {
+    pub(crate) fn new(scene: &Scene<'_>) -> Self {
         Recording {
             bodies: scene.bodies.map(|body| body.body().clone()),
             motions: scene.motions,

@@ -65,7 +65,7 @@ impl Scene<'_> {
     /// their pieces overlap.
     pub(crate) fn may_part(&self) -> bool {
         let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
-        // Inside a mesh that is a solid there is no piece to part from.
+        // Inside a solid mesh there may be no piece from which a body could part.
         let bare = |body: &&Prepared| {
             let body = body.body();
             body.pieces().len() == 1 || body.volume() == Volume::Surface

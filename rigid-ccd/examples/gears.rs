@@ -69,7 +69,7 @@ impl Gear {
         for z in [-0.5 * WIDTH, 0.5 * WIDTH] {
             vertices.extend(outline.iter().map(|&[x, y]| DVec3::new(x, y, z)));
         }
-        // Every point of the outline is seen from the axis.
+        // Every point of the outline is visible from the axis.
         vertices.extend([-0.5, 0.5].map(|side| side * WIDTH * DVec3::Z));
         let (bottom, top) = (2 * count, 2 * count + 1);
         let mut faces = Vec::new();
@@ -100,7 +100,7 @@ struct Window {
 fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Error>> {
     let [a, b] = gears;
     let bodies = [a.body()?, b.body()?];
-    // A little farther apart than the pitch circles say.
+    // The axes are a little farther apart than the pitch circles require.
     let distance = a.pitch_radius() + b.pitch_radius() + 0.02 * a.module;
     let ratio = f64::from(a.teeth) / f64::from(b.teeth);
     let mut solver = Solver::new().with_settings(Settings {

@@ -20,7 +20,7 @@ impl DistanceOracle for Segments {
         let last = [a.len() - 1, b.len() - 1];
         let (p, q) = (a[0], pair.b_to_a.point(b[0]));
         let (u, v) = (a[last[0]] - p, pair.b_to_a.point(b[last[1]]) - q);
-        // Alternates: the nearest point of one segment to a point of the other.
+        // Alternating projection: the nearest point of one segment to a point of the other.
         let (mut s, mut t) = (0.5, 0.5);
         for _ in 0..100 {
             s = clamped((q + t * v - p).dot(u) / u.length_squared());

@@ -113,11 +113,11 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
         Ok(Exit::SomeRowsBad) => ExitCode::from(2),
         Ok(Exit::SomeNotFree) => ExitCode::from(3),
         Err(error) => match error.downcast_ref::<CannotWrite>() {
-            // The reader of a pipe has closed it: this is not a failure.
+            // The reader closed the pipe, which is not a failure.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             failed => {
                 complain(&causes::message(&error));
-                // Another run has the output: this one was not to be started.
+                // Another run holds the output, so this run must not start.
                 let busy = |f: &CannotWrite| f.source.kind() == io::ErrorKind::ResourceBusy;
                 ExitCode::from(if failed.is_none_or(busy) { 2 } else { 1 })
             }

@@ -66,7 +66,7 @@
 //!
 //! The README of this crate lists the time that each feature takes to build.
 //!
-// Names that need a feature lead to the list of features in documentation that was built without it.
+// In documentation without a feature, the names that need it link to the list of features.
 #![cfg_attr(
     feature = "meshes",
     doc = "[`load`]: load()

@@ -174,14 +174,14 @@ impl<S: Send> ParallelSolver<S> {
         answer: impl Fn(&mut S, &Q) -> R + Sync,
     ) -> Vec<R> {
         let results: Vec<OnceLock<R>> = queries.iter().map(|_| OnceLock::new()).collect();
-        // The counter only shares out the queries: the end of a thread makes its results visible.
+        // The counter only distributes the queries; joining a thread makes its results visible.
         let counter = CachePadded(AtomicUsize::new(0));
         let next = || {
             let index = counter.0.fetch_add(1, Ordering::Relaxed);
             Some((queries.get(index)?, results.get(index)?))
         };
         self.share(queries.len(), next, |solver, (query, result)| {
-            // No other thread has this index: the cell is empty.
+            // Only this thread has this index, so the cell is empty.
             let _ = result.set(answer(solver, query));
         });
         let results = results.into_iter().filter_map(OnceLock::into_inner);
@@ -219,7 +219,7 @@ impl<S: Send> ParallelSolver<S> {
         let most = queries.size_hint().1.unwrap_or(usize::MAX);
         let queries = Mutex::new(queries.fuse().enumerate());
         let results = Mutex::new(Vec::new());
-        // The lock is poisoned where the iterator has panicked: there is no more to do.
+        // The lock is poisoned if the iterator panicked; no work is left then.
         let next = || queries.lock().ok()?.next();
         self.share(most, next, |solver, (index, query)| {
             let result = answer(solver, query);

@@ -101,7 +101,7 @@ impl<'a> Painter<'a> {
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
         let name = match (self.asked.claim, row.time) {
-            // Of a path there is a row for each of its poses.
+            // A path has one row for each of its poses.
             (Claim::Then, Some(time)) => {
                 format!(
                     "{} at {} ({})",
@@ -133,7 +133,7 @@ impl<'a> Painter<'a> {
             .collect();
         Ok(View {
             start,
-            // Of bodies that do not touch, their nearest is the most telling.
+            // For bodies that do not touch, show the time at which they are nearest.
             time: match row.status {
                 Status::Free => nearest,
                 _ => time.unwrap_or(nearest),
@@ -152,7 +152,7 @@ impl<'a> Painter<'a> {
         };
         let found = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
         let measured = found.outcome.lower();
-        // Poses are rounded on their way through the table.
+        // The table rounds the poses.
         if measured > told + found.tolerance {
             return Err(ViewError::OtherBodies {
                 time,

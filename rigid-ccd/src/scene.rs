@@ -276,7 +276,7 @@ impl<'a> Scene<'a> {
     fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
         let swept = |member: &Member<'_>| {
             let swept = member.moving().swept_box(duration, &self.settings);
-            // Each of its pairs tells what is wrong.
+            // Each pair of such a body reports its error.
             swept.unwrap_or(EVERYWHERE)
         };
         let boxes: Vec<SweptBox> = self.members.iter().map(swept).collect();

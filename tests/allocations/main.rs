@@ -28,7 +28,7 @@ fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
     at_start
 }
 
-// One test: the count is that of all threads.
+// There is a single test, because the count covers all threads.
 #[test]
 fn queries_do_not_allocate_once_the_solver_is_warm() {
     let mixed = Mixed::new();
@@ -40,7 +40,7 @@ fn assert_warm<O: DistanceOracle>(mixed: &Mixed, oracle: O) {
     let mut solver = Solver::with_oracle(oracle);
     let cold = Region::new(HEAP);
     let at_start = answer_all(mixed, &mut solver);
-    // The check can fail: the first round does allocate.
+    // The check can fail: the first round allocates.
     assert!(cold.change().allocations > 0);
     assert!(at_start > QUERIES / 100, "{at_start}");
     let warm = Region::new(HEAP);

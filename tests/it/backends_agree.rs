@@ -11,7 +11,7 @@ fn all_setups_agree_unless_the_distance_is_within_the_tolerance() {
     let (hits, misses) = (Cell::new(0), Cell::new(0));
     check_cases(200, cases(), |case| {
         let query = case.query();
-        // Contact is right as soon as the distance is the tolerance. Free is right until it is 0.
+        // A contact is right at distances up to the tolerance, and a free answer at distances above 0.
         let first = Referee::with_margin(&query, case.tolerance).finding();
         let last = Referee::new(&query).finding();
         let mut seen = Vec::new();

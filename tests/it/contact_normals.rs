@@ -81,7 +81,7 @@ impl Touch {
         } else {
             Pose::new(direction(rng), rotation(rng)).unwrap()
         };
-        // A's support meets B's from the other side; its edge is along B's, or anyhow.
+        // A's support touches B's from the other side; its edge is parallel to B's, or arbitrary.
         let aligned = b.basis() * a.basis().conjugate();
         let facing = DQuat::from_axis_angle(b.along, TAU / 2.0) * aligned;
         let twist = match rng.random_range(0..3) {
@@ -117,7 +117,7 @@ impl Touch {
         let Outcome::Touching { contact } = outcome else {
             panic!("{outcome:?} at {}", self.gap);
         };
-        // Of pieces that are as near, to a share of their distance, any is the answer.
+        // Any of the pieces that are nearest, up to a share of their distance, is a right answer.
         let way = self.check(&contact.separation);
         assert!(
             way.is_some() || self.gap > 1e-9,
@@ -219,7 +219,7 @@ impl Support {
                 [n, *mesh.vertices.iter().max_by(higher).unwrap()]
             }
             1 => {
-                // Between its two faces, or across the face if that one lies on.
+                // The direction is between the edge's two faces, or across the face if that one is flush.
                 let at = |v: &DVec3| *v == a || *v == b;
                 let holds = |k: &&usize| mesh.triangle(**k).iter().filter(|v| at(v)).count() == 2;
                 let sides: Vec<DVec3> = outer.iter().filter(holds).map(|&k| normal(k)).collect();

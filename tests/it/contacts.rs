@@ -58,7 +58,7 @@ fn t12_a_peg_touches_four_walls_at_once() {
         for pair in &pairs {
             let at = pair.separation.witness_a;
             assert!((at.z.abs() - 0.25).abs() < 1e-12, "{pair:?}");
-            // Each wall is an axis away from the middle.
+            // Each wall is one unit away from the middle, along an axis.
             let n = pair.separation.normal;
             assert!(
                 n.abs().max_element() > 1.0 - 1e-12 && n.dot(at) > 0.0,

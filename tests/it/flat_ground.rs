@@ -189,7 +189,7 @@ fn what_stands_on_cut_ground_is_found_at_its_time() {
             for_each_setup(&query, &leave(), |_, setup, answer| {
                 let time = match answer.outcome {
                     Outcome::Contact { time, .. } => time,
-                    // Pieces that an oracle's axis does not tell apart so near to each other.
+                    // Pieces so near to each other that an oracle's axis does not separate them.
                     Outcome::Unresolved(Unresolved {
                         safe_until,
                         limit: Limit::Stalled,

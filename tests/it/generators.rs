@@ -8,20 +8,20 @@ use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn cases_hit_and_miss() {
-    let shares = Shares::of(&cases());
+    let shares = Shares::count(&cases());
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
     assert!(shares.undecided <= 2, "{shares:?}");
 }
 
 #[test]
 fn convex_cases_hit_and_miss() {
-    let shares = Shares::of(&convex_cases());
+    let shares = Shares::count(&convex_cases());
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
 }
 
 #[test]
 fn crowded_cases_overlap() {
-    let shares = Shares::of(&crowded_cases());
+    let shares = Shares::count(&crowded_cases());
     assert!(
         shares.starts >= 50 && shares.nested >= 2 && shares.hits >= 20,
         "{shares:?}"
@@ -30,7 +30,7 @@ fn crowded_cases_overlap() {
 
 #[test]
 fn remote_cases_hit_and_miss() {
-    let shares = Shares::of(&remote_cases());
+    let shares = Shares::count(&remote_cases());
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
 }
 
@@ -46,7 +46,7 @@ struct Shares {
 }
 
 impl Shares {
-    fn of(strategy: &impl Strategy<Value = Case>) -> Shares {
+    fn count(strategy: &impl Strategy<Value = Case>) -> Shares {
         let mut shares = Shares::default();
         let mut runner = runner(1);
         for _ in 0..200 {

@@ -87,7 +87,7 @@ fn a_missing_oracle_is_reported() {
                 assert!(safe_until <= 0.5, "{answer:?}");
                 assert!(answer.stats.give_ups > 0, "{answer:?}");
             }
-            // Boxes around single triangles are proof enough of a contact.
+            // The boxes around single triangles are enough to prove a contact.
             other => panic!("{other:?}"),
         }
     }

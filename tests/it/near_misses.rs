@@ -49,12 +49,12 @@ fn a_ball_past_a_box_takes_few_steps() {
     };
     let (parabola, cubic) = (curve([2.0, -1.0, -1.0, 2.0]), curve([2.0, -2.0, 1.0, 2.0]));
     let joint = |z: f64| Joint::revolute(at(z), [0.0, 1.0, 0.0]).unwrap();
-    // Stretched downwards at half the time.
+    // The curve is stretched downwards at half the time.
     let joints = vec![joint(0.0), joint(-1.0), Joint::fixed(at(-1.0))];
     let chain = Chain::new(Pose::IDENTITY, joints);
     let hand = (chain.link(3, &[-1.0, -1.0, 0.0], &[1.0, 1.0, 0.0], 1.0)).unwrap();
     for gap in [1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 0.0] {
-        // Where little but rounding is left, no way is exact.
+        // If little more than rounding is left, no trajectory is exact.
         let few = if gap > 1e-10 { 4 } else { 20 };
         for (way, most) in [(&straight as &dyn Trajectory, few), (&parabola, few)] {
             assert!(most_visits(way, gap) <= most, "{gap}");
@@ -93,7 +93,7 @@ fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
         assert!(matches!(any.outcome, Outcome::Contact { .. }), "{any:?}");
     }
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
-    // Of coordinates up to 4.
+    // The coordinates are at most 4.
     let rounding = 1e-14;
     assert!(
         lower <= gap + rounding

@@ -64,7 +64,7 @@ fn points(sizes: &'static [usize]) -> impl Strategy<Value = Vec<DVec3>> {
 }
 
 fn pairs(sizes: &'static [usize]) -> impl Strategy<Value = (Pair, f64)> {
-    // `None` puts the middles of the pieces' points on each other.
+    // `None` places the middles of both pieces at the same point.
     let apart = prop_oneof![
         (0.0..4.0f64).prop_map(Some),
         (1.0..2.0f64).prop_map(Some),
@@ -140,7 +140,7 @@ fn degenerate<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     let size = || prop::sample::select(sizes);
     let all = move || size().prop_flat_map(move |n| prop::collection::vec(point(), n));
     run(2_000, &(all(), all(), point()), |(a, b, offset)| {
-        // The coordinates exceed those allowed for pieces of a list: points alone.
+        // The coordinates exceed those allowed in a `Pieces`, so the points are used alone.
         let [a, b] = [a, b].map(|points| Hull::with_facets(points, Vec::new()));
         let same = Pair::new(a.clone(), a.clone(), DQuat::IDENTITY, DVec3::ZERO);
         ends_law(&mut O::default(), &same)?;

@@ -134,7 +134,7 @@ fn a_hull_across_the_inner_corner_of_an_l_is_found() {
         let corners = faces.map(|f| mesh.triangle(f as usize));
         let all = || corners.iter().flatten();
         let in_bar = |wide: fn(&DVec3) -> f64| all().all(|p| wide(p) <= 1.0);
-        // On or beyond the line from (2, 1) to (1, 2) there are only the line's ends of the L.
+        // The L has only two points on or beyond the line from (2, 1) to (1, 2): the ends of the line.
         let sum = |corner: &[DVec3; 3]| corner.iter().map(|p| p.x + p.y).fold(0.0, greater);
         match in_bar(|p| p.x) || in_bar(|p| p.y) {
             true => Some(false),

@@ -168,7 +168,8 @@ impl<'s> Case<'s> {
             config: Settings {
                 tolerance,
                 margin,
-                // At 1e-12, bodies that pass each other within rounding take millions.
+                // At a tolerance of 1e-12, bodies that pass each other within rounding take millions of
+                // visits.
                 budget: 100_000,
                 ..Settings::DEFAULT
             },

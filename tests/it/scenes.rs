@@ -71,7 +71,7 @@ fn check_group(prefix: &str) {
             query: scene.query.swapped(),
             expect: Expect::Unknown,
         };
-        // What the order changes depends neither on the tolerance nor on how motions are given.
+        // The effect of the order depends neither on the tolerance nor on the form of the motions.
         let judge = Judge::new(&swapped.query, &Settings::DEFAULT);
         let judge = judge.with_tolerance(1e-3 * size(scene));
         check_setups(&judge, &swapped, &scene.expect);
@@ -102,11 +102,11 @@ fn check_finding(
         (Expect::Free { gap }, Finding::Free { gap: seen }) => {
             assert!(seen >= gap - query.rounding(), "{name}: {seen} < {gap}");
         }
-        // Within the distance at which the referee cannot exclude touching.
+        // The distance is below that at which the referee can exclude touching.
         (Expect::Free { gap }, Finding::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
         // Sliding at a small distance takes the referee more steps than its limit.
         (Expect::Free { gap }, Finding::Undecided { .. }) => assert!(*gap < 2e-6, "{name}"),
-        // The contact grazes so briefly that intersection is not seen.
+        // The contact is so brief that no intersection is sampled.
         (Expect::Hit { latest, .. }, Finding::Near { lo }) => {
             assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
         }

@@ -81,7 +81,7 @@ impl Backend {
     pub fn suits(self, bodies: &Bodies) -> bool {
         let fit = match self.order {
             Order::BestFirst => true,
-            // Without trees it would be another schedule's answer.
+            // Without trees, the answer would be that of another schedule.
             Order::Fast => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
             Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
         };

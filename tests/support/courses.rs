@@ -128,7 +128,7 @@ fn pose(rng: &mut Pcg64, size: f64) -> Result<Pose, InputError> {
 }
 
 fn motion(rng: &mut Pcg64, reach: f64) -> Result<Motion, InputError> {
-    // Some turn so often that they repeat themselves.
+    // Some rotate so often that they repeat their poses.
     let turns = [0.0, 1.0, 6.0, 90.0][rng.random_range(0..4)];
     let spin = vector(rng, 1.0) * turns;
     let centre = vector(rng, 0.3 * reach);

@@ -122,7 +122,7 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
 /// Returns a required distance below, at or above the least distance, and the settings that require it.
 fn beside(closest: &Answer, config: &Settings) -> (f64, Settings) {
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
-    // As good as random.
+    // A pseudo-random choice.
     let required = match closest.stats.iterations % 4 {
         0 => 0.9 * lower,
         1 => upper + 2.0 * closest.tolerance,
@@ -181,8 +181,8 @@ fn ask_along<O: DistanceOracle>(
     let (required, keeping) = beside(&closest, config);
     let keeping = ccd_core::Query::new(a, b, query.duration, &keeping).expect("a well-posed query");
     let cleared = (depth_first.closest_approach(&keeping, &mut oracle)).expect(well_posed);
-    // It takes a look at each of many times: each time that bodies move by about their distance, or by the tolerance if
-    // they slide on each other or overlap. Hundreds are enough here.
+    // The schedule samples many times: each step lasts until the bodies have moved by about their distance,
+    // or by the tolerance if they slide or overlap. Hundreds are enough here.
     let travel = query.a.reach(query.duration) + query.b.reach(query.duration);
     let looks = greater(0.1 * closest.outcome.upper(), 1e-3 * travel);
     let coarse = Settings {

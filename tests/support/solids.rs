@@ -73,7 +73,7 @@ impl Solid {
             (faces.iter().map(face).collect(), 0.0)
         };
         let (faces, radius) = match *self {
-            // A point and a segment are triangles without area.
+            // A point and a segment are represented as degenerate triangles.
             Solid::Ball(radius) => (vec![Face::new([at(DVec3::ZERO); 3])], radius),
             Solid::Capsule(radius, half) => {
                 let core = [-half, half, half].map(|z| at(z * DVec3::Z));

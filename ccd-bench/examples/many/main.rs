@@ -83,7 +83,7 @@ impl Row {
             row.contacts += found.len();
             impacts.push(found);
         }
-        // Afterwards: a cast that does not return takes a core.
+        // The peer comes last, because a cast that does not return occupies a core.
         for (step, found) in impacts.iter().enumerate() {
             row.cast(&flight.step(step as u32)?, shapes, found, &config)?;
         }

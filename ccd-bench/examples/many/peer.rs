@@ -41,7 +41,7 @@ fn cast(motions: [&Motion; 2], shapes: [&SharedShape; 2]) -> Option<(Duration, O
         let [a, b] = &shapes;
         let hit = cast_shapes_nonlinear(&motions[0], &**a, &motions[1], &**b, 0.0, STEP, true);
         let time = hit.ok().flatten().map(|hit| hit.time_of_impact);
-        // Nobody waits for an answer that is too late.
+        // The receiver is gone if the answer is too late.
         let _ = sender.send((begun.elapsed(), time));
     });
     receiver.recv_timeout(PATIENCE).ok()
@@ -66,7 +66,7 @@ impl Tally {
             let [a, b] = [0, 1].map(|k| (pose(motions[k], time), &*shapes[k].peer));
             distance(&a.0, a.1, &b.0, b.1).map_or(f64::INFINITY, |found| found.distance)
         };
-        // Its distances are rounded.
+        // The peer's distances are rounded.
         let confirmed = |time: f64| gap(time) <= tolerance + 1e-7;
         let ours = ours.map(|impact| impact.hit.time);
         // Bodies approach by at most the tolerance between the two times.

@@ -169,7 +169,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         joined::export(&plan.listings, plan.models, folder)?;
         return Ok(Exit::AllAnswered);
     }
-    // A file that is no table should be found before the work, not after it.
+    // An invalid table should be detected before the work.
     let mut foreign = Vec::new();
     for file in &args.join {
         let trials = joined::read_trials(file);

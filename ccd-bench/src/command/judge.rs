@@ -77,7 +77,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
                 continue;
             }
         };
-        let query = method.motion_kind().of(query)?;
+        let query = method.motion_kind().apply(query)?;
         let truth = referee.first_contact(&query);
         let asked = guarded.ask(&query, Duration::from_secs(args.patience.get().into()))?;
         let verdict = judge_outcome(&asked, |reply| {

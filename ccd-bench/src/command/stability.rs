@@ -82,7 +82,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     } else {
         all_methods(args.peers.as_deref())
     };
-    // The folder may hold more than what is asked.
+    // The folder may contain more than the requested answers.
     let drawn = if args.ours {
         methods.clone()
     } else {

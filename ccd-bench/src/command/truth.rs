@@ -86,7 +86,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     let (a, b) = load(args)?;
     let referee = Referee::new(&a, b.as_ref().unwrap_or(&a));
     let mut table = Table::create(&args.out, &TRUTH_COLUMNS)?;
-    // A referee has no memory to work in: all threads share one.
+    // A referee has no scratch memory, so that all threads share one.
     let mut referees = on_threads(args.threads, || &referee);
     let mut size = BatchSize::new(referees.threads());
     let progress = if args.quiet {

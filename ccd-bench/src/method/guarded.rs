@@ -95,7 +95,7 @@ impl Programs {
     }
 
     /// Returns the program that runs a method: this one, or the script.
-    fn of(&self, method: Method) -> io::Result<PathBuf> {
+    fn program_of(&self, method: Method) -> io::Result<PathBuf> {
         match (method, &self.script) {
             (Method::Script(_), Some(script)) => Ok(script.clone()),
             (Method::Script(_), None) => Err(io::Error::other(format!(
@@ -128,7 +128,7 @@ impl Guarded {
         setting: Setting,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
-        let program = programs.of(setting.method)?;
+        let program = programs.program_of(setting.method)?;
         let mut guarded = Guarded::with_program(program, setting, meshes)?;
         guarded.running()?;
         Ok(guarded)

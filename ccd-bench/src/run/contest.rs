@@ -171,7 +171,7 @@ impl<'s> Contest<'s> {
             return Ok(None);
         }
         asked.sort_by_key(|(row, _)| *row);
-        let truths = truths.of(self, method.motion_kind());
+        let truths = truths.of_scene(self, method.motion_kind());
         let method = method.to_string();
         let trials: Vec<Trial> = asked
             .par_iter()

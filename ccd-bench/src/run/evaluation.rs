@@ -183,7 +183,7 @@ impl Plan {
             }
         }
         wanted.into_par_iter().for_each(|(body, pieces)| {
-            body.of(pieces);
+            body.body_of(pieces);
         });
     }
 

@@ -132,7 +132,7 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
         &rows,
         &rigid_ccd::command::Progress::hidden(),
     );
-    let truth = truths.of(&contest, MotionKind::Given);
+    let truth = truths.of_scene(&contest, MotionKind::Given);
     let mut trials = Vec::new();
     for (foreign, &row) in group.iter().zip(&rows) {
         let judged = match reported(foreign)? {

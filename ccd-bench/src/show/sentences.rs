@@ -117,7 +117,7 @@ impl Measurements<'_> {
             let cells = || self.cells_of(method).filter(|cell| self.is_compared(cell));
             let ratios = || cells().filter_map(|cell| self.reference.ratio(cell));
             let (least, most) = (ratios().reduce(lesser)?, ratios().reduce(greater)?);
-            // The time of a query that was stopped is not known.
+            // The time of a stopped query is unknown.
             let at_least = if cells().any(|cell| cell.cut_off > 0) {
                 "at least "
             } else {

@@ -107,7 +107,7 @@ fn shown(shot: &Shot, meshes: [usize; 2]) -> ccd_view::View {
             .collect(),
         ghosts: match &shot.gap {
             Some(gap) => gap.ghosts(query.duration),
-            // Where it starts and ends.
+            // The poses at the start and at the end.
             None => vec![0.0, query.duration],
         },
         gap: shot.gap.as_ref().map(|found| found.gap.clone()),

@@ -104,7 +104,7 @@ pub(super) fn extruded(
         let at = |right: usize, up: usize, back: usize| corner(i + right, j + up, back);
         quad([at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0)]);
         quad([at(1, 0, 1), at(0, 0, 1), at(0, 1, 1), at(1, 1, 1)]);
-        // Sides without a neighbour; before the first cell, the number wraps to one that is not filled.
+        // Sides without a neighbour; before the first cell, the index wraps to a cell that is not filled.
         if !is(i.wrapping_sub(1), j) {
             quad([at(0, 0, 1), at(0, 0, 0), at(0, 1, 0), at(0, 1, 1)]);
         }

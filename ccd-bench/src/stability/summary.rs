@@ -84,7 +84,7 @@ pub fn reach_map(findings: &Findings<'_>) -> HeatMap {
 
 /// Returns the map of the growth of each method's cost over each family.
 pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
-    // A query takes no step if a look at the whole bodies is enough.
+    // A query takes no step if the bounds of the whole bodies are enough.
     let cost = |cell: &Cell| {
         let key = (cell.scene.clone(), cell.method.clone());
         (key, 1.0 + cell.mean_steps)

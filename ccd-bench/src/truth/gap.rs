@@ -27,7 +27,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
             continue;
         }
         if search.budget == 0 {
-            // The remaining pairs may be nearer, as far as is known.
+            // The remaining pairs may be nearer.
             return Bracket {
                 lower: 0.0,
                 ..bracket
@@ -49,7 +49,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
             bracket.upper = lesser(bracket.upper, found.upper);
         }
     }
-    // Everything left out is at least as far as `upper`.
+    // Every pair that was left out is at least `upper` apart.
     bracket.lower = greater(0.0, lesser(bracket.lower, bracket.upper));
     bracket
 }

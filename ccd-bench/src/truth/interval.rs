@@ -42,7 +42,7 @@ impl Interval {
 
     /// Returns the numbers from `inf` to `sup`; all numbers if there are none.
     pub(super) const fn new(inf: f64, sup: f64) -> Self {
-        // False for NaN.
+        // The comparison is false for NaN.
         if inf <= sup && inf < f64::INFINITY && sup > f64::NEG_INFINITY {
             Interval { inf, sup }
         } else {
@@ -80,7 +80,7 @@ impl Interval {
 
     /// Returns the absolute values. Nothing is rounded.
     pub(super) fn abs(self) -> Self {
-        // At most one of the two is positive: the bound nearer to 0, if 0 is beyond it.
+        // At most one of the two is positive: the bound nearer to 0, if the interval does not contain 0.
         let least = greater(greater(self.inf, -self.sup), 0.0);
         Interval::new(least, self.mag())
     }

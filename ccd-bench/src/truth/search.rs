@@ -194,8 +194,8 @@ impl<'a> Search<'a> {
             if self.certain_at(near, time) {
                 return Some(time);
             }
-            // All triangles are tested every time for the first doubt, and then only once, since
-            // lasting doubts cost much.
+            // All triangles are tested for the first undecided time, and then only periodically, because that
+            // is slow.
             let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1 && (met == 0 || doubling == met);
             if wider && self.touch_at(roots, time, Proof::Pierced) == Touch::Yes {
                 return Some(time);

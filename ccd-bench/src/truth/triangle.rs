@@ -85,7 +85,8 @@ fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3
     let (ur, vr) = (u.dot(r), v.dot(r));
     let share = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
     let s = share((uv * vr - vv * ur) / (uu * vv - uv * uv));
-    // Each is the best for the other held. A second round corrects what a clamped first one leaves.
+    // Each parameter is the best for the other one fixed. A second round corrects the effect of clamping the
+    // first.
     let t = share((uv * s + vr) / vv);
     let s = share((uv * t - ur) / uu);
     let t = share((uv * s + vr) / vv);

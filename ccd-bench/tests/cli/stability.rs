@@ -43,19 +43,19 @@ fn methods_are_judged_and_answers_are_kept() {
         let line = limits.lines().find(|line| line.contains(family)).unwrap();
         line.to_owned()
     };
-    // Stepping sees thin paper only once it is in it.
+    // Stepping detects thin paper only once the body is inside it.
     let paper = limit("bullet and paper");
     assert!(paper.contains("late"), "{paper}");
-    // A second run asks only what is missing.
+    // A second run runs only what is missing.
     let answers = fs::read_to_string(folder.join("trials.csv")).unwrap();
     let again = survey(&folder, "best-first direct,discrete stepping,C2A");
     assert!(again.status.success());
     let more = fs::read_to_string(folder.join("trials.csv")).unwrap();
     assert!(more.starts_with(&answers) && more.contains("C2A"));
-    // It keeps no margin.
+    // The method has no margin.
     let margin = limit("| margin");
     assert!(margin.contains("1e-2 refused"), "{margin}");
-    // All answers are drawn, though fewer are asked for.
+    // All answers are drawn, although fewer are requested.
     let few = stability(&folder, &["--families", "margin", "--methods", "CONTACT"]);
     assert!(few.status.success());
     let paper = limit("bullet and paper");

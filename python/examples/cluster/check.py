@@ -31,12 +31,12 @@ import pyarrow.parquet
 
 from rigid_ccd import Body, Table, TableQuery, first_contacts
 
-# Local clusters listen on loopback alone, and tell nobody.
+# Local clusters listen on loopback only, and send no usage statistics.
 os.environ |= {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0", "RAY_USAGE_STATS_ENABLED": "0", "SPARK_LOCAL_IP": "127.0.0.1"}
 
 
 class Logged(TableQuery):
-    """A query that notes where it answers how many rows."""
+    """A query that records the number of rows answered in each process."""
 
     where: Callable[[], str]
 
@@ -66,18 +66,18 @@ class OfDask(Logged):
 class OfSpark(Logged):
     @staticmethod
     def where() -> str:
-        """The executor: it has started a daemon, which has started this process."""
+        """Returns the executor, the grandparent of this process."""
         return Path(f"/proc/{os.getppid()}/stat").read_text().rpartition(")")[2].split()[1]
 
 
 def answered(log: Path) -> Counter[str]:
-    """The number of rows that each place has answered."""
+    """Returns the number of rows that each process has answered."""
     return Counter({place.name: sum(map(int, place.read_text().split())) for place in log.iterdir()})
 
 
 @contextmanager
 def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Callable[[str], None]) -> Iterator[None]:
-    """Kills the busiest of these places, or of all, when a third of the rows is answered."""
+    """Kills the busiest of the given processes, or of all, after a third of the rows."""
     over = threading.Event()
 
     def watch() -> None:
@@ -103,7 +103,7 @@ def killer(given: argparse.Namespace, log: Path, victims: list[str], kill: Calla
 
 @contextmanager
 def ray(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
-    """Three nodes: the head, and two of which one dies."""
+    """Starts three nodes: the head, and two others, one of which is killed."""
     from ray.cluster_utils import Cluster
 
     example = importlib.import_module("ray_data")
@@ -146,7 +146,7 @@ def dask(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
 
 @contextmanager
 def spark(given: argparse.Namespace, log: Path) -> Iterator[Callable[..., None]]:
-    """Executors are processes of their own if one has to die."""
+    """Starts Spark, with executors in separate processes if one is to be killed."""
     import pyspark
 
     example = importlib.import_module("spark_arrow")
@@ -180,7 +180,7 @@ def knot() -> Body:
 
 
 def motions(rows: int) -> pyarrow.Table:
-    """Boxes that fly at the knot and turn. About half hit. A few are no motions."""
+    """Returns motions of rotating boxes at the knot. About half hit, and a few rows are invalid."""
     random = np.random.default_rng(1)
     columns = {name: random.uniform(-3, 3, rows) for name in ("a_wx", "a_wy", "b_wx", "b_wz")}
     columns |= {name: random.uniform(-2, 2, rows) for name in ("a_py", "a_pz")}
@@ -194,7 +194,7 @@ def motions(rows: int) -> pyarrow.Table:
 
 
 def bits(column: pyarrow.ChunkedArray) -> pyarrow.Array:
-    """What is compared: the bits of floats, of which NaN and null are alike; else the values."""
+    """Returns the values to compare: the bits of floats, with null as NaN; the values of other columns."""
     if not pyarrow.types.is_floating(column.type):
         return column.cast(pyarrow.string()).combine_chunks()
     numbers = column.to_numpy()

@@ -1,4 +1,4 @@
-"""The first contact in each row of a Parquet table, by Dask.
+"""Finds the first contact in each row of a Parquet table, with Dask.
 
     python dask_frame.py box.ccd knot.ccd motions.parquet contacts
 
@@ -37,7 +37,7 @@ def main() -> None:
     parser.add_argument("results", type=Path, help="a folder to make")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     given = parser.parse_args()
-    # This machine alone; Client("tcp://…") is a cluster that runs.
+    # A cluster on this machine; Client("tcp://…") connects to a running one.
     cluster = LocalCluster(n_workers=given.workers, threads_per_worker=1, dashboard_address=None)
     with cluster, Client(cluster):
         answer(given.a, given.b, given.motions, given.results)

@@ -1,4 +1,4 @@
-"""The first contact in each row of a Parquet table, by Ray Data.
+"""Finds the first contact in each row of a Parquet table, with Ray Data.
 
     python ray_data.py box.ccd knot.ccd motions.parquet contacts
 
@@ -18,7 +18,7 @@ from rigid_ccd import TableQuery
 def answer(a: Path, b: Path, motions: Path, results: Path, *, actors: int | None = None) -> None:
     """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
     table = ray.data.read_parquet(str(motions.resolve()))
-    # By itself Ray makes blocks of a hundred megabytes: a million rows, for one task.
+    # By default Ray makes blocks of a hundred megabytes: a million rows for one task.
     table = table.repartition(target_num_rows_per_block=10_000)
     table = by_tasks(table, a, b) if actors is None else by_actors(table, a, b, actors)
     # SaveMode.APPEND, the default, would add to the rows of a former run.
@@ -26,12 +26,12 @@ def answer(a: Path, b: Path, motions: Path, results: Path, *, actors: int | None
 
 
 def by_tasks(table: Dataset, a: Path, b: Path) -> Dataset:
-    """Takes all processors. A process loads the bodies once, for all of its tasks."""
+    """Uses tasks on all processors. A process loads the bodies once, for all of its tasks."""
     return table.map_batches(TableQuery(a.resolve(), b.resolve()), batch_format="pyarrow")
 
 
 def by_actors(table: Dataset, a: Path, b: Path, actors: int) -> Dataset:
-    """Takes as many processors as there are actors, and needs one more: with fewer it waits for ever."""
+    """Uses one processor for each actor, and needs one more: with fewer it waits forever."""
     return table.map_batches(
         TableQuery,
         fn_constructor_args=(a.resolve(), b.resolve()),

@@ -1,4 +1,4 @@
-"""The first contact in each row of a Parquet table, by Spark.
+"""Finds the first contact in each row of a Parquet table, with Spark.
 
     python spark_arrow.py box.ccd knot.ccd motions.parquet contacts
 

@@ -33,9 +33,9 @@ class Contact:
 
 @dataclass(frozen=True)
 class Distance:
-    """The least distance of two bodies, to within the tolerance, or as far as a required clearance asks for it.
+    """Bounds of the least distance of two bodies, to within the tolerance, or as narrow as a clearance requires.
 
-    Of `greatest_distance` it is the greatest one: at `time` it is at least `lower`, and it is never more than `upper`.
+    For `greatest_distance` they bound the greatest distance: at `time` it is at least `lower`, and it never exceeds `upper`.
 
     Bodies may exceed their shapes by their `sticks_out`. Then the bounds are those of the shapes: what both bodies stick out
     by is in `upper`, and no clearance is "violated" by the bodies alone.

@@ -1,4 +1,4 @@
-"""Motions that another checker has called free, certified."""
+"""Certifies motions that another checker has called free."""
 
 import os
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from ._tables import Motions, first_contacts
 
 @dataclass(frozen=True, repr=False)
 class Audit:
-    """What another checker has missed.
+    """The contacts that another checker has missed.
 
     Attributes:
         rows: the number of rows, or of paths.

@@ -1,4 +1,4 @@
-"""A question that engines of many machines can carry to their workers."""
+"""A picklable question, for distributed engines."""
 
 import os
 import pickle
@@ -14,7 +14,7 @@ BodyOrFile: TypeAlias = Body | str | os.PathLike[str]
 
 
 class TableQuery:
-    """A question about two bodies, asked of one table of motions after another.
+    """A question about two bodies that answers one table of motions after another.
 
     It is a callable that goes where functions of tables go: Ray Data's `map_batches`, Dask's `map_partitions`, Spark's
     `mapInArrow`, a pool of processes. It can be pickled. Each process loads or unpickles a body once.
@@ -52,7 +52,7 @@ class TableQuery:
     ) -> None:
         self._a, self._b, self._ask, self._paths = a, b, ask, paths
         self._settings = {"threads": 1, "micros": False, **settings}
-        # What is wrong with the question is wrong here, not on a worker. Files may be there alone.
+        # Invalid arguments raise here, not on a worker. Files may exist on the workers alone.
         for body in (a, b):
             if not isinstance(body, (Body, str, os.PathLike)):
                 raise TypeError(f"a, b: a Body or the path of a file is needed, not {type(body).__name__}")
@@ -68,9 +68,9 @@ class TableQuery:
         return _like(motions, answer(self._ask, _body(self._a), _body(self._b), table, **self._settings))
 
     def schema(self, motions: Any) -> Any:
-        """Returns what results of such motions look like, without the bodies.
+        """Returns an empty table with the columns of the results, without loading the bodies.
 
-        It is a table of the same kind without rows; of a pyarrow.Schema a pyarrow.Schema.
+        The table has the same kind as `motions`; for a pyarrow.Schema, the result is a pyarrow.Schema.
         """
         if hasattr(motions, "empty_table"):
             return self.schema(motions.empty_table()).schema
@@ -82,7 +82,7 @@ class TableQuery:
             yield self(motions)
 
     def _table(self, motions: Any) -> Table:
-        """Takes a table, if its rows can be told apart and its paths are whole."""
+        """Converts a table; refuses one without ids, or whose paths may be cut."""
         table = Table(motions)
         if "id" not in table:
             raise InputError("motions: no column `id`: engines return rows in any order")
@@ -115,7 +115,7 @@ def _body(given: BodyOrFile) -> Body:
 
 @lru_cache(maxsize=32)
 def _load(path: str, _changed: tuple[int, int]) -> Body:
-    """Loads a file, again only if it has changed."""
+    """Loads a file, or returns the cached body if the file is unchanged."""
     return Body.from_file(path)
 
 
@@ -129,19 +129,19 @@ def _unpacked(given: bytes | str | os.PathLike[str]) -> BodyOrFile:
 
 @lru_cache(maxsize=32)
 def _unpickle(body: bytes) -> Body:
-    """Makes a body once, however many tasks bring it."""
+    """Unpickles a body once per process."""
     made: Body = pickle.loads(body)
     return made
 
 
 def _library(motions: Any) -> str:
-    """Returns the library of a table: of one of a class made from another, that of the other."""
+    """Returns the library of a table, also for a derived class."""
     modules = [of.__module__.partition(".")[0] for of in type(motions).__mro__]
     return next((name for name in modules if name in ("pyarrow", "pandas", "polars")), modules[0])
 
 
 def _like(motions: Any, results: Table) -> Any:
-    """Makes results a table of the kind that the motions are."""
+    """Converts results to the kind of table of the motions."""
     library = _library(motions)
     if library == "pyarrow":
         pyarrow: Any = sys.modules["pyarrow"]
@@ -157,13 +157,13 @@ def _like(motions: Any, results: Table) -> Any:
 
 
 def _frame(motions: Any, results: Table) -> Any:
-    """Makes a pandas frame. Its types depend on no value: parts of a table have to fit together."""
+    """Makes a pandas frame, with types independent of values, so that parts of a table can be concatenated."""
     text = "str" if int(sys.modules["pandas"].__version__.partition(".")[0]) >= 3 else "string"
     types = {name: text for name in ("status", "feature_a", "feature_b", "reason")}
     types |= {name: "Int64" for name in ("iterations", "oracle_calls")}
     frame = sys.modules["pandas"].DataFrame(dict(results)).astype(types)
     ids = motions["id"] if "id" in motions else motions.index.get_level_values("id").to_series()
-    # The results of paths are fewer than their rows.
+    # A table of paths has fewer results than rows.
     frame["id"] = ids.array if len(ids) == len(frame) else frame["id"].astype(ids.dtype)
     if "id" in motions.index.names:
         return frame.set_index("id")

@@ -79,10 +79,10 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
 
 
 def are_free(a: Body, b: Body, motions: Motions, **settings: Unpack[ContactsOfTables]) -> Table:
-    """Finds out in which rows two bodies stay apart, by more than the margin.
+    """Finds the rows in which two bodies stay apart by more than the margin.
 
-    Rows with a contact are answered sooner than by `first_contacts`: time and status are those of any contact, not of the
-    first.
+    Rows with a contact are faster than with `first_contacts`: time and status are those of any contact, perhaps not the
+    first one.
     """
     return answer("is-free", a, b, motions, **settings)
 
@@ -115,7 +115,7 @@ def greatest_distances(a: Body, b: Body, motions: Motions, **settings: Unpack[Di
 
 
 def distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOfTables]) -> Table:
-    """Brackets the distance at the start of each row; of paths, in each of their rows.
+    """Brackets the distance at the start of each row; for paths, in each of their rows.
 
     Arguments and exceptions are those of `closest_approaches`.
     """
@@ -123,16 +123,16 @@ def distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOf
 
 
 def answer(ask: Ask, a: Body, b: Body, motions: Motions, *, progress: Progress = None, **settings: Any) -> Table:
-    """Asks a question about each row."""
-    tell, close = _teller(progress)
+    """Answers a question about each row."""
+    report, close = _reporter(progress)
     try:
-        return _rigid_ccd.answer_table(ask, a, b, motions, progress=tell, **settings)
+        return _rigid_ccd.answer_table(ask, a, b, motions, progress=report, **settings)
     finally:
         close()
 
 
-def _teller(progress: Progress) -> tuple[Callable[[int, int | None], object] | None, Callable[[], object]]:
-    """Makes a function of rows done and all rows, and one that ends it."""
+def _reporter(progress: Progress) -> tuple[Callable[[int, int | None], object] | None, Callable[[], object]]:
+    """Returns a progress function of the rows done and all rows, and a function that closes it."""
     if progress is None or progress is False:
         return None, lambda: None
     if progress is True:
@@ -153,11 +153,11 @@ def _teller(progress: Progress) -> tuple[Callable[[int, int | None], object] | N
     update: Any = getattr(progress, "update", None)
     if update is None:
         return progress, lambda: None  # type: ignore[return-value]
-    told = 0
+    reported = 0
 
-    def tell(done: int, total: int | None) -> None:
-        nonlocal told
-        update(done - told)
-        told = done
+    def report(done: int, total: int | None) -> None:
+        nonlocal reported
+        update(done - reported)
+        reported = done
 
-    return tell, lambda: None
+    return report, lambda: None

@@ -63,7 +63,7 @@ pub(crate) fn answer(
     };
     let mut solver = on_threads(asked.threads, Solver::new);
     let (size, source) = (PieceSize::new(solver.threads()), (reader, columns.form()));
-    let mut pieces = Pieces::of(source, asked.question, Names::LeftOut, &size, stop)?;
+    let mut pieces = Pieces::new(source, asked.question, Names::LeftOut, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = rows(asked, &piece, &columns, solver, stop);
@@ -77,7 +77,7 @@ pub(crate) fn answer(
         .into_iter()
         .collect::<Result<_, _>>()
         .map_err(unreadable)?;
-    // Of the piece that was stopped, the first rows are answered.
+    // The first rows of the piece that was stopped have answers.
     let stopped = found.iter().position(|&(_, is_whole)| !is_whole);
     let first = stopped.map_or(found.len(), |stopped| stopped + 1);
     let answered: Vec<RecordBatch> = found
@@ -124,7 +124,7 @@ pub(crate) fn each(
 ) -> Result<(), TableError> {
     let columns = check(&reader)?;
     let (size, source) = (PieceSize::new(1), (reader, columns.form()));
-    let mut pieces = Pieces::of(source, asked.question, Names::Read, &size, stop)?;
+    let mut pieces = Pieces::new(source, asked.question, Names::Read, &size, stop)?;
     let settings = stopped_by(asked, stop);
     let asked = TableQuestion {
         settings: &settings,

@@ -109,7 +109,7 @@ fn flat(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
         column.data_type(),
         DataType::Null | DataType::RunEndEncoded(..)
     );
-    // Text of runs takes more than this, but not by much more than there are rows.
+    // Text in run encoding may exceed this, but not by much more than the number of rows.
     let rows = column.len();
     if is_short && Vec::<f64>::new().try_reserve_exact(rows).is_err() {
         return Err(ArrowError::MemoryError(format!(
@@ -145,7 +145,7 @@ impl Batch {
                 id = Some(column);
                 None
             } else {
-                Some(Numbers::of(&column)?)
+                Some(Numbers::from_column(&column)?)
             });
         }
         Ok(Batch {
@@ -171,7 +171,7 @@ impl Batch {
 }
 
 impl Numbers {
-    fn of(column: &ArrayRef) -> Result<Self, TableError> {
+    fn from_column(column: &ArrayRef) -> Result<Self, TableError> {
         let inexact = match column.data_type() {
             DataType::Int64 => {
                 inexact::<Int64Type>(column, |whole| whole as f64 as i128 == i128::from(whole))
@@ -311,7 +311,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     /// Creates the iterator over all rows of a table.
-    pub(crate) fn of(table: &RecordBatch) -> Result<Self, TableError> {
+    pub(crate) fn new(table: &RecordBatch) -> Result<Self, TableError> {
         let batch = Arc::new(Batch::new(table, 0, Names::Read)?);
         Ok(Rows {
             header: header(&table.schema()),

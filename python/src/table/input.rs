@@ -177,7 +177,7 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     for id in values.try_iter()? {
         let id = id?;
         let text: Option<String> = id.extract().ok();
-        // What fails makes an exception, which takes longer than the rest of a row.
+        // A failed conversion makes an exception, which takes longer than the rest of a row.
         let number: Option<i64> = if text.is_some() || id.is_instance_of::<PyBool>() {
             None
         } else {

@@ -58,7 +58,7 @@ fn view<'py, T: ArrowPrimitiveType>(
     let numpy = py.import("numpy")?;
     let buffer = column.as_primitive::<T>().values().inner();
     match column.len() {
-        // NumPy takes no empty buffer.
+        // NumPy accepts no empty buffer.
         0 => numpy.call_method1("empty", (0, dtype)),
         rows => {
             let buffer = PyArrowBuffer::new(buffer.clone());
@@ -71,7 +71,7 @@ fn with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'
     if column.data_type().is_integer() {
         let wide = cast(column, &DataType::Float64).map_err(refuse)?;
         let wide: &Float64Array = wide.as_primitive();
-        // From 2^53 on a float64 does not tell neighbours apart.
+        // A float64 cannot represent all integers from 2^53 on.
         let most = (1_u64 << 53) as f64;
         if wide.iter().flatten().all(|whole| whole.abs() < most) {
             return floats(py, wide);
@@ -92,7 +92,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
             "there are no objects of Python for values of type {kind}; take the table through Arrow, as pyarrow.table(t)"
         )));
     }
-    // All of it is allocated at once. An array of nulls may say that it is longer than memory.
+    // Everything is allocated at once, and an array of nulls may claim a length that exceeds memory.
     let mut room = Vec::<usize>::new();
     if room.try_reserve_exact(column.len()).is_err() {
         let rows = column.len();
@@ -104,7 +104,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
     let values = array
         .call_method0("to_pylist")
         .map_err(|error| caused(py, "a value", error))?;
-    // NumPy would make lists of lists an array of more dimensions.
+    // NumPy would convert lists of lists to an array of more dimensions.
     let objects = py
         .import("numpy")?
         .call_method1("empty", (column.len(), "object"))?;

@@ -69,7 +69,7 @@ impl PieceSize {
 
     /// Adapts the size of later pieces to the duration of one.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
-        // A small piece at the end of a batch says nothing against larger ones.
+        // A small piece at the end of a batch is no reason for smaller pieces.
         if taken < PIECE / 2 {
             self.rows
                 .fetch_max(MOST_ROWS.min(2 * rows), Ordering::Relaxed);
@@ -89,7 +89,7 @@ pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
 
 impl<'p> Pieces<'p> {
     /// Starts to read a table with checked columns. One of paths is read to its end, or until the flag is set.
-    pub(crate) fn of(
+    pub(crate) fn new(
         (reader, form): (Reader, Form),
         question: Question,
         names: Names,
@@ -104,7 +104,7 @@ impl<'p> Pieces<'p> {
             Form::Paths => {
                 let table = whole(reader, stop);
                 let table = table.map_err(|error| TableError::Unreadable(error.to_string()))?;
-                let rows = Rows::of(&table)?;
+                let rows = Rows::new(&table)?;
                 let batch = rows.batch();
                 Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
             }

@@ -36,7 +36,7 @@ fn pieces_keep_their_numbers_in_any_order() {
     for (number, first) in numbers_at(&mesh) {
         assert_eq!(first.x, f64::from(number * 7 % 50));
     }
-    // Triangles beside other parts.
+    // Triangles combined with other parts.
     mesh.push_segment([DVec3::X * 100.0, DVec3::Y], 50);
     let at = numbers_at(&mesh);
     assert_eq!((at.len(), at[50]), (51, (50, DVec3::X * 100.0)));
@@ -73,7 +73,7 @@ fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
 
 #[test]
 fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
-    // Half a turn about an axis that no number holds exactly, far from the origin.
+    // A half turn about an axis without an exact representation, far from the origin.
     let axis = DVec3::new(1.0, 2.0, 3.0);
     let far = 1e6 * DVec3::new(1.0, -3.0, 2.0);
     let pose = Pose::new(far, [axis.x, axis.y, axis.z, 0.0]).expect("a pose");
@@ -82,7 +82,7 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
     let mut form = Form::EMPTY;
     form.push_placed(&pose, &inner, 0).expect("a part");
     let (body, _) = form.body().expect("a body");
-    // Points on the axis stay, others go to the other side of it: `2 a (a·x)/(a·a) − x`.
+    // Points on the axis are fixed, and others are reflected: `2 a (a·x)/(a·a) − x`.
     let share = 2.0 * 5.0 * axis.x / axis.length_squared();
     let exact = [far + axis, far + (share * axis - 5.0 * DVec3::X)];
     for (point, exact) in body.pieces().points().iter().zip(exact) {

@@ -32,7 +32,7 @@ fn the_box_is_above_the_plane_by_a_hair_and_as_wide_as_the_reach() {
             let body = plane.stand_in(side, reach).expect("a box");
             let points = body.body().pieces().points();
             let unit = plane.normal;
-            // The facets, as axes: each holds the ball's part of the half-space.
+            // The normals of the facets: the box contains the ball's part of the half-space along each.
             let high = points
                 .iter()
                 .map(|p| p.dot(unit))
@@ -100,7 +100,7 @@ fn bodies_are_looked_at_until_they_are_through_or_away() {
 fn what_may_be_along_a_tilted_plane_is_followed_for_a_while() {
     let plane = HalfSpace::new(DVec3::new(1.0, 1.0, 1.0)).expect("a normal");
     let ground = at([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
-    // Rounding does not tell whether it comes down.
+    // Rounding hides whether the body comes down.
     let along = at([3.0, 3.0, 3.0], [5.0, -2.0, -3.0], [0.0; 3], 1.0);
     let horizon = plane.horizon(ground, along, 0.25, f64::INFINITY);
     assert!(

@@ -19,7 +19,7 @@ fn still(reach: f64) -> Reaching {
 fn bodies_that_pass_are_looked_at_until_they_have() {
     for speed in [1e-30, 1.0, 1e30] {
         let flies = reaching([-4.0, 0.0, 0.0], [speed, 0.0, 0.0], [0.0; 3], 1.0);
-        let Horizon::Whole(duration) = Horizon::of([flies, still(2.0)], 0.5, f64::INFINITY) else {
+        let Horizon::Whole(duration) = Horizon::new([flies, still(2.0)], 0.5, f64::INFINITY) else {
             panic!("it passes");
         };
         // They are apart again 3.5 beyond the middle.
@@ -28,7 +28,7 @@ fn bodies_that_pass_are_looked_at_until_they_have() {
             duration >= exact && duration < exact * (1.0 + 1e-12),
             "{speed:e}: {duration:e}"
         );
-        let short = Horizon::of([flies, still(2.0)], 0.5, 0.1 * exact);
+        let short = Horizon::new([flies, still(2.0)], 0.5, 0.1 * exact);
         assert_eq!(short, Horizon::Whole(0.1 * exact));
     }
 }
@@ -36,7 +36,7 @@ fn bodies_that_pass_are_looked_at_until_they_have() {
 #[test]
 fn what_repeats_itself_is_looked_at_once() {
     let turns = |spin| reaching([0.0; 3], [0.0; 3], spin, 1.0);
-    let both = |a: [f64; 3], b: [f64; 3]| Horizon::of([turns(a), turns(b)], 0.0, f64::INFINITY);
+    let both = |a: [f64; 3], b: [f64; 3]| Horizon::new([turns(a), turns(b)], 0.0, f64::INFINITY);
     assert_eq!(both([0.0; 3], [0.0; 3]), Horizon::Whole(0.0));
     for horizon in [
         both([0.0, 2.0, 0.0], [0.0; 3]),
@@ -56,13 +56,13 @@ fn what_repeats_itself_is_looked_at_once() {
 #[test]
 fn travel_and_turn_stay_within_the_engines_limits() {
     let spins = reaching([-4.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [0.0, 0.0, 1e3], 1.0);
-    let Horizon::Part(duration) = Horizon::of([spins, still(1.0)], 0.0, 1e9) else {
+    let Horizon::Part(duration) = Horizon::new([spins, still(1.0)], 0.0, 1e9) else {
         panic!("it turns too often");
     };
     assert!(duration * 1e3 < MAX_TURN && duration * 1e3 > 0.99 * MAX_TURN);
-    // Both fly fast, and hardly past each other.
+    // Both bodies are fast, but have almost no relative velocity.
     let [a, b] = [1e9, 1e9 + 1e-3].map(|v| reaching([0.0; 3], [v, 0.0, 0.0], [0.0; 3], 1e3));
-    let Horizon::Part(duration) = Horizon::of([a, b], 0.0, f64::INFINITY) else {
+    let Horizon::Part(duration) = Horizon::new([a, b], 0.0, f64::INFINITY) else {
         panic!("it flies too far");
     };
     assert!(duration * 1e9 < MAX_COORDINATE && duration * 1e9 > 0.99 * MAX_COORDINATE);

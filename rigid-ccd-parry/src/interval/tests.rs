@@ -11,7 +11,7 @@ fn times_are_rounded_down_and_stay_within() {
     for start in [0.0, 0.1, -7.3, 1e9, -1e-300] {
         for length in [0.0, 1e-320, 1e-17, 0.1, 3.0, 1e12] {
             let whole = interval(start, start + length);
-            // An interval is no shorter than it is, in exact arithmetic.
+            // The computed length is not less than the exact one.
             let exact = |after: f64| start + after;
             assert!(whole.length() >= length || exact(whole.length()) >= start + length);
             for share in [0.0, 0.3, 0.7, 1.0] {

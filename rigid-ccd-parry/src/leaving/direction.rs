@@ -25,7 +25,7 @@ pub(super) fn direction(
     if let Some(between) = between_cores(pieces, poses, solver) {
         return Some(between);
     }
-    let [a, b] = [0, 1].map(|k| Placed::new(&pieces[k], &poses[k]));
+    let [a, b] = [0, 1].map(|k| PlacedPiece::new(&pieces[k], &poses[k]));
     let mut best: Option<(f64, DVec3)> = None;
     let mut consider = |axis: DVec3| {
         let Some(axis) = unit(axis) else { return };
@@ -77,14 +77,14 @@ fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) 
 }
 
 /// A piece in the world.
-struct Placed {
+struct PlacedPiece {
     points: Vec<DVec3>,
     radius: f64,
     normals: Vec<DVec3>,
     edges: Vec<DVec3>,
 }
 
-impl Placed {
+impl PlacedPiece {
     fn new(piece: &Piece<'_>, pose: &Pose) -> Self {
         let points: Vec<DVec3> = piece
             .points
@@ -110,7 +110,7 @@ impl Placed {
                 normals.push((at(*second) - at(*first)).cross(at(*last) - at(*first)));
             }
         }
-        Placed {
+        PlacedPiece {
             points,
             radius: piece.radius,
             normals,

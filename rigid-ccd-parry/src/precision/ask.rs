@@ -78,7 +78,7 @@ impl Question {
     ) -> Result<Recording, CastError> {
         let interval = self.interval.ok_or(CastError::NoTime)?;
         let cast = self.cast(interval, shapes, options);
-        cast.posed(|scene| Ok(Recording::of(scene)))
+        cast.posed(|scene| Ok(Recording::new(scene)))
     }
 
     fn cast<'a>(&self, interval: Interval, shapes: [&'a Ready; 2], options: &Options) -> Cast<'a> {

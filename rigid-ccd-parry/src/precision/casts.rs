@@ -132,7 +132,7 @@ thread_local! {
 
 fn answer(question: &Question, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
     let options = Options::default();
-    // A thread that ends keeps nothing any more.
+    // The memory is gone while its thread ends.
     let memory = MEMORY.try_with(Cell::take).ok().flatten();
     let mut memory = memory.unwrap_or_default();
     let found = memory.answer(question, shapes, &options);

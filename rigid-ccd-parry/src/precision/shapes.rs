@@ -141,7 +141,7 @@ fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) 
     });
     let loops: Option<Vec<Vec<u32>>> = facets.collect();
     let points = polyhedron.points().iter().copied().map(point).collect();
-    // Facets that are not all there are as good as none.
+    // Incomplete facets are useless.
     form.push_hull(points, radius, &loops.unwrap_or_default());
 }
 
@@ -184,7 +184,7 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
     if !(edge.to_array().iter().all(|side| sizes.contains(side)) && near(low) && near(high)) {
         return Err(ShapeError::Grid);
     }
-    // The range is compared to rounded places: it is a chunk larger than what it has to hold.
+    // The range is compared with rounded positions, and is larger than necessary by a chunk.
     let chunk = IVector::new(8, 8, 8);
     let mut reach = 0.0;
     for voxel in voxels.voxels_in_range(low - chunk, high + chunk) {

@@ -55,7 +55,7 @@ fn bodies_stay_within_the_memory() {
         assert!(held <= 1 << 20 && shelf.len() >= 1, "{held}");
     }
     assert!(shelf.len() > 2 && shelf.len() < 10, "{}", shelf.len());
-    // One that is larger alone is made, and not kept.
+    // A body that alone exceeds the limit is made, but not cached.
     let before = shelf.len();
     shelf.body(strip(20_000, 1.0)).expect("a body");
     assert!(shelf.len() <= before);

@@ -78,7 +78,7 @@ fn casts_are_the_engines_answers() {
         ) {
             (Some(engine), Some(hit)) => {
                 hits += 1;
-                // At the rate of a tangential approach, too, tolerances of 1e-9 are passed in that time.
+                // Even a tangential approach crosses tolerances of 1e-9 in that time.
                 let apart = (engine.time - hit.time_of_impact).abs();
                 assert!(apart < 1e-4, "seed {seed}: {apart:e}");
                 near += u32::from(apart > 1e-8);

@@ -29,7 +29,7 @@ type Part = (Pose, SharedShape);
 impl Scene {
     fn new(seed: u64) -> Self {
         let mut rng = random(seed);
-        // Hulls and heights of single precision are others.
+        // Hulls and height fields differ in single precision.
         let kinds = [seed as u32 % KINDS, seed as u32 / KINDS % KINDS];
         let kinds = kinds.map(|kind| if [7, 8, 10].contains(&kind) { 9 } else { kind });
         let scale = [1.0, 1.0, 0.0078125, 4096.0][rng.random_range(0..4)];
@@ -216,11 +216,11 @@ fn nothing_touches_before_a_hit() {
             "seed {seed}: {:?}",
             scene.recipes.each_ref().map(Recipe::name)
         );
-        // Of single precision the time is rounded down, at speeds of up to 30.
+        // The single-precision time is rounded down, at speeds of up to 30.
         let rounded = 1e-5 * f64::from(scene.scale);
         count.check(&scene, interval, 0.0, hit32, 1e-6 + rounded, &name);
         count.check(&scene, interval, 0.0, hit64, 1e-9, &name);
-        // What is proven with less room lasts longer.
+        // A proof with a smaller bound holds for longer.
         if let Some(time) = hit64 {
             assert!(
                 hit32.is_some_and(|earlier| earlier <= time),
@@ -245,7 +245,7 @@ fn straight_casts_keep_the_target_distance() {
     for seed in 0..all {
         let mut scene = Scene::new(seed);
         let mut rng = random(seed);
-        // What does not turn has no centre.
+        // A body that does not rotate has no centre.
         for motion in &mut scene.motions {
             motion.angvel = Default::default();
         }

@@ -88,7 +88,7 @@ fn nonlinear_hits_are_told_as_parry_tells_them() {
             [0, 1, 2, 3, 8][seed as usize / 5 % 5],
         ];
         let ([a, b], moves) = pair(seed, kinds);
-        // Slow turns: beyond half a turn parry's cast may be late.
+        // The rotations are slow: beyond half a turn parry's cast may be late.
         let slow = moves.map(|moves| Moves {
             spin: moves.spin.map(|w| 0.02 * w),
             ..moves
@@ -105,7 +105,7 @@ fn nonlinear_hits_are_told_as_parry_tells_them() {
 fn linear_hits_are_told_as_parry_tells_them() {
     let mut count = Count::default();
     for seed in 0..900 {
-        // Meshes and compounds too: their sub-shapes have numbers.
+        // Meshes and compounds are included, whose sub-shapes have numbers.
         let kinds = [
             [0, 1, 9, 10, 3, 15][seed as usize % 6],
             [0, 1, 3][seed as usize / 6 % 3],

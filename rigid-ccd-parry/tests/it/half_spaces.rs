@@ -29,7 +29,7 @@ fn straight_casts_are_parrys() {
         let [v, w] = moves.map(|moves| make::vector(moves.velocity));
         // Half of the bodies fly away.
         let v = [1.0, -1.0][seed as usize / 4 % 2] * v;
-        // Without an end every second time: the bodies pass the plane some time or never.
+        // Every second time the interval has no end: the bodies pass the plane at some time or never.
         let max_time_of_impact = [2.0, f64::MAX][seed as usize % 2];
         let options = ShapeCastOptions {
             target_distance: [0.0, 0.3][seed as usize / 2 % 2],
@@ -65,7 +65,7 @@ fn turning_bodies_stay_above_until_they_are_hit() {
         let plane = HalfSpace::new(Vector::Y);
         let [mut moves, mut ground] = motions(&mut rng);
         moves.place[1] = number(&mut rng, 1.0, 2.0);
-        // The ground tilts, half of the time.
+        // The ground tilts in half of the cases.
         let tilt = [0.0, 0.3][seed as usize / 4 % 2];
         ground.spin = ground.spin.map(|w| tilt * w);
         ground.turned = [0.0, 0.0, 0.0, 1.0];
@@ -110,7 +110,7 @@ fn a_wheel_that_rolls_without_end_is_above_the_ground_for_ever() {
     assert!(cast(&rolls).is_none());
     let rises = NonlinearRigidMotion::new(start, Vector::ZERO, 1e-3 * Vector::Y, Vector::Z);
     assert!(cast(&rises).is_none());
-    // It comes down so slowly that it turns 86 times before.
+    // The body comes down so slowly that it rotates 86 times before.
     let sinks = NonlinearRigidMotion::new(start, Vector::ZERO, -1e-3 * Vector::Y, Vector::Z);
     let hit = cast(&sinks).expect("it comes down");
     assert!(

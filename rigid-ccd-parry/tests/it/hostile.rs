@@ -133,7 +133,7 @@ fn speeds_beyond_all_scales_are_met() {
             None
         );
     }
-    // Two that fly along each other, at any speed.
+    // Two bodies that fly along each other, at any speed.
     let along = [flies(-4.0, 1e30), flies(0.0, 1e30)];
     assert_eq!(time(&ball, &ball, along, f32::INFINITY), None);
 }
@@ -152,7 +152,7 @@ fn spins_beyond_the_limit_end_as_a_limit() {
     let hit = cast(&cube, 1e8);
     assert_eq!(hit.status, ShapeCastStatus::OutOfIterations);
     assert!(hit.time_of_impact < 7.0);
-    // A ball is the same at any spin.
+    // A ball is the same for any angular velocity.
     for rate in [0.0, 1.0, 1e8, 3e38] {
         let hit = cast(&Ball::new(1.0), rate);
         assert_eq!(hit.status, ShapeCastStatus::Converged);
@@ -210,7 +210,7 @@ fn errors_name_what_is_wrong() {
 
 #[test]
 fn a_speed_that_both_have_costs_no_digits() {
-    // Two ships in orbit, of which one closes in slowly. All numbers are exact in single precision.
+    // Two ships in orbit, one of which closes in slowly. All numbers are exact in single precision.
     let ball = Ball::new(1.0);
     let orbit = 8192.0 * Vector::new(1.0, -2.0, 3.0);
     let near = NonlinearRigidMotion {
@@ -251,7 +251,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
                 [slides(1.5, speed, spin), rests(0.0)],
                 f32::MAX,
             );
-            // At the highest speed a turn leads farther than the plane is known.
+            // At the highest speed a rotation leads farther than the plane is bounded.
             let known = speed < 1e30 || spin == 0.0;
             assert_eq!(found.is_none(), known, "{speed:e} {spin}");
         }
@@ -263,7 +263,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
         );
         assert_eq!(found, Some(0.0), "{speed:e}");
     }
-    // It turns about a point beside its middle, and comes down by a quarter.
+    // The body rotates about a point beside its middle, and comes down by a quarter.
     let found = time(
         &ball,
         &*ground,

@@ -91,7 +91,7 @@ fn odd_numbers_are_answered_or_refused() {
         let found = match seed % 2 {
             0 => {
                 let [m, n] = [0, 1].map(|_| odd_motion(&mut rng, share));
-                // Turns of millions take their time: what limits them is another test's.
+                // Millions of turns take long; another test covers the limits.
                 let slow = |motion: NonlinearRigidMotion| NonlinearRigidMotion {
                     angvel: motion
                         .angvel

@@ -51,7 +51,7 @@ fn a_target_distance_is_kept() {
         within,
         (0.0, ShapeCastStatus::PenetratingOrWithinTargetDist)
     );
-    // A negative one is refused, as one that is not a number.
+    // A negative distance is refused, as is NaN.
     let ball = Ball::new(1.0);
     for target in [-0.1, f32::NAN, f32::INFINITY] {
         let body = |x| (at(x), Vector::X, &ball);
@@ -84,7 +84,7 @@ fn no_hit_is_after_the_end() {
             (end == f32::INFINITY).then_some(())
         );
     }
-    // No time is in such an interval.
+    // Such an interval contains no time.
     assert_eq!(balls(0.0, 1.0, until(-1.0)), None);
     assert_eq!(balls(0.0, 1.0, until(f32::NEG_INFINITY)), None);
 }
@@ -148,14 +148,14 @@ fn bodies_that_touch_are_let_go_unless_they_approach() {
         ..ShapeCastOptions::default()
     };
     for (speed, found) in [(1.0, true), (0.0, false), (-1.0, false)] {
-        // An approach is seen once it is more than rounding.
+        // An approach is detected once it exceeds rounding.
         let touching = balls(-2.0, speed, options(false));
         assert_eq!(
             touching.map(|(time, _)| time < 1e-9),
             found.then_some(true),
             "{speed}"
         );
-        // In contact, but not in each other.
+        // The bodies are in contact, but do not overlap.
         assert_eq!(
             balls(-2.0, speed, options(true)),
             Some((0.0, ShapeCastStatus::Converged))
@@ -190,7 +190,7 @@ fn a_limit_is_a_hit_at_a_time_that_is_safe() {
 
 #[test]
 fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
-    // Both turn, about axes that stay apart: nothing is known of all times.
+    // Both bodies rotate, about axes that move apart: their distance is unknown for all later times.
     let cube = Cuboid::new(Vector::splat(0.3));
     let turns = |x: f32, spin| NonlinearRigidMotion::new(at(x), Vector::ZERO, Vector::ZERO, spin);
     let (a, b) = (turns(0.0, Vector::X), turns(1.5, 1.7 * Vector::Y));
@@ -199,7 +199,7 @@ fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
     let hit = cast(f32::INFINITY).expect("a limit");
     assert_eq!(hit.status, ShapeCastStatus::OutOfIterations);
     assert!(hit.time_of_impact > 1e5, "{hit:?}");
-    // One that turns alone repeats itself.
+    // A body that rotates alone repeats its poses.
     let hit = cast_shapes_nonlinear(&a, &cube, &slides(1.5, 0.0), &cube, 0.0, f32::MAX, true);
     assert!(hit.expect("served").is_none());
 }

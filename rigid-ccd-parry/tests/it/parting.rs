@@ -81,7 +81,7 @@ fn convex_shapes_are_let_go_as_parry_lets_them() {
                 assert_eq!(found, (0.0, PENETRATING));
                 kept += 1;
             }
-            // Two directions are nearly as short.
+            // Two directions have nearly the same depth.
             _ => others += 1,
         }
     }
@@ -123,7 +123,7 @@ fn on_flat_triangles_a_body_is_let_go_where_parry_lets_it() {
         let mut rng = random(seed);
         let [x, _, z] = vector(&mut rng, 2.0).map(f64::from);
         let [vx, vy, vz] = vector(&mut rng, 1.0).map(f64::from);
-        // Upwards: off the plane, and into the edges of triangles that are in it.
+        // The body moves upwards: off the plane, and into the edges of triangles within the plane.
         let (from, velocity) = (at(x, 0.45, z), Vector::new(vx, vy.abs(), vz));
         let theirs = query::cast_shapes(
             &from,
@@ -150,7 +150,7 @@ fn on_flat_triangles_a_body_is_let_go_where_parry_lets_it() {
 
 #[test]
 fn what_is_behind_is_hit_after_what_is_left() {
-    // It leaves one box of a compound, and flies at the next one.
+    // The body leaves one box of a compound, and flies at the next one.
     let boxes = [0.0, 4.0, 8.0].map(|x| (at(x, 0.0, 0.0), SharedShape::cuboid(0.5, 3.0, 3.0)));
     let walls = SharedShape::compound(boxes.to_vec());
     let ball = Ball::new(0.5);
@@ -172,7 +172,7 @@ fn what_is_behind_is_hit_after_what_is_left() {
         options(),
     );
     assert_eq!(hit.expect("served").expect("the next one").subshape2, 1);
-    // The other way around.
+    // The roles are swapped.
     let (still, flies) = (Vector::ZERO, Vector::X);
     let hit = cast_shapes(
         &Pose::IDENTITY,
@@ -226,7 +226,7 @@ fn inside_a_mesh_that_is_a_solid_nothing_parts() {
         );
         hit.expect("served").map(|hit| hit.time_of_impact)
     };
-    // Through the wall, from inside and from outside of it, and in the middle.
+    // The body passes the wall from inside, from outside, and from its middle.
     for (x, surface) in [(1.8, Some(3.3)), (2.2, Some(0.0)), (0.0, Some(1.5))] {
         let found = cast(Meshes::Surfaces, x);
         let near = found

@@ -47,13 +47,13 @@ fn poses_are_those_of_single_precision_up_to_its_rounding() {
             at.to_array().map(f64::from),
         )
     });
-    // Turns of up to 60 radians, of bodies 2 large, after ways of up to 30.
+    // Rotations of up to 60 radians, of bodies of size 2, after displacements of up to 30.
     assert!(worst < 5e-5 && worst > 1e-9, "{worst:e}");
 }
 
 #[test]
 fn velocities_are_those_of_the_centre() {
-    // Half a turn about a centre beside the body, which moves: the body's origin ends beyond it.
+    // A half turn about a moving centre beside the body: the body's origin ends beyond it.
     use parry3d::math::{Pose, Vector};
     let start = Pose::translation(1.0, 0.0, 0.0);
     let spin = std::f32::consts::PI * Vector::Z;

@@ -141,8 +141,8 @@ fn main() -> anyhow::Result<()> {
     writeln!(out, "check            free  edges/s  wrongly accepted")?;
     let rate = count as f64 / taken;
 
-    // Only steps can prove a proof wrong. They measure without a tolerance: with one, they would reject what keeps
-    // the clearance barely.
+    // Only the steps can disprove a proof. They have no tolerance, with which they would reject a barely kept
+    // clearance.
     let sharp = Settings {
         tolerance: 1e-9,
         ..config

@@ -45,7 +45,7 @@ impl Scene {
                 random.random_range(0.0..3.0),
                 0.0,
             );
-            // Nothing stands in the arm's foot.
+            // No obstacle stands in the arm's foot.
             if DVec3::from_array(at).length() > 0.5 {
                 let stands = Motion::still(Pose::new(at, turned)?);
                 scene.obstacles.push((Body::cuboid(size)?, stands));
@@ -79,7 +79,7 @@ impl Scene {
 
 fn joint(joint: &urdf_rs::Joint) -> Result<Joint, InputError> {
     let [roll, pitch, yaw] = joint.origin.rpy.0;
-    // URDF turns about fixed axes: first x, then y, then z.
+    // URDF rotates about fixed axes: first x, then y, then z.
     let turned = DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll);
     let origin = Pose::new(joint.origin.xyz.0, turned)?;
     let limits = joint.limit.lower..=joint.limit.upper;

@@ -156,7 +156,7 @@ fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, Can
         margin: args.margin,
         clearance: None,
     };
-    // Of several missing folders, only the last is created.
+    // If several folders of the path are missing, only the last one is created.
     let create = || {
         check_folder(folder)?;
         let pages = Pages::create(pair.bodies(), asked, title(&args.bodies), folder)?;

@@ -156,7 +156,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
 
 /// Claims the output before the work, which may take long.
 fn claim(out: &Path, mesh: &Path) -> Result<(Form, Output)> {
-    let form = Form::of(out)?;
+    let form = Form::from_path(out)?;
     refuse_overwriting(("the mesh", mesh), ("--out", out))?;
     Ok((form, Output::claim(out)?))
 }
@@ -201,7 +201,7 @@ fn print_json(statistics: &Statistics) -> io::Result<()> {
 }
 
 impl Form {
-    fn of(path: &Path) -> Result<Self> {
+    fn from_path(path: &Path) -> Result<Self> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
             Some("obj") => Ok(Form::Pieces),

@@ -64,7 +64,7 @@ impl MeshArgs {
         if let Some(unit) = self.unit() {
             all = all.converted_to(unit);
         }
-        // A factor that can not be had was refused when it was read.
+        // The parser has refused invalid factors.
         all = self
             .scale
             .and_then(|scale| all.scaled(scale).ok())

@@ -184,7 +184,7 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
 
 /// Returns the files of a body; empty for a primitive.
 fn files(source: &BodySource) -> Vec<PathBuf> {
-    // A file that cannot be read is reported when its body is made.
+    // An unreadable file is reported when its body is made.
     source.files().unwrap_or_else(|_| match source {
         BodySource::Stored(path) => vec![path.clone()],
         BodySource::Mesh(source) => vec![source.file.clone()],

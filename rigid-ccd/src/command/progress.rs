@@ -76,7 +76,7 @@ impl Progress {
                 let _ = writeln!(io::stderr(), "{}: {}", program(), line(&bar, total, &steps));
             }
         };
-        // Without a thread nothing is shown; the work is done all the same.
+        // Without a thread nothing is shown, but the work is done.
         progress.showing = thread::Builder::new().spawn(show).ok();
         progress.working = Some(working);
         progress

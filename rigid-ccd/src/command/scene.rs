@@ -137,7 +137,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     let mut out = Table::start(out, &COLUMNS)?;
     let mut exit = Exit::AllAnswered;
     for contact in &contacts {
-        let row = Row::of(&ids, contact);
+        let row = Row::new(&ids, contact);
         if row.status == Status::Error {
             exit = Exit::SomeRowsBad;
         }
@@ -148,7 +148,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
 }
 
 impl<'a> Row<'a> {
-    fn of(ids: &[&'a str], contact: &Result<Impact, PairError>) -> Self {
+    fn new(ids: &[&'a str], contact: &Result<Impact, PairError>) -> Self {
         match contact {
             Ok(Impact { bodies, hit }) => Row::touching(bodies.map(|k| ids[k]), hit),
             Err(PairError { bodies, error }) => {

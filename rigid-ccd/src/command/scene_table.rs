@@ -127,7 +127,7 @@ fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)
             name()
         );
     }
-    // The other columns are those of body A in a table of motions, which all end together.
+    // The other columns are those of body A in a table of motions, with a common duration.
     let mut motions = csv::Writer::from_writer(Vec::new());
     let others = |record: &csv::StringRecord, prefix: &dyn Fn(&str) -> String| -> Vec<String> {
         let cells = record.iter().enumerate().filter(|(k, _)| *k != column);

@@ -187,7 +187,7 @@ fn a_panic_reaches_the_caller_and_stops_the_other_threads() {
                 let _unwinds = Unwinds(&panicked);
                 panic!("query 3 is broken");
             }
-            // The others wait until the panic is on its way.
+            // The other threads wait until the panic unwinds.
             while query > 3 && !panicked.load(Ordering::SeqCst) {
                 thread::yield_now();
             }
@@ -204,7 +204,7 @@ fn a_panic_reaches_the_caller_and_stops_the_other_threads() {
         }
         let done: usize = counts.solvers.iter().map(|own| own.0).sum();
         assert!(done < queries.len() - 1, "{done} queries were answered");
-        // The solvers are there for the next call.
+        // The solvers are available for the next call.
         assert_eq!(
             counts.map(&queries[..100], |_, &query| query),
             queries[..100]

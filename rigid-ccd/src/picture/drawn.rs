@@ -77,7 +77,7 @@ impl Sketch {
         let numbers = corners.map(|corner| self.number(corner));
         let mut sorted = numbers;
         sorted.sort_unstable();
-        // A face may be of two pieces, and both sides of a flat one.
+        // Two pieces may share a face, and so may both sides of a flat piece.
         if self.drawn.insert(sorted) {
             self.mesh.faces.push(numbers);
         }
@@ -110,7 +110,7 @@ impl Sketch {
         let Ok((corners, faces)) = try_convex_hull(&parrys) else {
             return;
         };
-        // parry's hull of denormal points has none: too small to be drawn.
+        // parry finds no hull of denormal points, which are too small to draw.
         if !corners.iter().all(|corner| corner.is_finite()) {
             return;
         }

@@ -131,7 +131,7 @@ impl Survey<'_> {
             steps.push(time);
             let Shrinking { speed, deviation } = self.shrinking(time, end)?;
             let next = time + (point.lower - deviation) / speed;
-            // At the bodies' contact steps become shorter than rounding.
+            // At a contact the steps become shorter than rounding.
             if !(point.lower > deviation && next > time && next < end) {
                 break;
             }
@@ -196,7 +196,7 @@ impl Survey<'_> {
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(Shrinking {
             speed: (shift + turns + gains) * ROUNDED_UP,
-            // Both where it is measured, and in between.
+            // Bound the deviation both at the measured times and between them.
             deviation: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
         })
     }
@@ -212,7 +212,7 @@ impl Survey<'_> {
             let height = |point: GapPoint| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);
-            // Where both lines meet, or where each meets the floor.
+            // Add the point at which both lines meet, or those at which they meet the floor.
             let time = two.time - one.time;
             let lowest = 0.5 * (left + right - speed * time);
             if speed > 0.0 && lowest > floor {

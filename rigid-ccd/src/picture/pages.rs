@@ -65,7 +65,7 @@ impl<'a> Pages<'a> {
         let view = self.painter.view(course, row)?;
         let name = self.name(&row.id);
         let path = self.folder.join(name);
-        // Tabs of a browser show how a title begins.
+        // Browser tabs show the beginning of a title.
         let title = format!("{} ({}): {}", row.id, row.status.name(), self.title);
         self.painter.page(&title, vec![view]).write(&path)?;
         Ok(path)
@@ -80,7 +80,7 @@ impl<'a> Pages<'a> {
                 '_'
             }
         };
-        // A leading dot hides a file; a name of 255 bytes is the longest that file systems take.
+        // A leading dot hides a file, and file systems limit names to 255 bytes.
         let stem: String = id
             .trim_start_matches('.')
             .chars()

@@ -130,7 +130,7 @@ fn nothing_touches_before_the_last_step() {
         let last = found.steps[found.steps.len() - 1];
         if let Some(hit) = hit.hit().unwrap() {
             contacts += 1;
-            // The contact is up to the tolerance early.
+            // The contact may be early by up to the tolerance.
             assert!(last <= hit.time + 1e-2, "{k}: {last} {}", hit.time);
         }
         assert!(found.ghosts(query.duration).len() <= 13);
@@ -219,7 +219,7 @@ fn keys_lead_where_the_engine_goes() {
     for k in 0..60 {
         let mut way = path(&mut random);
         if let (Course::Path(way), true) = (&mut way, k % 2 == 0) {
-            // Half a turn: the sign of the quaternion tells which way.
+            // The direction of a half turn depends on the sign of the quaternion.
             let sign = if k % 4 == 0 { 1.0 } else { -1.0 };
             let half = DQuat::from_xyzw(0.0, 0.0, sign, 0.0);
             let turned = Pose::new(DVec3::X, half).unwrap();

@@ -177,7 +177,7 @@ fn apart(row: &ResultRow) -> String {
             format!("between {} and {} apart", number(lower), number_up(upper))
         }
         (Some(lower), None) => format!("at least {} apart", number(lower)),
-        // One body is inside the other, and they exceed their shapes.
+        // One body is inside the other, and the bodies exceed their shapes.
         (None, Some(upper)) => format!("their shapes at most {} apart", number_up(upper)),
         _ => "at an unknown distance".to_owned(),
     }

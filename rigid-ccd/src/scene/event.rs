@@ -50,7 +50,7 @@ impl Event {
             Err(known) => (known.safe_until, What::Unresolved(known)),
         };
         Some(Event {
-            // Bits of times are compared, and those of a negative zero are no time.
+            // Times are compared by their bits, so that a negative zero must not occur.
             time: time + 0.0,
             bodies,
             what,
@@ -108,7 +108,7 @@ impl Event {
             What::Hit(hit) => hit.contact(),
             What::Unresolved(_) | What::Refused(_) => None,
         };
-        // Written so that NaN is nearer.
+        // The comparison treats NaN as nearer.
         contact.is_some_and(|contact| !(contact.separation.lower >= distance))
     }
 

@@ -94,7 +94,7 @@ impl Worker {
         while let Some((runner, others)) = race.next() {
             let Runner { time, pair, search } = runner;
             let limit = race.goal.limit(pair);
-            // What comes later is not asked for.
+            // A later event does not matter to the goal.
             if time > limit {
                 self.keep(search);
                 continue;

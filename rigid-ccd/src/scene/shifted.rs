@@ -14,7 +14,7 @@ impl Trajectory for Shifted<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = [from, to].map(|time| self.from + time);
         let stretch = self.inner.stretch(first, last)?;
-        // Times are rounded, and the body moves by as much as it does in that time.
+        // Times are rounded, so that the body is off by its displacement in the rounding error.
         let time_error = 4.0 * U64 * last;
         let speed =
             length(stretch.motion.velocity()) + length(stretch.acceleration) * (last - first);

@@ -52,7 +52,7 @@ impl Stop {
     pub fn normal(&self) -> Option<DVec3> {
         let Impact { bodies, hit } = self.contact?;
         let normal = hit.contact()?.separation.normal;
-        // That of a hit is from the lower index to the higher one.
+        // The normal of a hit points from the lower index to the higher one.
         if self.by == Some(bodies[0]) {
             Some(-normal)
         } else {
@@ -168,7 +168,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
             }
         }
         while let Some(Reverse(FutureContact { event, moving })) = coming.pop() {
-            // Bodies that have stopped meanwhile were looked at again.
+            // If one of the bodies stopped in the meantime, the pair was examined again then.
             if event.bodies.map(|index| self.moves(index)) != moving {
                 continue;
             }
@@ -211,7 +211,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
     fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::answered(bodies, &answer)?,
-            // Where a body has got to is out of range: it goes no farther.
+            // The pose of a body is out of range, so the body stops here.
             Err(_) => Event::unresolved(bodies),
         };
         Some(self.future_contact(event, time))

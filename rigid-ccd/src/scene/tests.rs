@@ -133,7 +133,7 @@ fn one_by_one(
                 match answer.unwrap().hit() {
                     Ok(None) => {}
                     Ok(Some(hit)) => found.push((hit.time, [a, b], Ok(hit))),
-                    // Boxes tell bodies apart without a budget.
+                    // The boxes separate bodies even without a budget.
                     Err(_) if !boxes_meet(a, b) => {}
                     Err(known) => found.push((known.safe_until, [a, b], Err(known.limit))),
                 }
@@ -185,7 +185,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
         let expected = one_by_one(&bodies, &parts, &config, duration);
         for threads in [1, 2, 5] {
             let mut scene = scene(&bodies, &parts, threads, &config);
-            // Twice: nothing is left of the last call.
+            // The second call must not depend on the first.
             for _ in 0..2 {
                 let all = scene.contacts(duration);
                 assert_eq!(all.len(), expected.len(), "{round}");
@@ -292,7 +292,7 @@ fn what_is_out_of_range_is_told_of_its_pairs_alone() {
         );
     }
     assert!(scene.first_contact(-1.0).is_err() && scene.first_contact(f64::NAN).is_err());
-    // Of a duration of 0 only the start is asked.
+    // With a duration of 0, only the start is examined.
     assert!(scene.first_contact(0.0).unwrap().is_none());
     scene.add(&ball, flies(2.5, 0.0));
     assert_eq!(scene.first_contact(0.0).unwrap().unwrap().bodies, [1, 3]);
@@ -312,7 +312,7 @@ fn durations_of_any_length_end() {
             let velocity = [4.0 / duration, 0.0, 0.0].map(|x: f64| x.clamp(-1e300, 1e300));
             scene.add(&ball, Motion::new(pose, velocity, [0.0; 3]).unwrap());
         }
-        // Velocities are finite: in the shortest durations nothing gets there.
+        // Velocities are finite, so that nothing meets in the shortest durations.
         let gets_there = duration > 1e-290;
         let first = scene.first_contact(duration).unwrap();
         assert_eq!(first.is_some(), gets_there, "{duration:e}");
@@ -370,7 +370,7 @@ fn a_body_inside_a_solid_is_first() {
     let shell = crate::load("tests/data/knot216.obj").unwrap();
     let (ball, grain) = (Body::ball(0.5).unwrap(), Body::ball(1e-3).unwrap());
     let mut scene = Scene::with_threads(NonZeroUsize::MIN);
-    // The others are far from the knot, and meet soon.
+    // The other bodies are far from the knot, and meet soon.
     let far = |x: f64| Pose::at([x, 100.0, 0.0]).unwrap();
     scene.add_fixed(&ball, far(0.0));
     scene.add(
@@ -445,7 +445,7 @@ fn a_fixed_body_takes_no_motion() {
         assert!(refused.to_string().starts_with("body 0 is fixed"));
         assert_eq!(scene.movement(fixed).as_motion(), Some(Motion::STILL));
     }
-    // It may be put elsewhere.
+    // A motion at rest sets the pose of a body.
     scene.set_movement(other, Motion::still(pose)).unwrap();
     assert_eq!(scene.movement(other).as_motion(), Some(Motion::still(pose)));
 }

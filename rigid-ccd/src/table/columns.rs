@@ -296,12 +296,12 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
     let names = form.names();
     let nearest = names.iter().min_by_key(edit_distance);
-    // A velocity in a table of paths is no misspelt position.
+    // A velocity in a table of paths is not a misspelt position.
     let of_other_form = Form::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
         known: form.listed(),
-        // Names are short: a larger distance means another name.
+        // Names are short, so that a larger edit distance means another name.
         nearest: nearest
             .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
             .filter(|name| **name == lower || !of_other_form)

@@ -33,7 +33,8 @@ impl<R: Read> CsvRecords<R> {
         let mut reader = csv::ReaderBuilder::new()
             .flexible(true)
             .has_headers(false)
-            // Every line needs an end, the last one too: the line of a row is computed from its end.
+            // Every line needs a line end, including the last one: the line number of a row is computed from
+            // its end.
             .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
         let mut raw = csv::ByteRecord::new();
         reader.read_byte_record(&mut raw)?;
@@ -92,7 +93,8 @@ impl<R: Read> Records for CsvRecords<R> {
         add(&mut self.checksum, &self.raw);
         let row = self.rows;
         self.rows += 1;
-        // Empty lines before the row have been read as well: its line is computed from its end.
+        // The reader also skips empty lines before the row, so the line number is computed from the row's
+        // end.
         let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
         let within: u64 = self.raw.iter().map(ends).sum();
         let after = self.reader.position().line();

@@ -55,7 +55,7 @@ impl<R: Read> Read for Lines<R> {
         loop {
             let read = self.some(out)?;
             self.bytes += read as u64;
-            // Most tables have no `\r`: a search for it is many times as fast as the loop below.
+            // Most tables have no `\r`, and a search for it is many times as fast as the loop below.
             if !self.after_return && !out[..read].contains(&b'\r') {
                 return Ok(read);
             }

@@ -131,7 +131,7 @@ impl<S: Records> PathRows<S> {
         let id = row::id(&self.columns, self.records.current());
         let seen = match (self.grouping, &id) {
             (Grouping::ById, Some(id)) => !self.known.insert(self.hasher.hash_one(id)),
-            // Rows without an id are one path with those that follow.
+            // Consecutive rows without an id form one path.
             (Grouping::ById, None) | (Grouping::EachRow, _) => false,
         };
         let mut at = position;
@@ -290,7 +290,7 @@ impl Path {
         if self.start == 0.0 {
             return time;
         }
-        // Times of rows less the first are rounded, and so is this sum.
+        // The differences of times from the first one are rounded, and so is this sum.
         let rounding = 4.0 * f64::EPSILON * (self.start.abs() + self.duration);
         match self.start + time + direction * rounding {
             _ if time >= self.duration => self.end,

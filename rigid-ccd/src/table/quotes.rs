@@ -66,7 +66,7 @@ impl<R> Quotes<R> {
                 return;
             }
             if (1..MARK.len()).contains(&seen) {
-                // A part of a mark is the start of a cell.
+                // A partial byte order mark is the start of a cell.
                 self.state = State::Plain;
             }
         }
@@ -90,12 +90,12 @@ impl<R: Read> Read for Quotes<R> {
         let read = self.input.read(out)?;
         let mut bytes = &out[..read];
         let within_quotes = matches!(self.state, State::Quoted | State::Closing);
-        // Most tables have no quotes: a search for them is many times as fast as to follow each byte.
+        // Most tables have no quotes, and a search for them is many times as fast as tracking each byte.
         if self.mark.is_none() && !within_quotes && !bytes.contains(&b'"') {
             let Some((_, before)) = bytes.split_last() else {
                 return Ok(0);
             };
-            // The state after the last byte depends on that byte alone.
+            // The state after the last byte depends only on that byte.
             self.line += before.iter().filter(|&&byte| byte == b'\n').count() as u64;
             bytes = &bytes[before.len()..];
         }

@@ -78,7 +78,7 @@ impl Compared {
                 "{bounds}, which are wider by the excess of the bodies over their shapes: up to {:.3e} together",
                 self.excess
             ),
-            // Bodies that may touch keep none, and are never nearer than that.
+            // A clearance of 0 is never violated, and only bodies that are proven apart keep it.
             Some(0.0) => format!("{bounds}: the bodies may touch"),
             _ => format!("{bounds}; a smaller --tolerance may decide"),
         }
@@ -224,7 +224,7 @@ impl ResultRow {
         let row = match *outcome {
             Outcome::Overlapping { overlap, upper } => {
                 let row = self.at(0.0).with_overlap(&overlap);
-                // No less than where one body is inside the other.
+                // If one body is inside the other, `upper` is the only upper bound.
                 let exceeds = Some(upper).filter(|upper| *upper > 0.0);
                 return ResultRow {
                     distance_upper: row.distance_upper.or(exceeds),
@@ -261,7 +261,7 @@ impl ResultRow {
     fn with_overlap(self, overlap: &Overlap) -> Self {
         match overlap {
             Overlap::Pieces(contact) => self.with_contact(contact),
-            // The point lies in both bodies.
+            // The common point lies in both bodies.
             Overlap::AInsideB(point) | Overlap::BInsideA(point) => ResultRow {
                 witness_a: cells(*point),
                 witness_b: cells(*point),

@@ -107,7 +107,7 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
         let [carrier, inner] = [self.carrier.tangent(time)?, self.inner.tangent(time)?];
         let turn = carrier.start().rotation();
         let start = carrier.start().compose(&inner.start());
-        // The velocity of a tangent's origin is that of its centre, less what turns about it.
+        // The velocity of a tangent's origin is that of its centre, minus the part due to rotation.
         let origin = |motion: &Motion| {
             let arm = motion.start().rotation() * motion.centre();
             motion.velocity() - motion.spin().cross(arm)

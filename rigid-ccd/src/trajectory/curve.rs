@@ -114,7 +114,7 @@ impl Curve {
     /// Returns the acceleration at a time, with a bound on its rate of change between two times; `None` if these span
     /// several segments.
     pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
-        // One that the stretch only touches overlaps it, too.
+        // A segment that only touches the interval overlaps it, too.
         let mut overlapping = self.overlapping(from, to).iter();
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
@@ -159,7 +159,7 @@ impl Curve {
     /// Returns the magnitudes of the velocity jumps strictly between two times.
     fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
         let segments = self.overlapping(from, to);
-        // Before the first segment and after the last there is no velocity.
+        // The velocity is zero before the first segment and after the last.
         let before = segments
             .iter()
             .map(|segment| Some(segment.derivative(1, 1.0)));

@@ -311,7 +311,7 @@ impl Moved {
         let length = length(joint.origin().translation());
         self.arms += length;
         self.arm(length);
-        // Turned into the joint's frame.
+        // Rotate into the joint's frame.
         let into = joint.origin().rotation().conjugate();
         self.axis = self.axis.map(|axis| into * axis);
         let Positions { rate, .. } = *positions;
@@ -353,7 +353,7 @@ impl Moved {
             (false, _) => (0.0, Some(axis)),
             (true, Some(common)) => {
                 let across = length(common.cross(axis));
-                // Axes that count as parallel are off by as much each.
+                // Axes that count as parallel may differ by as much each.
                 let most = across + PARALLEL * self.joints;
                 (most, (across < PARALLEL).then_some(common))
             }

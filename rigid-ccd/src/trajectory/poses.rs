@@ -206,11 +206,11 @@ impl Poses {
         let [begin, end] = [self.at(from, to)?.0.start(), self.at(to, to)?.0.start()];
         let motion = Motion::between(begin, end, self.centre, to - from)?;
         let mut stray = Stray::NONE;
-        // The turn by which the chord is off at a pose, and that pose's time.
+        // The rotation by which the chord deviates at a pose, and the time of that pose.
         let mut last = (from, Deviation::default());
         for &(time, pose) in self.between(from, to).iter().chain(&[(to, end)]) {
             let deviation = Deviation::new(&motion, &pose, self.centre, time - from);
-            // The motion that ends at this pose.
+            // The motion of the segment that ends at this pose.
             let (before, acceleration) = self.at(time, time)?;
             let since = time - last.0;
             let change = before.spin().distance(motion.spin()) + acceleration * since;
@@ -231,7 +231,7 @@ impl Poses {
         let last = self.poses.partition_point(|&(at, _)| at < to);
         let given = &self.poses[first.saturating_sub(1)..(last + 1).min(self.poses.len())];
         let lengths = given.iter().map(|(_, pose)| length(pose.translation()));
-        // The way from one to the next is at most twice as long.
+        // The displacement from one pose to the next is at most twice as long.
         let place = 3.0 * lengths.fold(0.0, greater) + 4.0 * length(self.centre);
         let turn = |(k, two): (usize, &[(f64, Pose)])| {
             length(self.spin(first.saturating_sub(1) + k)) * (two[1].0 - two[0].0)
@@ -249,7 +249,7 @@ impl Trajectory for Poses {
         let stretch = if self.between(from, to).is_empty() {
             let (motion, acceleration) = self.at(from, to)?;
             let mut stretch = Stretch::exact(motion);
-            // Twice the integral of what the angular velocity is off by is a square.
+            // The integral of the deviation of the angular velocity is quadratic in time.
             if acceleration > 0.0 {
                 stretch.stray.turn = 0.5 * acceleration * (to - from) * (to - from);
             }
@@ -283,7 +283,8 @@ impl Deviation {
         let turned: DQuat = near.rotation().conjugate() * pose.rotation();
         Deviation {
             shift: at.distance(true_at),
-            // The double of the angle of a quaternion, whose sine is the length of its vector.
+            // The rotation angle is twice the angle of the quaternion, whose sine is the length of its vector
+            // part.
             turn: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
         }
     }

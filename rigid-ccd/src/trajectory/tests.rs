@@ -161,7 +161,7 @@ fn angular_velocities_tell_the_number_of_turns() {
         let found = turning.pose(time).unwrap().rotation();
         assert!(found.dot(exact).abs() > 1.0 - 1e-14, "{time}");
     }
-    // The same to the next pose as what is left over: a twentieth of a turn.
+    // The leftover to the next pose is always the same: a twentieth of a turn.
     let nearly = path
         .clone()
         .turning(vec![[0.0, 0.0, 0.5 * (turns + 0.3)]])
@@ -288,7 +288,7 @@ impl Owned {
         let count = rng.random_range(1..8);
         let chain = arm(rng, count, axes);
         let first: Vec<f64> = (0..count).map(|_| rng.random_range(-2.0..2.0)).collect();
-        // Some joints are held.
+        // Some joints do not move.
         let last = first.iter().map(|&first| {
             if rng.random_bool(0.3) {
                 first
@@ -446,7 +446,7 @@ fn positions_are_checked_up_to_rounding() {
     let mut rng = Rng::seed_from_u64(5);
     let mut beyond = 0;
     for _ in 0..10_000 {
-        // As planners write it.
+        // This is how planners write it.
         let (a, t) = (rng.random_range(least..greatest), 1.0);
         let position = a + t * (greatest - a);
         beyond += u32::from(position > greatest);

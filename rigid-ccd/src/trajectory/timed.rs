@@ -147,7 +147,7 @@ impl<T: Bounded> Smooth for Timed<T> {
         let [rate, change] = self.rates();
         let speeds = self.inner.speeds(first, last);
         let inner = self.inner.accelerations(first, last);
-        // An even pace jumps to rest at both ends.
+        // With the even time law, the velocity jumps to zero at both ends.
         let jumps = |end: f64| from < end && end < to;
         let jump = if self.pace == Pace::Even && (jumps(0.0) || jumps(self.duration)) {
             2.0 * rate / (0.5 * (to - from))

@@ -165,7 +165,7 @@ impl Turns {
     /// Returns the magnitudes of the jumps of the angular velocity strictly between two times.
     fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
         let pieces = self.overlapping(from, to);
-        // Before the first piece and after the last there is no spin.
+        // The angular velocity is zero before the first piece and after the last.
         let before = pieces.iter().map(|piece| Some(piece.at(piece.to).1));
         let after = pieces
             .iter()

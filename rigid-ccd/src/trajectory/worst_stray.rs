@@ -58,7 +58,7 @@ pub fn worst_stray(
     let mut worst: Option<(Sample, Worst)> = None;
     for number in 0..draws {
         let draw = match &worst {
-            // Climbs after every fresh draw.
+            // Hill climbing starts at every fresh sample.
             Some((draw, _)) if number % 4 != 0 => search.near(draw),
             _ => search.fresh(),
         };
@@ -110,7 +110,7 @@ impl Search<'_> {
         &self,
         &[length, from, time, arm, azimuth, height]: &Sample,
     ) -> Result<Worst, InputError> {
-        // Lengths of all orders, down to a millionth.
+        // The lengths are of all orders of magnitude, down to a millionth.
         let length = self.duration * 10f64.powf(-6.0 * length);
         let from = from * (self.duration - length);
         let to = lesser(from + length, self.duration);
@@ -126,7 +126,7 @@ impl Search<'_> {
         let deviation = pose
             .transform_point(point)
             .distance(near.transform_point(point));
-        // The poses that are compared are rounded themselves, by a unit or two in the last place.
+        // The compared poses have rounding errors of one or two units in the last place.
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
         Ok(Worst {

@@ -36,7 +36,7 @@ fn what_is_free_is_left_out() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(parse(&output.stdout).len(), 0);
     assert!(stderr(&output).contains("2 of 2 rows are free"));
-    // To a tolerance by which nobody is blamed: at a distance of a hundred thousandth it is free.
+    // With a small tolerance, a distance of a hundred thousandth is free.
     assert!(audit().stdin("a_px\n0.50101\n").output().status.success());
     let kept = audit().args(&["--margin", "1e-4"]);
     assert_eq!(

@@ -257,7 +257,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     assert!(output.status.success(), "{}", stderr(&output));
     let rows = Run::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
     assert_eq!(rows.succeeds()[0].text("status"), "free");
-    // What is prepared stays as it is.
+    // A prepared body is not adjusted.
     let output = Run::query(&["--a", name(&out), "--b", BALL, "--scale", "2"]).stdin(FALL);
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
@@ -276,7 +276,7 @@ fn cylinders_and_cones_are_bodies() {
             stderr(&output)
         );
         let rows = crate::parse(&output.stdout);
-        // The slant of the cone is as far across as along.
+        // The cone's radius equals its height, so that the slant is at 45 degrees.
         let reach = if side == 0.5 {
             0.6
         } else {
@@ -334,7 +334,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
     let expected =
         "--a is in m, --b in mm, and the numbers of both are kept: give --unit m or --unit mm";
     assert!(message.contains(expected), "{message}");
-    // A shape is in the unit that its user means; a file is in one that it does not say.
+    // A primitive is in the user's unit; a file is in an unknown one.
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
     for (other, is_told) in [(BALL, false), (name(&plain), true)] {
         let message = stderr(&query(&cube, other));

@@ -206,7 +206,7 @@ fn runs_side_by_side_keep_all_rows() {
         for run in runs {
             let output = run.wait_with_output().unwrap();
             let message = stderr(&output);
-            // Some rows of the table are bad, which is told by the same number.
+            // Some rows of the table are bad, which gives the same exit code as a refusal.
             assert_eq!(output.status.code(), Some(2), "{message}");
             if !message.contains("another run is writing it") {
                 assert!(message.contains("20000 rows: "), "{message}");
@@ -239,7 +239,8 @@ fn an_edited_byte_is_not_resumed_from() {
     for (name, bytes) in &kept {
         let lines = kept[2].1.iter().filter(|&&b| b == b'\n').count();
         for share in 0..8 {
-            // What follows the last checkpoint is dropped; that of the tables is near the end, if there is one.
+            // Everything after the last checkpoint is dropped; the last checkpoint of the tables is near the
+            // end.
             let at = share * bytes.len() / 16 + 3;
             let mut edited = bytes.clone();
             edited[at] = if edited[at] == b'7' { b'8' } else { b'7' };
@@ -266,7 +267,7 @@ fn an_edited_byte_is_not_resumed_from() {
         "{}",
         stderr(&output)
     );
-    // Of a finished table, too.
+    // The same holds for a finished table.
     let mut results = read_bytes(&scene, "results.csv");
     let middle = results.len() / 2;
     results[middle] ^= 1;
@@ -335,7 +336,7 @@ mod full {
             left,
             ["b.ccd", "b.obj", "ball.obj", "q.html", "s.html", "v.html"]
         );
-        // What is there of a table is continued when there is room.
+        // The existing part of a table is continued once there is space.
         let output = run(&scene, &format!("{} --resume", WRITERS[0].1));
         assert!(output.status.success(), "{}", stderr(&output));
         let rows = read(&path(&scene, "r.csv"));

@@ -365,7 +365,7 @@ fn a_check_fails_unless_every_row_is_proven() {
         let told = stderr(&output).contains("--check: 1 of 1 rows");
         assert_eq!(told, code == 3, "{}", stderr(&output));
     }
-    // A bad row is worse.
+    // A bad row takes precedence.
     let two = format!("{}bad,x\n", "id,a_px\nnear,0\n");
     let output = Run::query(&BALLS).args(&["--check"]).stdin(&two).output();
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));

@@ -94,7 +94,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     }
     let third = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
     killed(&scene, &[], &table[..third]);
-    // Half a row, as a process leaves it when it is killed while it writes.
+    // A process that is killed while it writes leaves half a row.
     for name in [
         "results.csv.partial",
         "contacts.csv.partial",
@@ -289,7 +289,7 @@ fn a_finished_run_with_other_options_is_refused() {
         assert!(message.contains(expected), "{expected}: {message}");
         assert_eq!(tables(&scene), before);
     }
-    // A file that another program has written is not taken for the table.
+    // A file of another program is not mistaken for the table.
     fs::write(path(&scene, "results.csv"), "mine").unwrap();
     let output = finished(query(&scene, &["--resume"]), table);
     assert_eq!(output.status.code(), Some(2));

@@ -44,7 +44,7 @@ fn pairs_that_touch_are_listed_in_order_of_time() {
     assert!(rows[0].number("normal_z") < -0.999 && rows[2].number("normal_z") > 0.999);
     assert!((rows[2].number("witness_a_z") - 1.0).abs() < 1e-9);
     assert_eq!(rows[2].text("feature_a"), "f5");
-    // None of them in so short a time.
+    // No pair touches in so short a time.
     assert!(contacts(&Run::bare(&["scene", bodies, "--duration", "0.5"])).is_empty());
 }
 
@@ -128,7 +128,7 @@ fn a_scene_is_remarked_upon_as_a_query_is() {
         assert!(message.contains("without --duration, all motions end at 1\n"));
         assert!(message.contains("to the end at 1."), "{message}");
     }
-    // Of a tenth of the time, it is a turn and a half.
+    // A tenth of the time is a turn and a half.
     for (_, message) in both(bodies, &["--duration", "0.1", "--tolerance", "1e-6"]) {
         assert!(!message.contains("degrees") && !message.contains("the tolerance is"));
         assert!(!message.contains("without --duration") && message.contains("to the end at 0.1."));

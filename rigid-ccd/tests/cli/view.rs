@@ -60,7 +60,7 @@ fn rows_are_shown_with_their_verdict_and_their_proven_gap() {
     );
     let contact = &views[0]["contacts"][0];
     assert!((contact["time"].as_f64().unwrap() - 0.625).abs() < 1e-3);
-    // The gap of what falls 2.5 at speed 4, and the proven line under it.
+    // The distance of a body that falls 2.5 at speed 4, and the proven bound below it.
     let gap = &views[0]["gap"];
     for point in gap["points"].as_array().unwrap() {
         let [time, upper] = ["time", "upper"].map(|name| point[name].as_f64().unwrap());
@@ -155,7 +155,7 @@ fn results_are_shown_as_they_are() {
         said.contains("as the table says") && !said.contains("Proven"),
         "{said}"
     );
-    // A table that says something else is believed.
+    // The page shows what the table says.
     let table = std::fs::read_to_string(scene.directory.join("results.csv")).unwrap();
     let line = table
         .lines()
@@ -169,7 +169,7 @@ fn results_are_shown_as_they_are() {
         verdict.contains("(budget) after 0.25") && !verdict.contains("Proven"),
         "{verdict}"
     );
-    // Another table is none of results.
+    // Another table is not a table of results.
     let wrong = [
         &CUBE_AND_SLAB[..],
         &["--motions", &motions, "--results", &motions],

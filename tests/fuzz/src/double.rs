@@ -97,7 +97,7 @@ static INVERSE_FACTORIALS: LazyLock<[Double; 29]> = LazyLock::new(|| {
 
 impl Number for Double {
     #[inline]
-    fn of(x: f64) -> Self {
+    fn from_f64(x: f64) -> Self {
         Double::new(x)
     }
 

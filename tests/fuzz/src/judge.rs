@@ -69,7 +69,7 @@ impl<'a> Judge<'a> {
     pub fn new(case: &'a Case, volumes: [Volume; 2], rounding: f64) -> Self {
         let scene = Scene::new(case);
         let placed = [0, 1].map(|side| Solid::new(scene.placed(side, 0.0)));
-        let start = Start::of(&scene, &placed, volumes, rounding);
+        let start = Start::new(&scene, &placed, volumes, rounding);
         Judge {
             case,
             scene,
@@ -256,7 +256,7 @@ impl<'a> Judge<'a> {
             .into_iter()
             .any(|(outer, witness)| {
                 let solid = Solid::new(self.scene.placed(outer, time));
-                let point = Vector::of(witness.to_array()) - origin;
+                let point = Vector::from_array(witness.to_array()) - origin;
                 self.volumes[outer] == Volume::Solid && solid.locate(point) == Where::Inside
             })
     }
@@ -272,7 +272,7 @@ impl<'a> Judge<'a> {
         let allowed = 1e-12 * (self.scene.scale + far) + 16.0 * self.rounding;
         let mut off = [0, 1].map(|k| {
             let placed = self.scene.placed(k, time);
-            let point = Vector::of(witnesses[k].0) - origin;
+            let point = Vector::from_array(witnesses[k].0) - origin;
             let off = clearance(point, &placed);
             // A piece may extend through the interior of its solid.
             let may = self.volumes[k] == Volume::Solid && off > allowed;
@@ -310,7 +310,7 @@ impl<'a> Judge<'a> {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
             let track = &self.scene.sides[k].track;
             let to_world = |p: [f64; 3]| {
-                snapshots[k].arm(Vector::of(p) - track.centre)
+                snapshots[k].arm(Vector::from_array(p) - track.centre)
                     + (snapshots[k].centre - snapshots[0].centre)
             };
             Some(
@@ -357,7 +357,7 @@ impl<'a> Judge<'a> {
     }
 
     fn is_inside(&self, p: [f64; 3], outer: usize) -> bool {
-        let point = Vector::of(p) - self.scene.snapshots(0.0)[0].centre;
+        let point = Vector::from_array(p) - self.scene.snapshots(0.0)[0].centre;
         let solid = &self.placed[outer];
         // Points are given in world coordinates, rounded.
         let near = 1e-12 * larger(self.scene.scale, Vector(p).largest());

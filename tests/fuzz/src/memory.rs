@@ -22,14 +22,14 @@ pub(crate) fn within<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
         }));
     });
     let most = HEAP.allocated().saturating_add(bytes);
-    let _limit = Limit::of(most);
+    let _limit = Limit::new(most);
     run()
 }
 
 struct Limit;
 
 impl Limit {
-    fn of(most: usize) -> Self {
+    fn new(most: usize) -> Self {
         // It fails only if other threads have allocated as much in the meantime; then there is no limit.
         let _ = HEAP.set_limit(most);
         Limit

@@ -13,7 +13,7 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
     let (face_s, face_t) = (normal(s), normal(t));
     if pierces(&edges_s, t, face_t) || pierces(&edges_t, s, face_s) {
-        return N::of(0.0);
+        return N::from_f64(0.0);
     }
     let mut way = s[0] - t[0];
     let mut best = way.dot(way);
@@ -75,7 +75,7 @@ impl<N: Number> Edge<N> {
 
 #[inline]
 fn clamped<N: Number>(x: N) -> N {
-    let (zero, one) = (N::of(0.0), N::of(1.0));
+    let (zero, one) = (N::from_f64(0.0), N::from_f64(1.0));
     // NaN becomes 0.
     if x > one {
         one
@@ -111,7 +111,7 @@ fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
     let w = q.from - p.from;
     let x = w.cross(q.along).dot(n) / square * p.scale;
     let y = w.cross(p.along).dot(n) / square * q.scale;
-    let (zero, one) = (N::of(0.0), N::of(1.0));
+    let (zero, one) = (N::from_f64(0.0), N::from_f64(1.0));
     let within = |x: N| x >= zero && x <= one;
     // Clamped anyway, since rounding may put the other point slightly beyond its end.
     (within(x) || within(y)).then(|| w + q.way * clamped(y) - p.way * clamped(x))
@@ -130,11 +130,11 @@ fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
         (t[2] - t[1]).scaled(),
         (t[0] - t[2]).scaled(),
     ];
-    (0..3).all(|k| n.dot(ways[k].cross(x - t[k])) >= N::of(0.0))
+    (0..3).all(|k| n.dot(ways[k].cross(x - t[k])) >= N::from_f64(0.0))
         // Beyond the ends of a needle, rounding alone decides the side of a point.
         && ways.iter().all(|way| {
             let heights = [way.dot(t[0] - x), way.dot(t[1] - x), way.dot(t[2] - x)];
-            heights.iter().any(|&h| h >= N::of(0.0)) && heights.iter().any(|&h| h <= N::of(0.0))
+            heights.iter().any(|&h| h >= N::from_f64(0.0)) && heights.iter().any(|&h| h <= N::from_f64(0.0))
         })
 }
 
@@ -148,7 +148,7 @@ pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
 
 /// Returns true if an edge passes through the interior of a triangle.
 fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector<N>>) -> bool {
-    let zero = N::of(0.0);
+    let zero = N::from_f64(0.0);
     let Some(n) = face else { return false };
     let height = |k: usize| n.dot(edges[k].from - t[0]);
     let heights = [height(0), height(1), height(2)];
@@ -187,5 +187,5 @@ pub fn depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     axes.iter()
         .map(overlap)
         .fold(None, least)
-        .unwrap_or(N::of(0.0))
+        .unwrap_or(N::from_f64(0.0))
 }

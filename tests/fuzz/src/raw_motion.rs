@@ -51,7 +51,7 @@ impl RawPose {
         let [w, a, b, c] = self.turn();
         let (u, two) = (Vector([a, b, c]), Double::new(2.0));
         let across = u.cross(x) * two;
-        x + across * w + u.cross(across) + Vector::of(self.position)
+        x + across * w + u.cross(across) + Vector::from_array(self.position)
     }
 }
 
@@ -84,14 +84,14 @@ impl RawMotion {
     /// Returns the exact motion over a duration. Between end poses, the centre moves straight, and
     /// the rotation is the shortest turn between the unit quaternions.
     pub fn track(&self, duration: f64) -> Track {
-        let centre = Vector::of(self.centre);
+        let centre = Vector::from_array(self.centre);
         let start = self.start.point(centre);
         let per_time = Double::new(1.0) / Double::new(duration);
         let (velocity, axis, rate) = match self.goal {
             Goal::Velocities { linear, spin } => {
-                let spin = Vector::of(spin);
-                let axis = spin.unit().unwrap_or(Vector::of([0.0; 3]));
-                (Vector::of(linear), axis, spin.length())
+                let spin = Vector::from_array(spin);
+                let axis = spin.unit().unwrap_or(Vector::from_array([0.0; 3]));
+                (Vector::from_array(linear), axis, spin.length())
             }
             Goal::End(end) => {
                 let velocity = (end.point(centre) - start) * per_time;
@@ -106,7 +106,7 @@ impl RawMotion {
                 position: [0.0; 3],
                 ..self.start
             };
-            rotation.point(Vector::of(unit))
+            rotation.point(Vector::from_array(unit))
         });
         Track {
             start,
@@ -129,7 +129,7 @@ fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>
     } else {
         (cos, sin)
     };
-    let axis = sin.unit().unwrap_or(Vector::of([0.0; 3]));
+    let axis = sin.unit().unwrap_or(Vector::from_array([0.0; 3]));
     (axis, Double::angle(sin.length(), cos) * Double::new(2.0))
 }
 

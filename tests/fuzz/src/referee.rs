@@ -54,7 +54,7 @@ pub struct Evidence {
 
 impl Side {
     fn new(triangles: &[Triangle<f64>], track: Track) -> Self {
-        let arm = |p: Vector<f64>| Vector::of(p.0) - track.centre;
+        let arm = |p: Vector<f64>| Vector::from_array(p.0) - track.centre;
         let triangles: Vec<Triangle<Double>> = triangles.iter().map(|t| t.map(arm)).collect();
         let balls: Vec<Ball> = triangles.iter().map(|t| Ball::about(t, &track)).collect();
         let corners: Vec<Vector<Double>> = triangles.iter().flatten().copied().collect();

@@ -54,7 +54,7 @@ impl Solid {
     pub fn locate(&self, p: Vector<Double>) -> Where {
         let seen = DIRECTIONS
             .iter()
-            .find_map(|&ray| self.crossings(p, Vector::of(ray)));
+            .find_map(|&ray| self.crossings(p, Vector::from_array(ray)));
         let Some(seen) = seen else {
             return Where::Unknown;
         };
@@ -131,7 +131,7 @@ fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Opt
 /// Returns for every triangle the first one that is connected to it.
 fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..triangles.len()).collect();
-    // The least of the groups that have a corner at a position.
+    // The least index of the groups with a corner at the position.
     let mut at: HashMap<[u64; 3], usize> = HashMap::new();
     loop {
         let mut changed = false;

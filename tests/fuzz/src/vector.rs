@@ -14,14 +14,14 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    fn of(x: f64) -> Self;
+    fn from_f64(x: f64) -> Self;
     fn rounded(self) -> f64;
     fn sqrt(self) -> Self;
 }
 
 impl Number for f64 {
     #[inline]
-    fn of(x: f64) -> Self {
+    fn from_f64(x: f64) -> Self {
         x
     }
 
@@ -41,8 +41,8 @@ pub struct Vector<N>(pub [N; 3]);
 
 impl<N: Number> Vector<N> {
     #[inline]
-    pub fn of(v: [f64; 3]) -> Self {
-        Vector(v.map(N::of))
+    pub fn from_array(v: [f64; 3]) -> Self {
+        Vector(v.map(N::from_f64))
     }
 
     #[inline]
@@ -72,11 +72,11 @@ impl<N: Number> Vector<N> {
     pub fn length(self) -> N {
         let size = self.largest();
         if !(size > 1e-290) {
-            return N::of(size);
+            return N::from_f64(size);
         }
         // A power of two, so that squares neither overflow nor underflow.
-        let scale = N::of(power_of_two(size));
-        let v = self * (N::of(1.0) / scale);
+        let scale = N::from_f64(power_of_two(size));
+        let v = self * (N::from_f64(1.0) / scale);
         v.dot(v).sqrt() * scale
     }
 
@@ -85,12 +85,12 @@ impl<N: Number> Vector<N> {
     pub fn scaled(self) -> Self {
         let size = self.largest();
         match size > 0.0 && size.is_finite() {
-            // In two steps, since the reciprocal of a denormal overflows.
+            // Scale in two steps, because the reciprocal of a denormal overflows.
             true if size < 1e-290 => {
-                let v = self * N::of(2f64.powi(600));
-                v * N::of(1.0 / power_of_two(v.largest()))
+                let v = self * N::from_f64(2f64.powi(600));
+                v * N::from_f64(1.0 / power_of_two(v.largest()))
             }
-            true => self * N::of(1.0 / power_of_two(size)),
+            true => self * N::from_f64(1.0 / power_of_two(size)),
             false => self,
         }
     }
@@ -100,7 +100,7 @@ impl<N: Number> Vector<N> {
     pub fn unit(self) -> Option<Self> {
         let v = self.scaled();
         let length = v.dot(v).sqrt();
-        (length.rounded() > 0.1).then(|| v * (N::of(1.0) / length))
+        (length.rounded() > 0.1).then(|| v * (N::from_f64(1.0) / length))
     }
 
     /// Returns the absolute value of the largest component, rounded.

@@ -149,8 +149,8 @@ fn linked_tori() -> Scene {
     let upright = DQuat::from_rotation_x(FRAC_PI_2) * DQuat::from_rotation_z(PI);
     let upright = torus(major, minor, rings, sides).placed(upright, DVec3::ZERO);
     let upright = Actor::moving(upright, major * DVec3::X, DVec3::X, DVec3::ZERO);
-    // Around each vertex the other ring is a concave edge: it is nearer by the cosine of the turn
-    // from section to section, once for either ring.
+    // Around each vertex the other ring is a concave edge: it is nearer by the cosine of the angle between
+    // sections, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
     let expect = Expect::Hit {
         earliest: Box::new(move |g| major - 2.0 * minor - g / nearer),

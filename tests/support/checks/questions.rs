@@ -168,7 +168,7 @@ impl Judge<'_> {
                     );
                 }
                 for hit in [first, last] {
-                    // Else one body is inside the other.
+                    // Otherwise one body is inside the other.
                     if let Some(contact) = hit.contact() {
                         self.within_reach(hit.time, answer.tolerance, &contact)?;
                     }

@@ -34,9 +34,11 @@ impl Blend {
     fn coordinates<N: Number>(&self) -> [N; 3] {
         let whole: u32 = self.0.iter().map(|part| part.0).sum();
         [0, 1, 2].map(|axis| {
-            let weighted = |&(w, p): &(u32, DVec3)| N::of(p[axis]).times(&N::of(f64::from(w)));
+            let weighted =
+                |&(w, p): &(u32, DVec3)| N::from_f64(p[axis]).times(&N::from_f64(f64::from(w)));
             let sum = self.0.iter().map(weighted);
-            sum.fold(N::of(0.0), |all, one| all.plus(&one)).over(whole)
+            sum.fold(N::from_f64(0.0), |all, one| all.plus(&one))
+                .over(whole)
         })
     }
 }

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 /// The arithmetic that a predicate needs.
 pub(super) trait Number: Sized {
     /// Converts a finite number exactly.
-    fn of(x: f64) -> Self;
+    fn from_f64(x: f64) -> Self;
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self) -> Self;
@@ -21,12 +21,12 @@ pub(super) trait Number: Sized {
 
     /// Returns the coordinates of a point.
     fn point(p: DVec3) -> [Self; 3] {
-        p.to_array().map(Self::of)
+        p.to_array().map(Self::from_f64)
     }
 }
 
 impl Number for Relaxed {
-    fn of(x: f64) -> Self {
+    fn from_f64(x: f64) -> Self {
         Relaxed::try_from(x).expect("a finite coordinate")
     }
 
@@ -87,7 +87,7 @@ impl Interval {
 }
 
 impl Number for Interval {
-    fn of(x: f64) -> Self {
+    fn from_f64(x: f64) -> Self {
         Interval { lo: x, hi: x }
     }
 

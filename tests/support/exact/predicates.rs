@@ -45,9 +45,9 @@ pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
 /// Compares a number to a coordinate of a point.
 fn compare(x: f64, axis: usize, p: &Spot<'_>) -> Ordering {
     p.near[axis]
-        .minus(&Interval::of(x))
+        .minus(&Interval::from_f64(x))
         .sign()
-        .or_else(|| Number::sign(&p.exact()[axis].minus(&Number::of(x))))
+        .or_else(|| Number::sign(&p.exact()[axis].minus(&Number::from_f64(x))))
         .expect("fractions have a sign")
         .reverse()
 }

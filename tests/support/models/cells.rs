@@ -72,7 +72,7 @@ pub fn meshed_combs(teeth: usize) -> Shape {
         keeps: &|i, j| j == 0 || i % 2 == 0,
     }
     .thick(|i, j| DVec2::new(x(i), y[j]), 0.2);
-    // Half a turn about z, which rounds nothing.
+    // A half turn about z is exact.
     let turn = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
     let other = comb
         .clone()

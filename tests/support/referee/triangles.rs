@@ -169,7 +169,7 @@ impl Face {
         let length = b.distance(a);
         let along = (b - a) / length;
         let apex = (c - a).dot(along);
-        // Made perpendicular twice: the first time leaves a rounding that a small height magnifies.
+        // Orthogonalised twice: the first time leaves a rounding error that a small height magnifies.
         let across = (c - a - apex * along).normalize();
         let across = (across - across.dot(along) * along).normalize();
         Face {

@@ -127,7 +127,7 @@ impl Solver for C2a {
                 return Reply::new(Claim::Free, steps);
             }
             let next = time + found.step;
-            // Neither NaN nor a step below the resolution of time goes on.
+            // Stop at NaN, and at a step below the resolution of time.
             if !(next > time) {
                 return Reply::new(Claim::Unresolved { safe_until: time }, steps);
             }
@@ -239,7 +239,7 @@ impl C2a {
             direction: between / distance,
         };
         let step = self.closing.step(&self.trees, &pair, &gap);
-        // NaN counts.
+        // NaN counts as nearer.
         if !(step >= found.step) {
             found.step = step;
         }

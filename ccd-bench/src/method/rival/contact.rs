@@ -97,7 +97,7 @@ impl Contact {
             let claim = Claim::Contact { time: 0.0 };
             return Reply::new(claim, 0);
         }
-        // A body that does not turn encloses the other's motion in its frame without loss.
+        // A body that does not rotate encloses the other's motion in its frame without loss.
         let order = if courses[0].rate < courses[1].rate {
             [1, 0]
         } else {

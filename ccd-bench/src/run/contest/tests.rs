@@ -145,8 +145,8 @@ fn truths_are_kept_on_disk_and_apply_to_one_motion_only() {
     );
     for row in 0..3 {
         let (one, other) = (
-            truths.of(&contest, MotionKind::Given),
-            again.of(&contest, MotionKind::Given),
+            truths.of_scene(&contest, MotionKind::Given),
+            again.of_scene(&contest, MotionKind::Given),
         );
         assert_eq!(one(row), other(row));
     }

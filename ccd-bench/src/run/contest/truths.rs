@@ -82,7 +82,7 @@ impl Truths {
     }
 
     /// Returns the truth of each row of a scene; undecided if it has not been found.
-    pub fn of<'t>(
+    pub fn of_scene<'t>(
         &'t self,
         contest: &'t Contest<'_>,
         kind: MotionKind,

@@ -22,7 +22,7 @@ pub(super) struct Legend<'a> {
 
 impl<'a> Legend<'a> {
     /// Returns the legend of methods, on a sheet of the usual width.
-    pub(super) fn of(shown: &'a [(&MethodFacts<'_>, MethodStyle)]) -> Self {
+    pub(super) fn of_methods(shown: &'a [(&MethodFacts<'_>, MethodStyle)]) -> Self {
         let entries = shown.iter().map(|(method, style)| {
             let text = match style.fill {
                 Fill::Solid => method.label.to_owned(),

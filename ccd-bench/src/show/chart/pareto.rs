@@ -55,7 +55,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
         subtitle: "One line per method, a marker for each tolerance; hollow in the strip beside: \
                    late or missed contacts somewhere, so no accuracy to show",
         remarks: remarks(&cells),
-        legend: Legend::of(&shown),
+        legend: Legend::of_methods(&shown),
         x,
         y,
         columns: 3,

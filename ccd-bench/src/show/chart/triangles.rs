@@ -51,7 +51,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
                 .to_owned(),
             SAME_ROWS.to_owned(),
         ],
-        legend: Legend::of(&shown),
+        legend: Legend::of_methods(&shown),
         x,
         y,
         columns: 1,

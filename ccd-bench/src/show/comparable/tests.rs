@@ -29,7 +29,7 @@ fn a_method_that_was_asked_easy_rows_alone_is_slower_than_the_reference() {
     );
     let moved = Reference::new(OURS, &trials).comparable(&cells);
     assert_eq!(moved[0], cells[0], "the reference keeps its median, 46");
-    // Ratios 3 and 4.
+    // The ratios are 3 and 4.
     assert_eq!(moved[1].median_us, 46.0 * 3.5);
     assert_eq!(moved[1].rows, 2);
 }

@@ -40,7 +40,7 @@ fn trials() -> Vec<Trial> {
 fn ratios_are_over_the_rows_common_to_both_methods() {
     let others = ["C2A", "discrete stepping", "parry-f64", "naive direct"];
     let table = ratios(&trials(), "best-first direct", &others, 1e-3);
-    // Over rows 0 and 1. The row with time 1000 was asked of one method only.
+    // The medians are over rows 0 and 1. The row with time 1000 ran on one method only.
     assert_eq!(
         table.rows,
         [[
@@ -77,7 +77,7 @@ fn answers_are_counted_per_method_without_distances() {
     );
     let reference = Reference::new("best-first direct", &all);
     let usual = at_tolerance(&cells, 1e-3, &reference);
-    // Over rows 0 and 1, of ratios 3 and 4.
+    // The medians are over rows 0 and 1, with ratios 3 and 4.
     assert_eq!(usual.rows[0][..5], ["santa", "C2A", "2", "55.0", "3.50"]);
     assert_eq!(usual.rows[1][0], "", "a scene is named once");
     assert_eq!(usual.rows[0][12], "1e-4");

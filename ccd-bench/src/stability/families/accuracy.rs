@@ -120,7 +120,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
         tolerance: greater(0.1 * clearance, 1e-11),
         ..step
     };
-    // The angle is as inexact as the clearance.
+    // The angle has the error of the clearance.
     let expected = Expected::at(0.5, 1e-15 / clearance);
     Ok(step.turned_too(turning, BodyMotion::STILL, expected)?)
 }
@@ -131,7 +131,7 @@ fn hardly_turning(turn: f64) -> Result<Step, StepError> {
         spin: turn * DVec3::Y,
         ..BodyMotion::FALLING
     };
-    // The lowest corner is lower by what the cube has turned: each round adds a digit.
+    // The lowest corner is lower by the rotation so far: each round adds a digit.
     let mut time = 0.625;
     for _ in 0..40 {
         let (sin, cos) = (turn * time).sin_cos();

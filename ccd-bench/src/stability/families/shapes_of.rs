@@ -58,7 +58,8 @@ pub(super) fn families() -> Vec<Family> {
 /// T19: the teeth of two combs pass between each other, until their tips meet the bars.
 fn comb_into_comb(teeth: f64) -> Result<Step, StepError> {
     let step = Step::new(comb(teeth as u32)?, comb(teeth as u32)?);
-    // Turned over about y, a tooth ends where it began: in the middle of a gap, at 1/2 + TOOTH of the step.
+    // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
+    // TOOTH of the step.
     let shift = 1.0 - (0.5 - TOOTH) / teeth;
     let falling = BodyMotion {
         turned: DQuat::from_rotation_y(PI),
@@ -123,7 +124,7 @@ fn field_of_solids(count: f64) -> Result<Step, StepError> {
 /// Two cones meet beside their tips: the tip of each touches a face of the other.
 fn tip_onto_tip(aside: f64) -> Result<Step, StepError> {
     let (sides, radius) = (8, 0.7);
-    // Turned by half a side, a face looks along x. It rises by 1 over the way to its middle.
+    // After a rotation by half a side, a face looks along x. It rises by 1 up to its middle.
     let half_side = PI / f64::from(sides);
     let cone = turned(&cone(sides, radius)?, DQuat::from_rotation_z(half_side))?;
     let slope = 1.0 / (radius * half_side.cos());

@@ -64,7 +64,7 @@ fn agree(family: &Family, value: f64) -> usize {
     let step = (family.make)(value).unwrap();
     let Step { meshes, cases, .. } = &step;
     let many = meshes.iter().any(|mesh| mesh.faces().len() > TRIANGLES);
-    // The referee keeps no distance.
+    // The referee has no margin.
     if many || step.margin > 0.0 {
         return 0;
     }
@@ -72,7 +72,7 @@ fn agree(family: &Family, value: f64) -> usize {
     let mut decided = 0;
     for Case { query, expected } in cases {
         let truth = Referee::new(&a, &b).first_contact(query);
-        // It places points in the world, whose origin may be far away.
+        // The referee places points in the world, whose origin may be far away.
         let early = 1e-12 + 1e-15 * query.a.start().translation().length();
         let at = format!(
             "{} {value:e}, case {}: {expected:?} {truth:?}",
@@ -88,7 +88,7 @@ fn agree(family: &Family, value: f64) -> usize {
                 assert!((from - early..=to).contains(&lo), "{at}");
             }
             (Truth::Free, Expected::Free) => {}
-            // The referee knows surfaces, not solids.
+            // The referee uses surfaces, not solids.
             (Truth::Free, Expected::Start) => {}
             _ => panic!("{at}"),
         }

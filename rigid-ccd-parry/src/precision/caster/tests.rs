@@ -38,7 +38,7 @@ fn a_shape_that_is_changed_is_another_one() {
 fn a_new_shape_is_never_taken_for_one_that_is_gone() {
     let mut caster = Caster::default();
     let wall = SharedShape::cuboid(1.0, 1.0, 1.0);
-    // Freed memory is handed out again at once: addresses would come back if shapes were not held.
+    // Freed memory is reused at once: addresses would repeat if the caster did not hold the shapes.
     for k in 0..500 {
         let near = k % 2 == 0;
         let ball = SharedShape::ball(if near { 1.0 } else { 0.1 });

@@ -26,7 +26,7 @@ thread_local! {
 #[test]
 fn casts_work_when_a_thread_ends() {
     let thread = std::thread::spawn(|| {
-        // The one made first goes last.
+        // Thread-local values are dropped in the reverse order of their creation.
         LAST.with(|_| ());
         cast(0.5)
     });
@@ -36,7 +36,7 @@ fn casts_work_when_a_thread_ends() {
 #[test]
 fn shapes_in_one_place_are_told_apart_by_their_numbers() {
     for k in 1..200 {
-        // In the same place of the stack.
+        // Every ball has the same address on the stack.
         let radius = 0.001 * k as Real;
         let time = cast(radius).expect("they meet");
         let exact = 2.0 - radius;

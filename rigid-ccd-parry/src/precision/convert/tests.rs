@@ -8,7 +8,7 @@ fn times_are_never_rounded_up() {
         for given in [given, -given, 1.0 / f64::from(k + 1), f64::from(k)] {
             let near = f64::from(time(given));
             assert!(near <= given, "{given:e} became {near:e}");
-            // The next one is later.
+            // The next float is later.
             assert!(f64::from(time(given).next_up()) > given, "{given:e}");
             exact += u32::from(near == given);
         }

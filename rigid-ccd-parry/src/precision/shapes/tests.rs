@@ -23,7 +23,7 @@ fn holes_of_height_fields_are_holes() {
     field.set_cell_status(0, 0, HeightFieldCellStatus::ZIGZAG_SUBDIVISION);
     let holed = prepared(&field);
     assert_eq!(holed.body().pieces().len(), 21);
-    // Each piece is the triangle of its number.
+    // Piece number k is triangle k.
     for piece in 0..21 {
         let number = holed.sub_shape(piece);
         let theirs = field
@@ -60,7 +60,7 @@ fn voxels_are_boxes_on_the_grid() {
 
 #[test]
 fn voxels_are_all_found_at_any_size() {
-    // Rounded divisions by such sizes go wrong by one at chunks' ends.
+    // Rounded divisions by such sizes are wrong by one at the ends of chunks.
     for size in [0.1, 0.3, 1e-3, 7.77, 123.456] {
         let keys: Vec<IVector> = (-40..40).map(|x| IVector::new(x, 7 * x + 1, -x)).collect();
         let made = prepared(&Voxels::new(Vector::splat(size), &keys));
@@ -130,7 +130,7 @@ fn cylinders_and_cones_are_along_y_and_exceed_their_shapes_by_what_is_told() {
             }
             let rim = 0.25..=0.25 + made.excess();
             assert!(rim.contains(&base));
-            // The apex is up, as parry's.
+            // The apex is up, as in parry.
             assert!(rim.contains(&top) || (top == 0.0 && shape.as_cone().is_some()));
         }
     }

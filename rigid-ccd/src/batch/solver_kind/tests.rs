@@ -38,7 +38,7 @@ fn answers_are_the_same_bits_for_prepared_bodies() {
     let prepared = knot();
     for kind in SolverKind::all() {
         kind.prepare(&prepared);
-        // Its hulls and pieces are its own: nothing is prepared.
+        // Each body has its own hulls and pieces, so nothing is prepared.
         let fresh = knot();
         for motion in motions().take(6) {
             let answers = [&fresh, &prepared].map(|body| {

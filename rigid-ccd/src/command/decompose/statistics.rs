@@ -50,7 +50,7 @@ impl Statistics {
                 .hull_tree
                 .as_ref()
                 .map_or(0, |tree| tree.hulls().len()),
-            // To the microsecond.
+            // Round to the microsecond.
             build_ms: (build_ms * 1e3).round() / 1e3,
             bytes: body.bytes(),
             exact: report.is_exact(),

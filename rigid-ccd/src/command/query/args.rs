@@ -118,7 +118,7 @@ impl QueryArgs {
 
     /// Returns the options that determine the tables, with their values.
     pub(super) fn recorded(&self) -> Vec<(&'static str, String)> {
-        // Exhaustive: a new option does not compile until it is recorded or left out here.
+        // The pattern is exhaustive: a new option does not compile until it is recorded or left out here.
         let QueryArgs {
             bodies:
                 BodiesArgs {

@@ -78,7 +78,7 @@ impl Recorded {
         for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
             match option.strip_prefix(CONTENT) {
                 None => changes.push(format!("{option} was {then} and is now {now}")),
-                // Another file has another content: one message is enough.
+                // A changed file name implies changed content, so one message is enough.
                 Some(_) if !changes.is_empty() => {}
                 Some(option) => changes.push(format!("the file of {option} has changed since")),
             }
@@ -144,7 +144,7 @@ impl Earlier {
     pub(super) fn read(journal: &Path) -> Result<Option<Self>, Lost> {
         let text = fs::read_to_string(journal).map_err(|_| Lost)?;
         let (recorded, checkpoints) = text.split_once(CHECKPOINTS).ok_or(Lost)?;
-        // A line without its end may be incomplete.
+        // A line without a line end may be incomplete.
         let Some(end) = checkpoints.rfind('\n') else {
             return Ok(None);
         };

@@ -189,7 +189,7 @@ impl Outputs {
         recorded: &Recorded,
         journal: Option<PathBuf>,
     ) -> Result<Self, CannotWrite> {
-        // First of all: the journal of an earlier run does not describe these tables.
+        // This comes first, because the journal of an earlier run does not describe these tables.
         let journal = journal
             .map(|path| Journal::create(path, recorded))
             .transpose()?;
@@ -218,7 +218,7 @@ impl Outputs {
 
     /// Gives the tables their final names.
     pub(super) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
-        // A run that is resumed after this only renames the tables.
+        // A run that is resumed after this point only renames the tables.
         self.save(Checkpoint {
             finished: true,
             ..checkpoint

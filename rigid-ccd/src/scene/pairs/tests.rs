@@ -70,7 +70,7 @@ fn a_leaf_outside_of_its_tree_is_told() {
     let leaves: Vec<Aabb> = (0..9).map(|k| leaf(f64::from(k))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);
     assert!((0..9).all(|k| holds(&tree, k, &leaves[k])));
-    // As if the tree had lost a part of it.
+    // This simulates a tree that lost a part.
     assert!(!holds(&tree, 3, &leaf(40.0)));
     assert!(!holds(&tree, 12, &leaves[3]));
 }

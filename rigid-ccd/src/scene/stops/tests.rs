@@ -82,7 +82,7 @@ fn bodies_that_stop_never_overlap() {
             ));
         }
         crossed += through.difference(&at_start).count();
-        // Each is near what stops it, where both are then.
+        // Each body is near the body that stops it, at their poses then.
         for (index, stop) in stops.iter().enumerate() {
             let Some(by) = stop.by else {
                 moving += 1;
@@ -94,7 +94,7 @@ fn bodies_that_stop_never_overlap() {
             let poses = poses(&scene, &stops, stop.time);
             check_contact(&scene, index, stop, config.margin + config.tolerance);
             let still = |k: usize| (scene.members[k].body, Motion::still(poses[k]));
-            // A query of no duration may pass over half of its tolerance.
+            // A query of zero duration may ignore half of its tolerance.
             let near = Settings {
                 tolerance: 2.2 * config.tolerance,
                 ..config.clone()
@@ -159,7 +159,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     )
     .unwrap();
     let below = Pose::at([0.0, 0.0, -1.0]).unwrap();
-    // Whichever was added first.
+    // The order of addition does not matter.
     let mut scene = Scene::new();
     scene.add_fixed(&plate, below);
     let second = scene.add(&ball, falls);
@@ -171,7 +171,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     let stops = scene.stops(1.0).unwrap();
     assert!(stops[first].normal().unwrap().distance(-DVec3::Z) < 1e-12);
     assert_eq!(stops[first].contact.unwrap().hit.time, stops[first].time);
-    // What does not stop has none, nor has what a limit stops.
+    // A body without a stop has no contact, nor has one that a limit stops.
     assert_eq!(
         (stops[1].by, stops[1].contact, stops[1].normal()),
         (None, None, None)
@@ -267,11 +267,11 @@ fn what_is_out_of_range_or_unresolved_is_told_or_stops() {
     )
     .unwrap();
     let flying = scene.add(&ball, flies);
-    // Without a budget nothing is known to be free.
+    // Without a budget nothing is proven free.
     let stop = scene.stops(1.0).unwrap()[flying];
     assert!(stop.by == Some(0) && stop.time <= 0.5);
     assert!(scene.stops(-1.0).is_err());
-    // The policy of other questions is what it was.
+    // The start policy of other questions is unchanged.
     let mut scene = scene.with_settings(Settings::DEFAULT);
     let rests = Motion::still(Pose::at([1.0, 0.0, 0.0]).unwrap());
     scene.set_movement(flying, rests).unwrap();
@@ -307,7 +307,7 @@ fn what_is_pressed_does_not_sink_by_rounding() {
                 "{half:e} {tolerance:e}: {gap:e} in step {step}"
             );
         }
-        // It lifts off.
+        // The body lifts off.
         let lifts = Motion::new(pose, [0.0, 0.0, 0.5], [0.0; 3]).unwrap();
         scene.set_movement(index, lifts).unwrap();
         assert_eq!(scene.stops(1.0).unwrap()[index].by, None);
@@ -329,7 +329,7 @@ fn settings_at_their_limits_are_taken() {
         scene.add(&ball, Motion::still(far(3.0)));
         assert!(scene.stops(1.0).is_ok(), "{tolerance:e} {margin:e}");
     }
-    // Where bodies have got to, a motion may not begin.
+    // The pose that a body has reached may be out of range for a motion.
     let mut scene = Scene::new();
     let flies = |x: f64, speed: f64| Motion::new(far(x), [speed, 0.0, 0.0], [0.0; 3]).unwrap();
     scene.add(&ball, flies(1e12 - 10.0, 20.0));

@@ -114,12 +114,12 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
     let mut between = 0;
     for number in 0..60 {
         let pair = Pair::new(number);
-        // The polygons may be nearer before or after the axes are nearest.
+        // The polygons may be nearest before or after the axes are.
         let bodies = pair.closest(&mut Solver::new())[0].outcome.lower();
         let most = pair.least + 2.0 * pair.body.excess();
         for (required, expected) in [
             (bodies - 1e-3, Some(Clearance::Kept)),
-            // Kept by the cylinders, but not by the bodies.
+            // The cylinders keep this clearance, but the bodies do not.
             (0.5 * (bodies + pair.least), None),
             (pair.least, None),
             (most + 1e-3, Some(Clearance::Violated)),
@@ -143,7 +143,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
                 between += u32::from(found == Clearance::Unverified);
                 let upper = answer.outcome.upper();
                 assert!(upper >= pair.least, "{number}: {answer:?}");
-                // The bounds about a clearance that is not verified are those of the excess.
+                // The bounds for an unverified clearance differ by the excess.
                 if found == Clearance::Unverified {
                     let lower = answer.outcome.lower();
                     assert!(upper - lower <= answer.tolerance && lower <= required);
@@ -224,7 +224,7 @@ fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
     let radius = 0.3;
     let ball = super::ball(radius);
     let edge = |height: f64| f64::hypot(1.0, height) - radius;
-    // In the slot it is nearest to the floor, above it to the edges.
+    // The ball is nearest to the floor in the slot, and to the edges above it.
     for (height, least) in [(1.5, 0.5 - radius), (2.5, edge(0.5)), (2.35, edge(0.35))] {
         let start = Pose::at([0.0, -1.0, height]).unwrap();
         let passes = Motion::new(start, [0.0, 2.0, 0.0], [0.0; 3]).unwrap();

@@ -21,7 +21,7 @@ pub fn query<R: Record + ?Sized>(
         columns,
         cells: record.cells(columns)?,
     };
-    // A negative zero is a zero.
+    // Normalise a negative zero.
     let duration = row.number(DURATION)?.unwrap_or(1.0) + 0.0;
     if duration < 0.0 {
         return Err(RowProblem::BadDuration {
@@ -150,7 +150,7 @@ impl<C: Cells> Row<'_, C> {
             }),
             (Some(_), None) => Ok(MotionKind::EndPose),
             (None, Some(_)) => Ok(MotionKind::Velocities),
-            // In a table that has the columns, an empty cell is told when it is read.
+            // If the table has the columns, reading reports the empty cell.
             (None, None) => match self.slot_where(side, end, |_| true) {
                 Some(_) => Ok(MotionKind::EndPose),
                 None => Ok(MotionKind::Velocities),

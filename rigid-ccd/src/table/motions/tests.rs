@@ -191,7 +191,7 @@ fn end_pose_and_velocity_exclude_each_other() {
         };
         assert_eq!(problem, expected);
     }
-    // The two bodies may differ, and a centre goes with both.
+    // The two bodies may use different columns, and both kinds accept a centre.
     only_query("a_end_px,a_end_py,a_end_pz,a_cx,b_vx,b_cx\n1,0,0,1,1,1\n");
 }
 

@@ -236,7 +236,7 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
         (HitKind::Touching(contact), Outcome::Touching { contact }),
     ] {
         let row = cells_of(interval(hit(0.0, first), later(2.0)), None, extent);
-        // But for the last time it is the row of the first contact.
+        // Except for the last time, the row is that of a first contact.
         assert_eq!(row[..COLUMNS.len()], written(outcome)[..]);
         assert_eq!(cell(&row, "last_time"), "2.0");
     }

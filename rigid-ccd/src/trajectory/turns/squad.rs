@@ -77,11 +77,11 @@ impl Squad {
             let [p, r] = [p.at(u), r.at(u)];
             (r - p).length()
         };
-        // Between looks it grows by no more than half of their time allows.
+        // Between two samples the distance grows by at most the rate times half of their spacing.
         let looks = (0..=LOOKS).map(|k| apart(f64::from(k) / f64::from(LOOKS)));
         let change = p.speed() + r.speed();
         let apart = looks.fold(0.0, greater) + 0.5 * change / f64::from(LOOKS);
-        // Written so that NaN is too far.
+        // The comparison treats NaN as too far.
         if !(apart * apart <= 2.0) {
             return None;
         }
@@ -110,7 +110,7 @@ impl Squad {
         let [p, r] = [self.p.at(u), self.r.at(u)];
         let between = p.conjugate() * r;
         let way = logarithm(between);
-        // The rate of the way from p to r, in the frame of r, and of its logarithm.
+        // The rate of the arc from p to r, in the frame of r, and that of its logarithm.
         let spin = self.r.spin - between.conjugate() * self.p.spin;
         let change = inverse_jacobian(way, spin);
         let part = exponential(h * way);
@@ -131,7 +131,7 @@ fn bounds(d: f64, [p1, r1]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = x.sin_cos();
     let over_sin = if x > 0.0 { x / sin } else { 1.0 };
     let omega = 2.0 * x;
-    // The function G and its derivatives, by their chords.
+    // The function G and its derivatives, bounded by their chords.
     let chord = |at_0: f64, at_half: f64| at_0 + (at_half - at_0) * 2.0 * z;
     let big_g = [
         chord(1.0, 0.5 * PI),
@@ -165,7 +165,7 @@ fn bounds(d: f64, [p1, r1]: [f64; 2]) -> [f64; 2] {
         + g2 * d
         + 2.0 * g1 * d1
         + most_g * d2;
-    // Rounding is far below.
+    // The rounding error is far smaller.
     [speed, acceleration].map(|bound| 2.0 * (1.0 + 1e-9) * bound)
 }
 

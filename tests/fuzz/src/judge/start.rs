@@ -16,7 +16,7 @@ pub(super) struct Start {
 }
 
 impl Start {
-    pub(super) fn of(
+    pub(super) fn new(
         scene: &Scene,
         placed: &[Solid; 2],
         volumes: [Volume; 2],

@@ -40,7 +40,7 @@ pub(super) fn queries_agree(body: &Body) {
     let Ok(ball) = Body::ball(0.125 * size + 1e-3) else {
         return;
     };
-    // From the side of no face in particular, at a point of the body, and on beyond it.
+    // The ball flies from an arbitrary side at a point of the body, and beyond it.
     let way = DVec3::new(0.75, 0.5, 0.25) * (size + 1e-3);
     let Some(falls) = moves(last - 2.0 * way, 4.0 * way) else {
         return;

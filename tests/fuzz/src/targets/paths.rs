@@ -7,7 +7,7 @@ use rigid_ccd::table::paths::Grouping;
 use std::io::Read;
 
 pub(super) fn run(bytes: &[u8]) {
-    // Most headers are those of motions: a column more makes them paths.
+    // Most headers are those of motions; one more column makes a table of paths.
     let paths = [b"t,", bytes].concat();
     within_limits(bytes, || {
         for bytes in [bytes, &paths] {

@@ -48,7 +48,7 @@ fn equal_bits(case: &Case) {
             let answered = matches!(contacts, Ok(_) | Err(ContactsError::TooMany { .. }));
             assert!(answered, "{contacts:?}\n{}", case.reproducer());
         }
-        // Its text tells all numbers apart, and NaN equals itself.
+        // The text distinguishes all numbers, and NaN equals itself.
         Some(format!("{:?}", answer.outcome))
     };
     let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(answer);

@@ -189,8 +189,8 @@ impl Swept {
         Segment {
             sweep: Sweep::from_poses(&poses[0], &poses[1], vector(motion.centre())),
             poses,
-            // Half of the bound of the second derivative, ρ θ²/8, is for a constant rate. The mix
-            // adds less than that again.
+            // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
+            // adds less than that.
             bulge: (0.25 * self.reach(motion) * turn * turn) as Real,
         }
     }

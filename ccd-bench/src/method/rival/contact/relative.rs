@@ -56,15 +56,14 @@ impl Span {
 impl Relative {
     /// Combines two motions; the reference points are given in each body's frame.
     pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
-        // The axes are those of the second body at the start: a body that does not turn then needs
-        // no rotation back.
+        // The axes are those of the second body at the start: a body that does not rotate then needs no
+        // inverse rotation.
         let axes = second.0.orientation.transpose();
         let mut relative = Relative {
             first: BodyMotion::new(first.0, first.1, axes),
             second: BodyMotion::new(second.0, second.1, axes),
         };
-        // Only the difference of the straight parts matters. Separate parts would be enclosed
-        // separately.
+        // Only the difference of the linear parts matters; separate parts would be enclosed separately.
         relative.first.from -= relative.second.from;
         relative.first.velocity -= relative.second.velocity;
         relative.second.from = DVec3::ZERO;

@@ -67,7 +67,7 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
         let given = query(motion, still(DVec3::ZERO));
         assert_eq!(screw(&given).unwrap(), given);
     }
-    // With a little more turn there is an axis, far away.
+    // With a slightly larger rotation there is an axis, far away.
     let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
     let screw = screw(&query(motion, still(DVec3::ZERO))).unwrap();
     assert!((screw.a.centre().length() - 1e3).abs() < 1.0);

@@ -41,7 +41,7 @@ fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
     ] {
         assert!(svg.contains(text), "{text}");
     }
-    // The legend, a cell that is right, and two bars; the legend, and a cell that is missed.
+    // The counts include the legend: a right cell and two bars; a missed cell.
     assert_eq!(
         (count(&svg, "#0072B2"), count(&svg, "#D55E00")),
         (4, 2),

@@ -117,7 +117,7 @@ fn angles_are_pointed_to_quaternions() {
             assert!(message.contains(&format!("`{column}`")) && !message.contains("did you mean"));
         }
     }
-    // What is misspelt is something else.
+    // A different misspelt name gives another error.
     let message = Columns::of(&["a_rw".to_owned()]).unwrap_err().to_string();
     assert!(message.contains("did you mean"), "{message}");
 }

@@ -63,7 +63,7 @@ fn ended(draw: &mut Draw, course: &RawMotion, far: [f64; 3], duration: f64) -> R
     let quaternion = match draw.count(0..3) {
         0 => start.quaternion,
         1 => draw.quaternion(),
-        // The turn is small.
+        // The rotation is small.
         _ => {
             let (by, turn) = (draw.quaternion(), draw.log(1e-9..1.0));
             [0, 1, 2, 3].map(|k| start.quaternion[k] + turn * by[k])

@@ -46,7 +46,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         RawMotion::velocities(RawPose::at(at), velocity, spin),
     ];
     if draw.chance(0.3) {
-        // The drift has no upward part, so that the gap is unchanged.
+        // The tangential velocity has no upward part, so that the gap is unchanged.
         let by = [draw.within(-1e3..1e3), draw.within(-1e3..1e3), 0.0];
         courses
             .iter_mut()

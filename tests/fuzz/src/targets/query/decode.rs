@@ -124,7 +124,7 @@ fn shape(source: &mut Source<'_>) -> Shape {
         6 => bipyramid(source),
         _ => grid(source),
     };
-    // What it may be made of: the decomposition finds out whether that is possible.
+    // The kinds of pieces to try; the decomposition finds out whether they are possible.
     shape.form = match kind >> 3 & 3 {
         0 => Form::Convex,
         1 => Form::Solid,
@@ -256,7 +256,7 @@ fn aim(source: &mut Source<'_>, case: &mut Case) {
         let corner = vertices[usize::from(source.byte()) % vertices.len()];
         let track = case.courses[k].track(case.duration);
         let placed = track.at(time);
-        let arm = placed.arm(Vector::of(corner) - track.centre);
+        let arm = placed.arm(Vector::from_array(corner) - track.centre);
         arm + placed.centre
     };
     let [from, to] = [corner(0), corner(1)];

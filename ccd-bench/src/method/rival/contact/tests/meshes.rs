@@ -90,7 +90,7 @@ fn both_bodies_may_move_and_turn_far() {
         .map(|query| {
             let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
             Motions {
-                // A drift along the axis makes the screw another motion.
+                // A displacement along the axis makes the screw another motion.
                 a: turned(&query.a, query.a.velocity() + 0.1 * spin, spin),
                 b: turned(&query.b, DVec3::ZERO, far),
                 ..query
