@@ -6,7 +6,7 @@ use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::models::{Mesh, Shape, cuboid, dented_cube, l_prism};
 use ccd_tests::query::{Actor, Query};
 use ccd_tests::referee::point_triangle;
-use ccd_tests::strategies::runner;
+use ccd_tests::strategies::{random_direction, runner};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
@@ -79,7 +79,7 @@ impl Touch {
         let frame = if rng.random_bool(0.3) {
             Pose::IDENTITY
         } else {
-            Pose::new(direction(rng), rotation(rng)).unwrap()
+            Pose::new(random_direction(rng), rotation(rng)).unwrap()
         };
         // A's support touches B's from the other side; its edge is parallel to B's, or arbitrary.
         let aligned = b.basis() * a.basis().conjugate();
@@ -214,7 +214,7 @@ impl Support {
         let size = rng.random_range(0..3);
         let [normal, point] = match size {
             0 => {
-                let n = direction(rng);
+                let n = random_direction(rng);
                 let higher = |p: &&DVec3, q: &&DVec3| n.dot(**p).total_cmp(&n.dot(**q));
                 [n, *mesh.vertices.iter().max_by(higher).unwrap()]
             }
@@ -267,7 +267,7 @@ fn shape(rng: &mut Pcg64) -> Shape {
         1 => cuboid(half),
         2 => {
             let Mesh { vertices, faces } = cuboid(half).mesh;
-            let lean = 0.5 * direction(rng);
+            let lean = 0.5 * random_direction(rng);
             let vertices = vertices
                 .into_iter()
                 .map(|p| p + p.z * lean.with_z(0.0))
@@ -284,15 +284,6 @@ fn frame_of(frame: &Pose, turn: DQuat, place: DVec3) -> Pose {
     Pose::new(frame.transform_point(place), rotation).unwrap()
 }
 
-fn direction(rng: &mut Pcg64) -> DVec3 {
-    loop {
-        let v = DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
-        if (0.1..1.0).contains(&v.length()) {
-            return v.normalize();
-        }
-    }
-}
-
 fn rotation(rng: &mut Pcg64) -> DQuat {
-    DQuat::from_axis_angle(direction(rng), rng.random_range(0.0..TAU))
+    DQuat::from_axis_angle(random_direction(rng), rng.random_range(0.0..TAU))
 }

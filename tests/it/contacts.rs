@@ -205,8 +205,8 @@ fn check_pairs(
             && it.lower <= along + rounding
             && (it.lower - rounding..=it.upper + rounding).contains(&distance)
             && (it.normal.length() - 1.0).abs() <= 1e-12;
-        let off_a = off(&query.a, time, pair.feature_a, it.witness_a);
-        let off_b = off(&query.b, time, pair.feature_b, it.witness_b);
+        let off_a = distance_from_feature(&query.a, time, pair.feature_a, it.witness_a);
+        let off_b = distance_from_feature(&query.b, time, pair.feature_b, it.witness_b);
         let parts = kinds.contains(&Kind::Parts);
         if !good || !parts && !(greater(off_a, off_b) <= rounding) {
             return Err(format!(
@@ -218,7 +218,7 @@ fn check_pairs(
 }
 
 /// Returns the distance of a point from a feature of the mesh at a time.
-fn off(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
+fn distance_from_feature(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);
     match feature {

@@ -131,7 +131,7 @@ fn drawn(cases: u32, law: impl Fn(&mut Pcg64, u64)) {
 
 /// A body that slides and rotates on cut ground is as free as on a single face.
 #[test]
-fn whatever_slides_on_cut_ground_is_free() {
+fn bodies_that_slide_on_cut_ground_are_free() {
     drawn(24, |rng, seed| {
         let ground = ground(rng);
         let angle = rng.random_range(-PI..PI);
@@ -163,7 +163,7 @@ fn whatever_slides_on_cut_ground_is_free() {
 
 /// A body hits a block on the ground, however low, at the right time.
 #[test]
-fn what_stands_on_cut_ground_is_found_at_its_time() {
+fn a_block_on_cut_ground_is_hit_at_the_right_time() {
     drawn(16, |rng, seed| {
         let height = [1.0, 1e-3, 1e-6][rng.random_range(0..3)];
         let at = dvec3(rng.random_range(-6.0..-4.0), 0.0, 0.0);

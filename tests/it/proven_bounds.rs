@@ -402,7 +402,7 @@ fn no_bound_is_above_a_sampled_distance() {
 
 /// A ball approaches a box at a knot to within the tolerance.
 #[test]
-fn what_is_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
+fn an_approach_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
     let (ball, wall) = (
         Body::ball(0.5).unwrap(),
         Body::cuboid([1.0, 5.0, 5.0]).unwrap(),

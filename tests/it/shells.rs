@@ -7,6 +7,7 @@ use ccd_decomp::{Detail, Order, prepare};
 use ccd_distance_gjk::Direct;
 use ccd_tests::exact::{Blend, Location, Solid};
 use ccd_tests::models::{Mesh, Shape, boulder, cuboid, icosphere, torus};
+use ccd_tests::strategies::random_direction;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -79,14 +80,6 @@ fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
         .outcome
 }
 
-fn direction(rng: &mut Pcg64) -> DVec3 {
-    let mut ball = || DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)));
-    std::iter::repeat_with(&mut ball)
-        .find(|p| (0.1..1.0).contains(&p.length()))
-        .unwrap()
-        .normalize()
-}
-
 /// A point is inside if an odd number of shells contain it, checked exactly and shell by shell.
 #[test]
 fn a_body_inside_overlaps_for_any_winding_of_shells() {
@@ -101,7 +94,7 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
             for _ in 0..10 {
                 let (near, _) = &shells[rng.random_range(0..shells.len())];
                 let at = near.vertices[0].lerp(near.vertices[1], rng.random())
-                    + direction(&mut rng) * 0.1;
+                    + random_direction(&mut rng) * 0.1;
                 let locations = solids.iter().map(|solid| solid.locate(&Blend::mean([at])));
                 let around = locations.filter(|location| matches!(location, Location::Inside(_)));
                 let inside = around.count() % 2 == 1;

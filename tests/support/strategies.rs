@@ -4,6 +4,7 @@ use crate::case::{Case, Model, Part, Start};
 use ccd_core::glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
+use rand_pcg::Pcg64;
 use std::f64::consts::{PI, TAU};
 
 /// Returns a runner of `cases` cases, times `CCD_TEST_CASES` if set.
@@ -180,6 +181,16 @@ pub fn direction() -> impl Strategy<Value = DVec3> {
         DVec3::new(r * angle.cos(), r * angle.sin(), z)
     });
     prop_oneof![4 => any, 1 => prop::sample::select(&DVec3::AXES[..])]
+}
+
+/// Returns a uniformly distributed unit vector.
+pub fn random_direction(rng: &mut Pcg64) -> DVec3 {
+    loop {
+        let v = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
+        if (0.1..1.0).contains(&v.length()) {
+            return v.normalize();
+        }
+    }
 }
 
 /// Returns a rotation.

@@ -34,7 +34,7 @@ const FAMILIES: [(Family, &str); 4] = [
 impl Measurements<'_> {
     /// Returns sentences on the queries, on the answers of each family, and on their times.
     pub fn sentences(&self) -> Vec<String> {
-        let mut told = vec![self.asked()];
+        let mut told = vec![self.queries()];
         told.extend(
             FAMILIES
                 .iter()
@@ -45,7 +45,7 @@ impl Measurements<'_> {
         told
     }
 
-    fn asked(&self) -> String {
+    fn queries(&self) -> String {
         let sizes = self.triangles.iter();
         let rows: usize = self.cells.iter().map(|cell| cell.rows).sum();
         format!(

@@ -81,7 +81,7 @@ fn kept_failures_are_still_failures_and_the_default_is_right() {
 }
 
 #[test]
-fn every_kept_failure_is_asked() {
+fn every_recorded_failure_is_run() {
     let kept = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("failures")).unwrap();
     let folders = kept.filter(|entry| entry.as_ref().unwrap().path().is_dir());
     assert_eq!(folders.count(), FAILURES.len() + OF_PYTHON.len());

@@ -93,7 +93,7 @@ fn a_margin_is_kept_or_refused() {
 }
 
 #[test]
-fn a_hanging_peer_is_cut_off_and_asked_again() {
+fn a_hanging_peer_is_cut_off_and_restarted() {
     let mut hanging = guarded(PeerKind::Hanging);
     let start = Instant::now();
     for _ in 0..2 {

@@ -69,7 +69,7 @@ fn normals_without_direction_are_refused() {
 }
 
 #[test]
-fn bodies_are_looked_at_until_they_are_through_or_away() {
+fn the_horizon_ends_when_bodies_are_inside_or_away() {
     let plane = HalfSpace::new(DVec3::Y).expect("a normal");
     let ground = at([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
     let horizon = |body| plane.horizon(ground, body, 0.25, f64::INFINITY);
@@ -97,7 +97,7 @@ fn bodies_are_looked_at_until_they_are_through_or_away() {
 }
 
 #[test]
-fn what_may_be_along_a_tilted_plane_is_followed_for_a_while() {
+fn a_motion_that_may_be_along_a_tilted_plane_has_a_long_horizon() {
     let plane = HalfSpace::new(DVec3::new(1.0, 1.0, 1.0)).expect("a normal");
     let ground = at([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
     // Rounding hides whether the body comes down.

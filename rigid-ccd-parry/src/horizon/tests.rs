@@ -16,7 +16,7 @@ fn still(reach: f64) -> Reaching {
 }
 
 #[test]
-fn bodies_that_pass_are_looked_at_until_they_have() {
+fn the_horizon_ends_when_bodies_have_passed() {
     for speed in [1e-30, 1.0, 1e30] {
         let flies = reaching([-4.0, 0.0, 0.0], [speed, 0.0, 0.0], [0.0; 3], 1.0);
         let Horizon::Whole(duration) = Horizon::new([flies, still(2.0)], 0.5, f64::INFINITY) else {
@@ -34,7 +34,7 @@ fn bodies_that_pass_are_looked_at_until_they_have() {
 }
 
 #[test]
-fn what_repeats_itself_is_looked_at_once() {
+fn the_horizon_of_periodic_motions_is_one_period() {
     let turns = |spin| reaching([0.0; 3], [0.0; 3], spin, 1.0);
     let both = |a: [f64; 3], b: [f64; 3]| Horizon::new([turns(a), turns(b)], 0.0, f64::INFINITY);
     assert_eq!(both([0.0; 3], [0.0; 3]), Horizon::Whole(0.0));

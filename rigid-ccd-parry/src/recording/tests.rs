@@ -88,7 +88,7 @@ fn throw(random: &mut impl Rng, from: f64) -> NonlinearRigidMotion {
 }
 
 #[test]
-fn what_is_saved_has_the_answer_of_the_cast() {
+fn a_saved_recording_has_the_answer_of_the_cast() {
     let (folder, mut caster, shapes) = (Folder::new("casts"), Caster::default(), shapes());
     let mut random = Pcg64Mcg::seed_from_u64(7);
     let (mut hits, mut misses) = (0, 0);

@@ -62,7 +62,7 @@ fn bodies_stay_within_the_memory() {
 }
 
 #[test]
-fn what_is_refused_is_not_kept() {
+fn refused_bodies_are_not_cached() {
     let mut shelf = Shelf::default();
     assert!(shelf.body(ball(f64::NAN)).is_err());
     assert!(shelf.body(Form::EMPTY).is_err());

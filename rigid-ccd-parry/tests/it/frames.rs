@@ -79,7 +79,7 @@ fn pair(seed: u64, kinds: [u32; 2]) -> ([make::SharedShape; 2], [Moves; 2]) {
 }
 
 #[test]
-fn nonlinear_hits_are_told_as_parry_tells_them() {
+fn nonlinear_hits_are_in_the_frames_of_parry() {
     let mut count = Count::default();
     for seed in 0..600 {
         // Balls, boxes, capsules and rounded hulls: parry converges on most of them.
@@ -102,7 +102,7 @@ fn nonlinear_hits_are_told_as_parry_tells_them() {
 }
 
 #[test]
-fn linear_hits_are_told_as_parry_tells_them() {
+fn linear_hits_are_in_the_frames_of_parry() {
     let mut count = Count::default();
     for seed in 0..900 {
         // Meshes and compounds are included, whose sub-shapes have numbers.

@@ -142,7 +142,7 @@ fn times_that_are_no_numbers_are_refused() {
 }
 
 #[test]
-fn bodies_that_touch_are_let_go_unless_they_approach() {
+fn touching_bodies_are_ignored_unless_they_approach() {
     let options = |stop_at_penetration| ShapeCastOptions {
         stop_at_penetration,
         ..ShapeCastOptions::default()
@@ -212,7 +212,7 @@ fn mesh(flags: TriMeshFlags, faces: usize) -> SharedShape {
 }
 
 #[test]
-fn a_mesh_is_a_surface_unless_it_is_asked_to_be_a_solid() {
+fn a_mesh_is_a_surface_unless_the_options_make_it_a_solid() {
     let ball = SharedShape::ball(0.5);
     let inside = |meshes, flags| {
         let mut caster = Caster::new(Options {
@@ -257,7 +257,7 @@ fn a_mesh_is_a_surface_unless_it_is_asked_to_be_a_solid() {
 }
 
 #[test]
-fn cylinders_are_early_by_no_more_than_is_asked_for() {
+fn cylinders_are_early_by_at_most_the_excess() {
     let (wheel, wall) = (
         SharedShape::cylinder(0.2, 1.0),
         SharedShape::cuboid(0.1, 9.0, 9.0),

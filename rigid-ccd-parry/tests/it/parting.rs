@@ -45,7 +45,7 @@ fn cast(
 const PENETRATING: ShapeCastStatus = ShapeCastStatus::PenetratingOrWithinTargetDist;
 
 #[test]
-fn convex_shapes_are_let_go_as_parry_lets_them() {
+fn parting_convex_shapes_are_ignored_as_in_parry() {
     let (mut gone, mut kept, mut others) = (0, 0, 0);
     for seed in 0..500 {
         let mut rng = random(seed);
@@ -115,7 +115,7 @@ fn a_body_slides_on_a_floor_that_it_is_in() {
 }
 
 #[test]
-fn on_flat_triangles_a_body_is_let_go_where_parry_lets_it() {
+fn a_body_that_parts_from_flat_triangles_is_ignored_as_in_parry() {
     let (ball, flat) = (Ball::new(0.5), Array2::repeat(20, 20, 0.0));
     let floor = HeightField::new(flat, Vector::new(18.0, 1.0, 18.0));
     let (mut gone, mut kept) = (0, 0);
@@ -149,7 +149,7 @@ fn on_flat_triangles_a_body_is_let_go_where_parry_lets_it() {
 }
 
 #[test]
-fn what_is_behind_is_hit_after_what_is_left() {
+fn a_body_that_leaves_one_part_hits_the_next() {
     // The body leaves one box of a compound, and flies at the next one.
     let boxes = [0.0, 4.0, 8.0].map(|x| (at(x, 0.0, 0.0), SharedShape::cuboid(0.5, 3.0, 3.0)));
     let walls = SharedShape::compound(boxes.to_vec());

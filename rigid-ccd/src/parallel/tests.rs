@@ -147,7 +147,7 @@ impl Drop for Unwinds<'_> {
 }
 
 #[test]
-fn an_iterator_is_not_asked_again_after_its_end() {
+fn an_iterator_is_not_polled_after_its_end() {
     for threads in [1, 2, 5] {
         let mut left = 3;
         let mut ended = false;

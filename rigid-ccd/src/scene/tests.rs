@@ -264,7 +264,7 @@ fn a_step_begins_where_the_last_one_ended() {
 }
 
 #[test]
-fn what_is_out_of_range_is_told_of_its_pairs_alone() {
+fn motions_out_of_range_are_errors_of_their_pairs_only() {
     let ball = Body::ball(0.5).unwrap();
     let mut scene = Scene::new();
     let flies = |x: f64, speed: f64| {

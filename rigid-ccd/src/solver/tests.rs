@@ -134,7 +134,7 @@ fn settings_at_their_limits_are_answered() {
 }
 
 #[test]
-fn a_body_that_has_come_to_rest_is_asked_about_at_once() {
+fn queries_after_the_end_of_a_trajectory_are_answered() {
     let (a, b) = (ball(0.5), ball(0.5));
     let far = thrown([1e11, 1.3, 0.0], [-1.0, 0.0, 0.0], [0.0; 3]);
     let stops = Timed::new(far, 0.0..1.0, 1.0, Pace::Even).unwrap();

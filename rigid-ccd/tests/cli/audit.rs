@@ -12,7 +12,7 @@ fn audit() -> Run {
 }
 
 #[test]
-fn what_is_not_free_is_listed() {
+fn rows_that_are_not_free_are_listed() {
     let output = audit().stdin(SHOTS).output();
     assert_eq!(output.status.code(), Some(3));
     let rows = parse(&output.stdout);
@@ -31,7 +31,7 @@ fn what_is_not_free_is_listed() {
 }
 
 #[test]
-fn what_is_free_is_left_out() {
+fn free_rows_are_left_out() {
     let output = audit().stdin("a_px,a_py\n-3,0\n0,6\n").output();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(parse(&output.stdout).len(), 0);
@@ -71,7 +71,7 @@ fn each_has_a_page() {
 }
 
 #[test]
-fn rows_that_are_not_answered_are_told() {
+fn rows_without_an_answer_are_reported() {
     let rods = ["--a", "capsule:.01,2", "--b", "capsule:.01,2"];
     let run = Run::bare(&["audit", "--motions", "-", "--budget", "1"]).args(&rods);
     let output = run
@@ -89,7 +89,7 @@ fn rows_that_are_not_answered_are_told() {
 }
 
 #[test]
-fn what_cannot_be_written_or_read_is_refused() {
+fn unreadable_and_unwritable_files_are_refused() {
     let scene = Scene::new("audit-refused");
     let file = scene.file("file", "");
     let run = audit().args(&["--pages", file.to_str().unwrap()]);

@@ -194,7 +194,7 @@ fn nothing_in_a_file_controls_the_terminal() {
 }
 
 #[test]
-fn what_is_not_read_is_told_to_quiet_users_too() {
+fn ignored_input_is_reported_with_quiet_too() {
     let scene = Scene::new("unread");
     let mesh = [crate::TETRAHEDRON, "l 1 2\n"].concat();
     let mesh = scene.file("part.obj", &mesh);
@@ -251,7 +251,7 @@ fn traps_are_remarked_upon_once() {
 
 /// If one of two files states its unit, the numbers of the other may be in another unit. Shapes are in any.
 #[test]
-fn a_unit_beside_none_is_told_once() {
+fn a_single_known_unit_is_reported_once() {
     let scene = Scene::new("mixed-units");
     let mesh = scene.file("part.obj", crate::TETRAHEDRON);
     let plain = mesh.to_str().unwrap();

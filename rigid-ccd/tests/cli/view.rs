@@ -87,7 +87,7 @@ fn rows_are_shown_with_their_verdict_and_their_proven_gap() {
 }
 
 #[test]
-fn rows_are_named_and_those_that_are_not_there_are_told() {
+fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
     let scene = Scene::new("view-ids");
     let motions = file(&scene, "motions.csv", DROPS);
     let args = [
@@ -252,7 +252,7 @@ fn verdict(scene: &Scene, more: &[&str]) -> String {
 }
 
 #[test]
-fn a_verdict_claims_what_was_asked_and_proven() {
+fn a_verdict_matches_the_question_and_the_proof() {
     let scene = Scene::new("view-claims");
     let cases: [(&[&str], &str, &str); 9] = [
         (
@@ -312,7 +312,7 @@ fn a_verdict_claims_what_was_asked_and_proven() {
 }
 
 #[test]
-fn a_page_that_cannot_be_written_is_told_before_the_work() {
+fn an_unwritable_page_is_an_error_before_the_work() {
     let scene = Scene::new("view-nowhere");
     let motions = file(&scene, "motions.csv", DROPS);
     let both = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();

@@ -115,7 +115,7 @@ impl<'a> Judge<'a> {
         let begun = self.start.distance <= margin + tolerance;
         match self.case.config.start {
             StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => Limit {
-                threshold: self.kept(margin),
+                threshold: self.required_distance(margin),
                 depth: self.rounding,
             },
             _ => {
@@ -138,7 +138,8 @@ impl<'a> Judge<'a> {
         let margin = self.case.config.margin;
         let proven = self.proven(&answer.outcome);
         let before = evidence.filter(|e| e.time < proven || proven == self.case.duration);
-        let below_margin = |e: &Evidence| !(e.distance > 0.0) || e.distance < self.kept(margin);
+        let below_margin =
+            |e: &Evidence| !(e.distance > 0.0) || e.distance < self.required_distance(margin);
         let early = before.filter(below_margin);
         let known = |e: Evidence| {
             let Evidence {
@@ -187,7 +188,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns the distance below which the bodies are too near.
-    fn kept(&self, margin: f64) -> f64 {
+    fn required_distance(&self, margin: f64) -> f64 {
         match self.case.config.start {
             StartPolicy::Leave => smaller(margin, self.start.distance - RESTING * self.rounding),
             StartPolicy::Report => margin,

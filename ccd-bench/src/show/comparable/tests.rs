@@ -20,7 +20,7 @@ fn cell_of(trials: &[Trial], method: &str) -> Cell {
 }
 
 #[test]
-fn a_method_that_was_asked_easy_rows_alone_is_slower_than_the_reference() {
+fn a_method_on_easy_rows_only_is_slower_than_the_reference() {
     let trials = trials();
     let cells = [cell_of(&trials, OURS), cell_of(&trials, "slow")];
     assert!(

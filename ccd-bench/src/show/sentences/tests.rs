@@ -5,7 +5,7 @@ use crate::show::tables::tests::trial;
 const OURS: &str = "best-first direct";
 
 #[test]
-fn what_was_seen_is_told_by_family_and_fits_a_screen() {
+fn sentences_are_by_family_and_fit_a_screen() {
     let right = Verdict::Right;
     let trials = [
         trial("santa", OURS, "0", 10.0, right),

@@ -213,7 +213,7 @@ fn half_of_pi_is_between_its_bounds() {
 }
 
 #[test]
-fn what_is_doubtful_is_the_whole_line() {
+fn undefined_results_are_the_whole_line() {
     let infinity = f64::INFINITY;
     for x in [f64::NAN, infinity, -infinity] {
         assert_eq!(exact(x), Interval::ENTIRE);

@@ -34,7 +34,7 @@ fn casts_work_when_a_thread_ends() {
 }
 
 #[test]
-fn shapes_in_one_place_are_told_apart_by_their_numbers() {
+fn shapes_at_one_address_are_distinguished_by_their_numbers() {
     for k in 1..200 {
         // Every ball has the same address on the stack.
         let radius = 0.001 * k as Real;
@@ -45,7 +45,7 @@ fn shapes_in_one_place_are_told_apart_by_their_numbers() {
 }
 
 #[test]
-fn the_reason_is_told() {
+fn errors_have_a_reason() {
     let (ball, bad) = (Ball::new(1.0), Ball::new(Real::NAN));
     let rests = NonlinearRigidMotion::identity();
     let told = try_cast_shapes_nonlinear(&rests, &ball, &rests, &bad, [0.0, 1.0], true);

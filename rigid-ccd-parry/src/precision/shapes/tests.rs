@@ -86,7 +86,7 @@ fn parts_of_a_compound_have_their_numbers() {
 }
 
 #[test]
-fn what_is_refused_says_why() {
+fn refusals_name_the_reason() {
     let refused = |shape: &dyn Shape| body(shape, &Options::default()).expect_err("refused");
     let plane = SharedShape::halfspace(Vector::Y);
     assert_eq!(refused(&*plane), ShapeError::HalfSpace);
@@ -107,7 +107,7 @@ fn what_is_refused_says_why() {
 }
 
 #[test]
-fn cylinders_and_cones_are_along_y_and_exceed_their_shapes_by_what_is_told() {
+fn cylinders_and_cones_are_along_y_with_the_reported_excess() {
     use super::super::library::shape::{Cone, Cylinder};
     let within = |excess| Options {
         excess,

@@ -6,7 +6,7 @@ fn shown(progress: &Progress) -> String {
 
 /// A batch of rows is read at once, before any of them is answered.
 #[test]
-fn what_is_answered_counts_and_not_what_is_read() {
+fn answered_rows_count_and_read_rows_do_not() {
     let progress = Progress::new(Total::Bytes(110));
     progress.answering(0, 10);
     progress.answering(4, 110);

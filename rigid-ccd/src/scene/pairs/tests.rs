@@ -65,7 +65,7 @@ fn boxes_that_touch_meet() {
 }
 
 #[test]
-fn a_leaf_outside_of_its_tree_is_told() {
+fn a_leaf_outside_its_tree_is_detected() {
     let leaf = |x: f64| Aabb::new(Vector::new(x, 0.0, 0.0), Vector::new(x + 0.5, 1.0, 1.0));
     let leaves: Vec<Aabb> = (0..9).map(|k| leaf(f64::from(k))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);

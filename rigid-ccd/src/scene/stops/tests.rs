@@ -219,7 +219,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
 
 /// A ball that is pressed onto a floor keeps half of the tolerance over many steps.
 #[test]
-fn what_is_pressed_stays_above() {
+fn a_pressed_ball_stays_above_the_floor() {
     let (ball, floor) = (
         Body::ball(0.5).unwrap(),
         Body::cuboid([5.0, 5.0, 0.1]).unwrap(),
@@ -252,7 +252,7 @@ fn what_is_pressed_stays_above() {
 }
 
 #[test]
-fn what_is_out_of_range_or_unresolved_is_told_or_stops() {
+fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
     let ball = Body::ball(0.5).unwrap();
     let knot = Body::cuboid([0.5, 0.5, 0.5]).unwrap();
     let mut scene = Scene::new().with_settings(Settings {
@@ -282,7 +282,7 @@ fn what_is_out_of_range_or_unresolved_is_told_or_stops() {
 
 /// Distances over a wide floor have larger rounding errors. What is pressed onto it would sink by that in each step.
 #[test]
-fn what_is_pressed_does_not_sink_by_rounding() {
+fn a_pressed_ball_does_not_sink_by_rounding() {
     let mut rng = Pcg64::seed_from_u64(7);
     let mut any = move || DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
     let ball = Body::ball(0.5).unwrap();

@@ -300,7 +300,7 @@ fn distances_are_compared_to_the_clearance() {
 
 /// Bodies that exceed their shapes: an overlap violates no clearance up to the excess, and the reason names the excess.
 #[test]
-fn what_bodies_exceed_their_shapes_by_is_told() {
+fn the_excess_of_bodies_is_reported() {
     let overlapping = |overlap| Outcome::Overlapping {
         overlap,
         upper: 0.01,

@@ -95,7 +95,7 @@ impl<'a> Search<'a> {
             if self.steps > ALL_STEPS {
                 break;
             }
-            let Near { gap, rate, bend } = self.look(i, j, t);
+            let Near { gap, rate, bend } = self.measure(i, j, t);
             if !(gap > NOISE * self.scene.scale) {
                 if self.judge(i, j, t) {
                     return;
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
         let left = self.until - t;
         for k in 0..=SAMPLES {
             let t = t + left * (k as f64 / SAMPLES as f64);
-            let gap = self.look(i, j, t).gap;
+            let gap = self.measure(i, j, t).gap;
             if !(gap > NOISE * self.scene.scale) && self.judge(i, j, t) {
                 return;
             }
@@ -176,7 +176,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn look(&self, i: usize, j: usize, t: f64) -> Near {
+    fn measure(&self, i: usize, j: usize, t: f64) -> Near {
         let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
         let snapshots = self.scene.snapshots(t);
         let near = self.near([p, q], &snapshots);

@@ -82,7 +82,7 @@ fn overflow_is_an_error() {
 }
 
 #[test]
-fn screws_are_told_from_other_motions() {
+fn screws_are_distinguished_from_other_motions() {
     let mut samples = Samples::new(4);
     for _ in 0..200 {
         let given = samples.query(3.0, 3.0);

@@ -40,7 +40,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         draw.within(-1.0..1.0),
         half_height + gap,
     ];
-    let (velocity, spin, expect) = way(draw, gap, config.margin);
+    let (velocity, spin, expect) = departure(draw, gap, config.margin);
     let mut courses = [
         still(),
         RawMotion::velocities(RawPose::at(at), velocity, spin),
@@ -76,7 +76,7 @@ fn resting(shape: Shape) -> (Shape, f64) {
 }
 
 /// Returns the velocity and angular velocity of the departure, and the expected result.
-fn way(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
+fn departure(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
     let along = times(draw.point(), draw.within(0.0..3.0));
     match draw.count(0..5) {
         0 => ([0.0, 0.0, draw.within(0.0..3.0)], [0.0; 3], Expect::Free),

@@ -46,14 +46,14 @@ impl<'a> Source<'a> {
         };
         let x = match tag {
             0..SIXTEENTHS => (f64::from(tag) - 64.0) / 16.0,
-            SIXTEENTHS..192 => self.seen(tag - SIXTEENTHS),
+            SIXTEENTHS..192 => self.earlier(tag - SIXTEENTHS),
             192..208 => {
                 let power = 2f64.powi(i32::from(self.byte().cast_signed()));
                 if tag % 2 == 0 { power } else { -power }
             }
             208..224 => {
                 let ulps = i64::from(self.byte().cast_signed());
-                let bits = self.seen(tag - 208).to_bits();
+                let bits = self.earlier(tag - 208).to_bits();
                 f64::from_bits(bits.wrapping_add_signed(ulps))
             }
             224..240 => f64::from(i32::from_le_bytes(self.array())) / f64::from(1 << 31),
@@ -68,7 +68,7 @@ impl<'a> Source<'a> {
     }
 
     /// Returns an earlier number, the last one for 0.
-    fn seen(&self, back: u8) -> f64 {
+    fn earlier(&self, back: u8) -> f64 {
         let at = self.seen.len().checked_sub(1 + usize::from(back));
         at.map_or(0.0, |at| self.seen[at])
     }
