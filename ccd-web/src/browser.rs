@@ -65,7 +65,7 @@ impl BrowserOutcome {
             .map(|p| p.to_array())
             .concat();
         points.extend(
-            hit.contact
+            hit.contact()
                 .iter()
                 .flat_map(|contact| contact.separation.normal.to_array()),
         );
