@@ -76,7 +76,7 @@
 //! | contact at the start, one body inside the other | `schedule/start.rs`, `schedule/start/containment.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
 //! | the answer | `answer.rs` |
-//! | accepted ranges, and every allowance for rounding | [`limits`], [`tolerance`] |
+//! | accepted ranges; allowances that proofs rely on; numbers that only cost time | [`limits`], [`rounding`], [`tuning`] |
 //!
 //! # Features
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
