@@ -59,7 +59,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             };
             if stretches.is_fine(&leg)? {
                 let found = kept.found(&stretches, &leg, answer.outcome)?;
-                // One is inside the other: they have met before, or overlap at the start.
+                // One body is inside the other: they have met before, or overlap at the start.
                 if let Outcome::Unresolved(known) = found.outcome {
                     undecided = lesser(undecided, known.safe_until);
                     continue;
