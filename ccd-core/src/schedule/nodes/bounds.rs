@@ -1,8 +1,7 @@
-//! Bounds eight pairs of nodes at once: their distances, and the times for which they stay apart.
+//! Bounds for eight pairs of nodes at once: lower bounds of their distances, and times for which they stay apart.
 //!
-//! Everything here is relative to the origin of the split group, in its body's frame, in f32, with
-//! one lane of a vector per child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap
-//! and rate.
+//! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
+//! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
 
 use super::axis::{self, Axis};
 use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
@@ -15,10 +14,9 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 /// The bounds of eight pairs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
-    /// The time for which each pair certainly stays farther apart than the gap to be kept.
+    /// The time for which each pair is certainly farther apart than the required gap.
     pub(crate) free: FreeTimes,
-    /// The pairs that are so far apart for their size that a second look after their time is worth
-    /// more than a split.
+    /// The pairs that are far apart for their size: a second visit after their time is worth more than a split.
     pub(crate) waits: u8,
     /// The pairs whose child is thicker along the axis than the other node, and can be split.
     pub(crate) thicker: u8,
@@ -26,7 +24,7 @@ pub(crate) struct Bounds {
     pub(crate) whole: bool,
 }
 
-/// Bounds those of eight pairs that are in `lanes`.
+/// Bounds the pairs that are in `lanes`.
 ///
 /// Fixed planes are across two axes: the one with the widest gap now, and the one between the
 /// centres when they are nearest. The first suits approaching pairs, the second passing ones. Beside
