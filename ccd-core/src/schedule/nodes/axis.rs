@@ -31,7 +31,7 @@ pub(super) fn widest<L: Simd, C: Children, P: OtherNode>(
     let others = towards(Vec3x8::splat(level, other.normal()), way);
     let reach = other.reach_along_normal(others);
     let others = Axis::new(others, way, children.reach(others), reach);
-    // The axis between the nodes is computed last.
+    // The gap along the axis between the nodes is available last.
     better(better(own, others), between)
 }
 

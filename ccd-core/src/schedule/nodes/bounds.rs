@@ -26,9 +26,9 @@ pub(crate) struct Bounds {
 
 /// Bounds the pairs that are in `lanes`.
 ///
-/// Fixed planes are across two axes: the one with the widest gap now, and the one between the
-/// centres when they are nearest. The first suits approaching pairs, the second passing ones. Beside
-/// nodes that are much larger, planes that turn with their body are tried, too.
+/// Fixed planes are perpendicular to two axes: the one with the widest gap now, and the one between the centres at
+/// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
+/// much larger, planes that turn with the body of these nodes are tried, too.
 #[inline(always)]
 pub(super) fn bound<L: Simd, C: Children, P: OtherNode>(
     level: L,
@@ -73,20 +73,18 @@ fn bits<L: Simd>(mask: mask32x8<L>) -> u8 {
 struct Past<L: Simd> {
     /// The time for which a plane that turns with the large node keeps the pair apart.
     attached: f32x8<L>,
-    /// The rate at which the large node turns, and the distance of the small one from its body's
-    /// centre.
+    /// The angular velocity of the large node's body, and the distance of the small node from that body's centre.
     spin: f32,
     arm: f32x8<L>,
     /// The radii.
     large: f32x8<L>,
     small: f32x8<L>,
-    /// Set if the large node cannot be split: then only the small one's size decides whether it is
-    /// far.
+    /// Set if the large node cannot be split. Then only the size of the small node decides whether it is far.
     whole: mask32x8<L>,
 }
 
 impl<L: Simd> Past<L> {
-    /// Returns none where neither side is much larger and turns.
+    /// Returns `None` if neither side is much larger and turns.
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
         pairs: &EightPairs<'_, L, C, P>,
