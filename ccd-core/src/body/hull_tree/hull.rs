@@ -17,15 +17,15 @@ pub enum HullNode {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hull {
-    /// Its corners.
+    /// The corners of the hull.
     pub points: Vec<DVec3>,
-    /// Loops of indices into the points, counterclockwise seen from outside: convex polygons, no
-    /// two of them coplanar, that close the hull. A flat polygon has two; a hull of one or two
-    /// points has none.
+    /// The facets, as loops of indices into the points, counterclockwise seen from outside. They are convex polygons,
+    /// no two of them coplanar, that close the hull. A flat polygon has two facets; a hull of one or two points has
+    /// none.
     pub facets: Loops,
 }
 
-/// The class of a part of a node's surface, by the pieces below; the better one comes first.
+/// The class of a part of a node's surface, by the pieces below; better classes come first.
 ///
 /// The nearest features of two nodes that are both not [`Free`](FacetClass::Free) belong to pieces:
 /// no pair of pieces below is nearer, or farther.
