@@ -68,7 +68,7 @@ mod tests {
     use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation};
     use crate::tests::worst::{Worst, share};
 
-    /// Returns the slack of a body without rounding radius, against all points' exact heights along a direction.
+    /// Compares the slack of a body without rounding radius with the exact heights of all points along a direction.
     #[test]
     fn worst_slack() {
         let mut sample = Sample::EMPTY;
