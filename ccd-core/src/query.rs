@@ -246,7 +246,7 @@ impl<'a> Query<'a> {
     /// No pair within margin + tolerance is missed, and
     /// [`Separation::lower`](crate::Separation::lower) of every pair is within that. Lower and
     /// upper bound are those of the two features, rounding included. The same call gives the same
-    /// bits. Along trajectories the bodies are where [`Trajectory::pose`] places them, and what that strays is not included.
+    /// bits. Along trajectories the bodies are at [`Trajectory::pose`]; the deviation of that pose is not included.
     ///
     /// # Errors
     /// [`ContactsError`].

@@ -83,7 +83,7 @@ pub fn share_of_rounding(span: f64, turn: f64, way: f64) -> f64 {
     U64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
 }
 
-/// The part of [`distance_rounding`] that a margin adds, which counts as a way.
+/// Returns the part of [`distance_rounding`] that a margin adds. The margin counts as a part of `way`.
 pub fn margin_rounding(margin: f64) -> f64 {
     96.0 * U64 * margin
 }
@@ -144,7 +144,7 @@ pub const REACH_F32: f32 = 32.0 * U32;
 
 /// The relative allowance on the largest speed in a rate of approach that is computed in f32.
 ///
-/// Velocities, arms and spins are rounded once (1u each), crossed (3u), rotated with the box (9u)
+/// Velocities, arms and angular velocities are rounded once (1u each), crossed (3u), rotated with the box (9u)
 /// and projected (4u). A rate is therefore off by at most 32u = 1.9e-6 of the largest speed.
 pub const RATE_F32: f32 = 2e-6;
 
@@ -200,8 +200,9 @@ pub fn attached_rounding(turns: f64) -> f64 {
 /// The allowance on the distance of two points that move for a while, computed in f64, relative to the lengths of
 /// their positions, of their centres, and of their displacements.
 ///
-/// In units of `u`: places and their difference 3; a velocity 10 of a speed, times the time 1, added to the way 1, and
-/// the length of that 3; the difference of two lengths doubles it; bends and strays 8. That is below 40; 64 are taken.
+/// In units of `u`: places and their difference 3; a velocity 10 of a speed, times the time 1, added to the offset 1,
+/// and the length of that 3; the difference of two lengths doubles it; second derivatives and deviations 8. That is
+/// below 40; 64 are taken.
 pub const FARTHEST_F64: f64 = 64.0 * U64;
 
 /// The decrease below its distance at the start from which on a pair that began in contact counts as approaching, in
@@ -284,7 +285,7 @@ pub const DISC_TILT_F32: f32 = 64.0 * U32;
 /// The error of the lowest height of many points along an axis while their body turns, in units of
 /// their farthest distances from the centre of rotation and from the body's origin.
 ///
-/// The axis in the body's frame is off by the direction of the spin (2u), two products with it
+/// The axis in the body's frame is off by the direction of the angular velocity (2u), two products with it
 /// (6u), sine and cosine (4u), their products and sums (4u), and the rotation into that frame (7u):
 /// 23u. Two points see it with opposite signs: 46u. The search itself adds the rounding of two
 /// heights, at most 14u ([`HEIGHT_F64`]): 60u; 64u are taken.
@@ -328,7 +329,7 @@ pub const TURNS_F64: f64 = 1e-9;
 /// from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per
 /// radian, divided by the distance from the axis.
 ///
-/// In units of `u`: a centre's way is rounded (1), its height taken (4) and taken off (2), and the
+/// In units of `u`: a centre's offset is rounded (1), its height taken (4) and taken off (2), and the
 /// rest measured (4), which is 11 of an arm in `z` and in `r`. The azimuth is off by that in units
 /// of the distance from the axis, and by 8 of a half turn: 37 of an arm times the tilt. Products and
 /// sums add 4 of each. Gradients are off by 12 of a radius, in their part along `ζ` times `1 + tilt`.

@@ -6,7 +6,7 @@ use super::tree::point_query::{is_past, pieces_near};
 use glam::DVec3;
 
 impl Body {
-    /// Calls `add` with the ways of the surface around a point of it, in the body's frame. The ways are vectors from
+    /// Calls `add` with the offsets of the surface around a point of it, in the body's frame. They are vectors from
     /// the point: to the corners of all faces nearer than about `reach`, to the points of pieces without known faces,
     /// and into the solid.
     ///

@@ -6,35 +6,35 @@ use glam::DVec3;
 
 /// The common normals of surfaces A and B at a point of each: the unit vectors `n` from A to B in the normal cone of A,
 /// with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes nearer around the two points.
-/// Each surface is given by its ways: vectors from its point to the corners of the faces around that point. `n` is a
-/// common normal if no way of A rises along it, and none of B falls, by more than a slack.
+/// Each surface is given by its offsets: vectors from its point to the corners of the faces around that point. `n` is a
+/// common normal if no offset of A rises along it, and none of B falls, by more than a slack.
 #[derive(Debug, Default)]
 pub(crate) struct CommonNormals {
-    /// The ways of A reversed, and those of B: none of them falls along a common normal.
+    /// The offsets of A reversed, and those of B: none of them falls along a common normal.
     ways: Vec<DVec3>,
-    /// The height by which a way may fall.
+    /// The height by which an offset may fall.
     slack: f64,
 }
 
 impl CommonNormals {
-    /// Removes all ways, and sets the slack.
+    /// Removes all offsets, and sets the slack.
     pub(crate) fn begin(&mut self, slack: f64) {
         self.ways.clear();
         self.ways.shrink_to(MOST_KEPT);
         self.slack = slack;
     }
 
-    /// Adds a way of A.
+    /// Adds an offset of A.
     pub(crate) fn add_a(&mut self, way: DVec3) {
         self.ways.push(-way);
     }
 
-    /// Adds a way of B.
+    /// Adds an offset of B.
     pub(crate) fn add_b(&mut self, way: DVec3) {
         self.ways.push(way);
     }
 
-    /// Sorts the ways after the last one was added. The longest ones are the most exact, and come first.
+    /// Sorts the offsets after the last one was added. The longest ones are the most exact, and come first.
     pub(crate) fn sort(&mut self) {
         let length = |way: &DVec3| way.length_squared();
         self.ways
@@ -71,7 +71,7 @@ impl CommonNormals {
         (ahead >= -self.slack && aside <= self.slack).then_some(n)
     }
 
-    /// Returns the unit vector along the projection of a direction on the cone. The ways that fall along the vector
+    /// Returns the unit vector along the projection of a direction on the cone. The offsets that fall along the vector
     /// are made level one by one, as in linear programs of few unknowns `[SEIDEL91]`. Returns `None` if the direction
     /// is not distinctly less than a right angle from the cone.
     fn nearest(&self, towards: DVec3) -> Option<DVec3> {
@@ -85,7 +85,7 @@ impl CommonNormals {
         Some(best)
     }
 
-    /// Like [`CommonNormals::nearest`], perpendicular to a way, and for the first `count` of the other ways only.
+    /// Like [`CommonNormals::nearest`], perpendicular to an offset, and for the first `count` of the other ones only.
     fn nearest_across(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
         let level = unit(level)?;
         let mut best = distinct(towards - level * level.dot(towards))?;
@@ -108,7 +108,7 @@ impl CommonNormals {
     }
 }
 
-/// The most ways for which the memory is kept.
+/// The most offsets for which the memory is kept.
 const MOST_KEPT: usize = 1 << 20;
 
 /// Returns the unit vector along a part of a unit vector, if that part is more than rounding.

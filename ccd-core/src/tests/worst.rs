@@ -1,9 +1,9 @@
 //! A search for the cases in which an error takes the largest share of an allowance for rounding.
 //!
 //! Random cases come nowhere near a bound that adds up the worst of every operation. Here each case is a tape of
-//! words, which become numbers when it is read. The search changes the words of the worst case so far, keeps a change
-//! that is no better, and starts again when no worse case is found for long. The seed is fixed: the same test
-//! examines the same cases.
+//! words, which become numbers when it is read. The search changes the words of the worst case so far, and keeps each
+//! change after which it is at least as bad. It starts again when no worse case is found for long. The seed is fixed:
+//! the same test examines the same cases.
 //!
 //! `CCD_TEST_CASES` in the environment multiplies the number of cases. `docs/allowances.md` has the results,
 //! and the commands that print them.
@@ -34,10 +34,10 @@ pub(crate) struct Found {
     whole: bool,
 }
 
-/// The number of cases without a worse one after which a search starts again, and the same for each word.
+/// The number of cases without a worse one after which a search starts again, and the number added for each word.
 const PATIENCE: [u64; 2] = [200, 10];
 
-/// The number of random cases of which the worst is the start of the next climb.
+/// The number of random cases at the start of a climb, which continues from the worst of them.
 const DRAWN: u64 = 24;
 
 impl Worst {

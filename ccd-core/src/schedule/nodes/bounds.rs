@@ -117,7 +117,7 @@ impl<L: Simd> Past<L> {
         }
     }
 
-    /// Returns the pairs for which a second look is worth more than a split.
+    /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
     fn waits(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
         let swept = free * self.spin * self.arm - self.large * SWEPT;

@@ -74,7 +74,7 @@ impl Shape {
         Shape { points, node }
     }
 
-    /// Returns the shape with only three of its corners; the node stays around them.
+    /// Returns the triangle of three of the shape's corners, about their mean. The node still contains it.
     pub(super) fn triangle(mut self) -> Self {
         self.points.truncate(3);
         let mean = (self.points[0] + self.points[1] + self.points[2]) / 3.0;

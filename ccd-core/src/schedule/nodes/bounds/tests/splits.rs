@@ -53,7 +53,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         })
     }
 
-    /// Returns the setting with the body of the larger node turning, if one is much larger.
+    /// Returns the setting with the much larger side recorded, if there is one.
     fn beside_a_larger_one(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));

@@ -67,7 +67,7 @@ impl Setting<'_> {
         [normal.dot(way), rate]
     }
 
-    /// Returns the exact value of the bound of the second derivative, and the computed bound without allowances.
+    /// Returns the bound of the second derivative twice: exact, and as computed without allowances.
     fn bends(&self, tau: f64) -> [Double; 2] {
         let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
         let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
