@@ -220,7 +220,7 @@ fn a_margin_is_reached_across() {
     }
 }
 
-/// Shapes with random numbers and places, so that no pair is on the brink.
+/// The shapes have random numbers and positions, so that no pair is just within or just out of reach.
 #[test]
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
@@ -282,7 +282,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     assert!(found[0] > 400 && found[1] > 400, "{found:?}");
 }
 
-/// Compares the pairs with the twin's, names and distances, in both orders.
+/// Compares the pairs with those of the reference, by names and distances, in both orders of the bodies.
 fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
     let config = Settings {

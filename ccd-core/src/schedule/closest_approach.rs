@@ -53,7 +53,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Answers the same about two motions.
+    /// Answers the same question about two motions.
     pub(super) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
             Some(distance) => self.keeps(problem, distance, oracle),

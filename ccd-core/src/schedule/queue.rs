@@ -83,7 +83,7 @@ impl<T> Queue<T> {
         self.least = least;
     }
 
-    /// Makes room for the key of the last item.
+    /// Adds room for the key of the last item.
     #[inline]
     fn grow(&mut self) {
         let mut last = self.items.len() - 1;

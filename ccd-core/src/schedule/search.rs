@@ -30,7 +30,7 @@ impl<C> Item<C> {
 
 /// The question of a search, which draws the conclusions from the steps.
 pub(super) trait Question<O: DistanceOracle> {
-    /// The answer.
+    /// The type of the answer.
     type Found;
 
     /// Draws a conclusion from the clock of the next pair, if there is one.

@@ -1,9 +1,9 @@
-//! A node of a hull tree, as input.
+//! The input format of a node of a hull tree.
 
 use super::loops::Loops;
 use glam::DVec3;
 
-/// A node, as input.
+/// A node of a hull tree, in the input format.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HullNode {
@@ -13,7 +13,7 @@ pub enum HullNode {
     Inner([u32; 2], Hull),
 }
 
-/// A convex hull without any rounding.
+/// A convex hull without a rounding radius.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hull {

@@ -1,4 +1,4 @@
-//! Any contact along trajectories.
+//! The search for any contact along trajectories.
 
 use super::first::SoFar;
 use super::lengths::{cut_at_once, length};

@@ -1,4 +1,4 @@
-//! The closest approach along trajectories.
+//! The search for the closest approach along trajectories.
 
 mod found;
 
@@ -227,7 +227,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         Ok(stretches.cut_about(leg.span, time, length))
     }
 
-    /// Measures the bodies at a time. Returns `None` if they overlap, or no work is left.
+    /// Measures the bodies at a time. Returns `None` if they overlap, or a limit is reached.
     fn doubt(
         &mut self,
         oracle: &mut O,

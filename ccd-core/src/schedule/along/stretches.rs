@@ -188,7 +188,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Measures the bodies at a time, up to rounding. Returns the contact and the rate at which the bodies approach;
-    /// `None` if they overlap, or no work is left.
+    /// `None` if they overlap, or a limit is reached.
     pub(super) fn measure<O: DistanceOracle>(
         &mut self,
         time: f64,

@@ -137,7 +137,7 @@ impl Siblings {
         }
     }
 
-    /// Takes out the pair of least clock, which is `s`.
+    /// Removes the pair of least clock, which is `s`, and returns its next step.
     // In the search's loop: a larger program, such as Python's module, would call it, and take 1 % more time.
     #[inline(always)]
     pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> Next {

@@ -165,7 +165,7 @@ fn what_is_left_of_the_rounding_is_no_time() {
             };
             assert!(ask(0.5 * RESTED).all(|free| free == Some(0.0)));
             let more: Vec<_> = ask(2.0 * RESTED).collect();
-            // The plane of two sheets lets one of both directions go.
+            // The plane of two sheets lets them part in one of both directions.
             assert!(more.iter().any(|free| *free > Some(RESTED)), "{more:?}");
         }
     }
