@@ -46,9 +46,9 @@
 //! 3. **Always ends.** When a limit is reached, the outcome is [`Outcome::Unresolved`], and its time
 //!    is still a certified lower bound. Bad input is a typed [`InputError`].
 //! 4. **Checkable.** A claim of a backend is never used unchecked: it is [checked](Separation) with one support
-//! query. A wrong one makes a query slow or unresolved, never late.
+//!    query. A wrong one makes a query slow or unresolved, never late.
 //! 5. **Same answer** whichever backend, schedule or order of the two bodies, within the tolerance. The same call
-//! twice gives the same bits, unless a [deadline](Settings::deadline) ends it.
+//!    twice gives the same bits, unless a [deadline](Settings::deadline) ends it.
 //!
 //! # From the paper to the files
 //! | step | file |
@@ -84,8 +84,8 @@
 //! - `hull-tree`: trees of convex hulls, checked by exact signs, and the schedule over them.
 //! - `serde`: pieces, hierarchies and hull trees can be stored; what is read is checked as what is
 //!   made.
-//! - `avx512`: allows a build with AVX-512 by a rustc with LLVM 22 or older, which miscompiles it; for a rustc that
-//!   is known not to. From LLVM 23 on no feature is needed.
+//! - `avx512`: allows a build with AVX-512 by a rustc with LLVM 22 or older. These versions miscompile it: the feature
+//!   is for one that is known not to. From LLVM 23 on no feature is needed.
 
 #[cfg(all(target_feature = "avx512f", faulty_avx512, not(feature = "avx512")))]
 compile_error!(

@@ -112,7 +112,7 @@ impl<'a> Piece<'a> {
     /// points, only some of them are tested.
     ///
     /// # Guarantee
-    /// That of [`Support::extremal`].
+    /// The guarantee of [`Support::extremal`].
     pub fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(support) = self.support {
             return support.extremal(direction);

@@ -24,7 +24,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// regard to those that may touch before.
     ///
     /// # Guarantee
-    /// That of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// The guarantee of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
     /// [deadline](crate::Settings::deadline) ends it.
     ///
     /// # Errors

@@ -37,7 +37,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// The margin and the [policy](crate::StartPolicy) for the start play no role.
     ///
     /// # Guarantee
-    /// That of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// The guarantee of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
     /// [deadline](crate::Settings::deadline) ends it.
     ///
     /// # Errors

@@ -41,7 +41,7 @@ use std::ops::ControlFlow;
 /// [`BestFirst`] answers the query.
 ///
 /// # Guarantee
-/// That of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
+/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
 /// contacts missed.
 ///
 /// The bodies come nearer by a share of their distance in every step. Grazing passes and fast

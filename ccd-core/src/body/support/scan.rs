@@ -31,7 +31,7 @@ impl SupportScan {
     /// Returns the index of a point that is farthest along a direction, and of several the first.
     ///
     /// # Guarantee
-    /// That of [`Support::extremal`](crate::Support::extremal).
+    /// The guarantee of [`Support::extremal`](crate::Support::extremal).
     ///
     /// # Complexity
     /// Linear in the number of points.

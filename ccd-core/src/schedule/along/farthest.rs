@@ -33,7 +33,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// The margin plays no role.
     ///
     /// # Guarantee
-    /// That of [`Outcome`]; ends on every input.
+    /// The guarantee of [`Outcome`]; ends on every input.
     ///
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.

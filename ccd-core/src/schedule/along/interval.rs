@@ -18,7 +18,7 @@ impl<O: DistanceOracle> BestFirst<O> {
     /// of the reversed trajectories.
     ///
     /// # Guarantee
-    /// That of [`Outcome`], for the trajectories themselves; ends on every input.
+    /// The guarantee of [`Outcome`], for the trajectories themselves; ends on every input.
     ///
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
