@@ -168,8 +168,8 @@ fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     )
 }
 
-/// Returns half the contact distance, for the greater of the tolerance of the settings and the least that can be
-/// certified, plus the rounding of the box.
+/// Returns a bound of half the contact distance and of the rounding of the box. The tolerance in that distance is the
+/// greater of the one in the settings and the least that can be certified.
 fn room(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;

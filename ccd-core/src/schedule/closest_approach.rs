@@ -104,7 +104,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         self.measured(problem, beyond, oracle, |_, _, _, found| found)
     }
 
-    /// Searches for distances below `beyond`, and improves the result at the end.
+    /// Searches for distances below `beyond`; `last_look` completes the outcome.
     fn measured(
         &mut self,
         problem: &Problem<'_>,

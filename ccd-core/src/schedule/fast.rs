@@ -41,8 +41,8 @@ use std::ops::ControlFlow;
 /// [`BestFirst`] answers the query.
 ///
 /// # Guarantee
-/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
-/// contacts missed.
+/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with
+/// [`Bound::Published`] times may be late and contacts missed.
 ///
 /// The bodies come nearer by a share of their distance in every step. Grazing passes and fast
 /// turning therefore cost many steps. Bodies that are [let go](crate::StartPolicy::Leave) from

@@ -59,7 +59,8 @@ impl SupportTable {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// The guarantee of [`Support::extremal`](crate::Support::extremal), provided that the facets are those of the hull.
+    /// The guarantee of [`Support::extremal`](crate::Support::extremal), provided that the facets are those of
+    /// the hull.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
         self.climb(self.starts[directions::nearest(direction)], direction)

@@ -67,7 +67,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
             }
             let problem = leg.problem(query, &terms)?;
-            // Distances of the motions beyond this are of no interest: the deviations and both tolerances are added
+            // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added
             // to the upper bound.
             let beyond = found.upper() + leg.stray + 2.0 * problem.tolerance();
             let answer = self.approach_below(&problem, beyond, oracle);

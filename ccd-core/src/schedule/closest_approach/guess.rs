@@ -39,7 +39,7 @@ pub(super) fn guess<O: DistanceOracle>(
             break;
         }
     }
-    // Nothing can be nearer if there is no distance at all to find.
+    // If `beyond` is infinite, every distance is of interest, and none was found.
     if best.is_none() && beyond == f64::INFINITY {
         ControlFlow::Break(super::unresolved(0.0, Limit::OracleGaveUp))
     } else {
