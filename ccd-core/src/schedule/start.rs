@@ -67,7 +67,7 @@ fn measured<O: DistanceOracle>(
 }
 
 /// Returns the answer if one body is inside the other, or if that is undecided. No two pieces intersect; `touching`
-/// are the pairs without a separating axis, and `pieces` is a list for scratch.
+/// are the pairs without a separating axis, and `pieces` is a list of scratch memory.
 pub(super) fn contained(
     problem: &Problem<'_>,
     touching: &[[u32; 2]],

@@ -15,8 +15,8 @@ use crate::tuning::LEAST_INNER;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The number of surfaces tried, evenly over all slopes. At most eleven degrees from a thread's flanks of any slope,
-/// they cost at most a tenth of a node's width.
+/// The number of surfaces tried, evenly over all slopes. Eleven degrees between neighbouring surfaces cost at most a
+/// tenth of a node's width, for the flanks of a thread at any slope.
 const SURFACES: usize = 16;
 
 /// The axis of a screw, at the start.

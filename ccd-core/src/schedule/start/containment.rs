@@ -26,7 +26,7 @@ pub(crate) enum Containment {
 }
 
 /// Searches for a point of one body inside the other one's solid at the start. `touching` are the pairs of pieces
-/// without a separating axis; no pair intersects. The list `pieces` is for scratch.
+/// without a separating axis; no pair intersects. The list `pieces` is scratch memory.
 ///
 /// # Guarantee
 /// A point that is found is inside, by more than rounding. If none is found, the following parts
