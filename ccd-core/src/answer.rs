@@ -1,4 +1,4 @@
-//! The answer to a query, whatever it asks.
+//! The answer to a query.
 
 mod contact;
 mod stats;
@@ -17,10 +17,10 @@ pub use unresolved::{Limit, Unresolved};
 pub struct Answer {
     /// The outcome.
     pub outcome: Outcome,
-    /// The tolerance of the answer. It is the requested one, unless only a larger one can be
-    /// certified at the coordinates of the scene, or the bodies were [let
-    /// go](crate::StartPolicy::Leave) with a smaller one. For bounds of a distance it is at least their
-    /// width, which includes the [excess](crate::Body::with_excess) of the bodies.
+    /// The tolerance of the answer. It is the requested one, unless only a larger one can be certified at the
+    /// coordinates of the scene, or the bodies were [let go](crate::StartPolicy::Leave) with a smaller one. For
+    /// bounds of a distance it is at least their width, which includes the [excess](crate::Body::with_excess) of the
+    /// bodies.
     pub tolerance: f64,
     /// The cost.
     pub stats: Stats,
@@ -37,10 +37,10 @@ pub struct Answer {
 /// | greatest distance | measured, unresolved |
 ///
 /// # Guarantee
-/// All times and bounds hold in floating point: nothing touches before a first contact. Contacts and their distances are
-/// those of the bodies, also of bodies that [exceed](crate::Body::with_excess) their shapes: the shapes touch no earlier,
-/// and may be farther apart by the excess of both. Bounds of a distance that is asked for hold for the shapes: the excess
-/// is added to the upper bounds, those of contacts included.
+/// All times and bounds hold in floating point: nothing touches before a first contact. Contacts and their distances
+/// are those of the bodies, also if the bodies [exceed](crate::Body::with_excess) their shapes. The shapes then touch
+/// no earlier, and may be farther apart by the excess of both. Bounds of a requested distance hold for the shapes:
+/// the excess is added to the upper bounds, those of contacts included.
 ///
 /// ```
 /// use ccd_core::Outcome;
@@ -60,12 +60,12 @@ pub enum Outcome {
     /// The bodies stay apart over the whole duration.
     Free {
         /// A lower bound of the distance at all times: half the tolerance beyond the margin, however far apart the
-        /// bodies are; less, down to 0, where a contact at the start was [let go](crate::StartPolicy::Leave). With a
-        /// required [clearance](crate::Settings::clearance), at least that.
+        /// bodies are. It is less, down to 0, if a contact at the start was [let go](crate::StartPolicy::Leave). With
+        /// a required [clearance](crate::Settings::clearance) it is at least that.
         proven_gap: f64,
     },
     /// The bodies are in contact at `time`: within margin + tolerance, or nearer than a required
-    /// [clearance](crate::Settings::clearance). A first contact has none before it.
+    /// [clearance](crate::Settings::clearance). There is no contact before a first contact.
     Contact {
         /// The time, in the motions' unit.
         time: f64,
@@ -81,26 +81,26 @@ pub enum Outcome {
     Overlapping {
         /// The proof.
         overlap: Overlap,
-        /// An upper bound of the distance at the start: 0, or the [excess](crate::Body::with_excess) of both bodies if
-        /// the distance was asked for.
+        /// An upper bound of the distance at the start: 0, or the [excess](crate::Body::with_excess) of both bodies
+        /// if the query was about the distance.
         upper: f64,
     },
-    /// The bodies are in contact at the first time and at the last. They do not touch before or after, and may part in
-    /// between.
+    /// The bodies are in contact at the first time and at the last. They do not touch before the first or after the
+    /// last, and may part in between.
     Interval {
         /// The first contact.
         first: Hit,
         /// The last contact.
         last: Hit,
     },
-    /// The distance that was asked for is between two bounds.
+    /// The requested distance is between two bounds.
     Measured {
         /// A lower bound of the least distance, or of the greatest one.
         lower: f64,
         /// An upper bound of the same distance.
         upper: f64,
-        /// The time at which the bodies were measured to get one of the bounds (the upper bound of the least distance, the
-        /// lower bound of the greatest one), and the nearest pieces at that time. `None` if they overlap whenever
+        /// The time of the measurement that gave one of the bounds (the upper bound of the least distance, the lower
+        /// bound of the greatest one), and the nearest pieces at that time. `None` if the bodies overlap whenever
         /// they are measured.
         at: Option<(f64, Contact)>,
     },
@@ -114,11 +114,11 @@ pub struct Hit {
     /// The time, in the motions' unit. Nothing touches before a first contact, except for contacts at the start that
     /// [`StartPolicy::Leave`](crate::StartPolicy::Leave) ignores.
     pub time: f64,
-    /// What touches.
+    /// The kind of the contact.
     pub kind: HitKind,
 }
 
-/// The kind of a contact, with the pieces that show it.
+/// The kind of a contact, with the pieces in contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HitKind {
     /// The bodies come within margin + tolerance.
@@ -150,7 +150,8 @@ impl Answer {
         self.outcome.hit()
     }
 
-    /// Returns the answer for the shapes, given one for the bodies. Called once for each question about a distance.
+    /// Returns the answer for the shapes, given one for the bodies. It is called once for each query about a
+    /// distance.
     pub(crate) fn of_shapes(self, excess: Excess) -> Self {
         let outcome = self.outcome.of_shapes(excess);
         Answer {
@@ -185,8 +186,8 @@ impl Outcome {
         }
     }
 
-    /// A lower bound of the distance that was asked for; for questions about contacts, of the distance at all times. 0 if
-    /// no better one is known.
+    /// Returns a lower bound of the requested distance; for queries about contacts, of the distance at all times. It
+    /// is 0 if no better one is known.
     pub fn lower(&self) -> f64 {
         match *self {
             Outcome::Free { proven_gap } => proven_gap,
@@ -199,8 +200,8 @@ impl Outcome {
         }
     }
 
-    /// An upper bound of the distance that was asked for; for questions about contacts, of the least distance. Infinite if
-    /// none is known.
+    /// Returns an upper bound of the requested distance; for queries about contacts, of the least distance. It is
+    /// infinite if none is known.
     pub fn upper(&self) -> f64 {
         match *self {
             Outcome::Free { .. } => f64::INFINITY,
@@ -215,7 +216,8 @@ impl Outcome {
         }
     }
 
-    /// The time of the contact, or of the distance that was measured, in the motions' unit; `None` if there is neither.
+    /// Returns the time of the contact, or of the measured distance, in the motions' unit; `None` if there is
+    /// neither.
     pub fn time(&self) -> Option<f64> {
         match *self {
             Outcome::Contact { time, .. } => Some(time),
@@ -227,7 +229,7 @@ impl Outcome {
         }
     }
 
-    /// The pieces in contact, or those that were measured, and their time.
+    /// Returns the pieces in contact, or those that were measured, and their time.
     pub fn nearest(&self) -> Option<(f64, Contact)> {
         match *self {
             Outcome::Contact { time, contact } => Some((time, contact)),
@@ -239,7 +241,7 @@ impl Outcome {
         }
     }
 
-    /// The limit that ended the query, if one did.
+    /// Returns the limit that ended the query, if one did.
     pub fn limit(&self) -> Option<Limit> {
         match self {
             Outcome::Unresolved(known) => Some(known.limit),
@@ -249,7 +251,7 @@ impl Outcome {
 
     /// Compares the least distance to a required one.
     ///
-    /// Bodies that may touch keep no clearance, not even one of 0.
+    /// Bodies that may touch keep no clearance, not even a clearance of 0.
     pub fn clearance(&self, required: f64) -> Clearance {
         let (lower, upper) = (self.lower(), self.upper());
         if lower >= required && lower > 0.0 {
@@ -269,12 +271,12 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome of a question about contacts that a limit ended.
+    /// Returns the outcome of a query about contacts that a limit ended.
     pub(crate) fn unresolved(safe_until: f64, limit: Limit) -> Self {
         Outcome::Unresolved(Unresolved::until(safe_until, limit))
     }
 
-    /// The width of the bounds that were measured; 0 without any.
+    /// Returns the width of the measured bounds; 0 if nothing was measured.
     pub(crate) fn width(&self) -> f64 {
         match *self {
             Outcome::Measured { lower, upper, .. } => upper - lower,
@@ -282,7 +284,7 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome of a question about the least distance that was measured at a time.
+    /// Returns the outcome of a query about the least distance, measured at a time.
     pub(crate) fn least(lower: f64, time: f64, contact: Contact) -> Self {
         Outcome::Measured {
             lower,
@@ -291,8 +293,8 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome with each contact replaced, and the upper bounds of the least distance taken from these;
-    /// `map` takes a contact and its time. It is not for the greatest distance.
+    /// Returns the outcome with each contact replaced, and the upper bounds of the least distance taken from the new
+    /// contacts; `map` takes a contact and its time. This is not for the greatest distance.
     pub(crate) fn map_contacts(self, mut map: impl FnMut(Contact, f64) -> Contact) -> Self {
         match self {
             Outcome::Contact { time, contact } => Outcome::Contact {
@@ -321,7 +323,7 @@ impl Outcome {
                 }
                 .with_upper_of_contact(),
             ),
-            // The contacts of an interval are those of two first contacts, which have been mapped.
+            // The contacts of an interval are those of two first contacts, which have already been mapped.
             Outcome::Free { .. }
             | Outcome::Overlapping { .. }
             | Outcome::Measured { .. }
@@ -361,7 +363,7 @@ impl Hit {
         self.witnesses()[1]
     }
 
-    /// Returns the nearest points of A and B. Both are one point of both bodies if one body is inside the other.
+    /// Returns the nearest points of A and B. Both are the same point of both bodies if one body is inside the other.
     fn witnesses(&self) -> [DVec3; 2] {
         match self.kind {
             HitKind::Contact(contact)

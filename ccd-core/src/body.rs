@@ -43,7 +43,7 @@ use threads::{for_each, join};
 use tree::point_query::pieces_at;
 use tree::{Layout, Tree};
 
-/// A moving thing: convex pieces in the body's own frame, ready for queries; immutable, shareable.
+/// A rigid body: convex pieces in the body's own frame, ready for queries; immutable and shareable.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, Body, Pieces, Volume};
@@ -58,38 +58,37 @@ pub struct Body {
     tree: Tree,
     volume: Volume,
     shells: Vec<Shell>,
-    /// The hull tree's leaves name the pieces in the order of the tree.
+    /// The hull tree. Its leaves name the pieces in the order of the tree.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
     surface: Option<Box<Surface>>,
-    /// How far it may exceed the shape that is meant.
+    /// The distance by which the body may exceed the shape that it represents.
     excess: f64,
 }
 
-/// The triangles of a convex body's surface. They replace the body against a body of many
-/// triangles.
+/// The triangles of a convex body's surface. They replace the body in queries against a body of many triangles.
 #[derive(Clone, Debug)]
 struct Surface {
     triangles: Body,
-    /// True if the convex body is about the box that the tree keeps of it.
+    /// True if the convex body is the box that its tree stores.
     is_box: bool,
 }
 
-/// The meaning of a body's inside: whether being in it counts as touching.
+/// The meaning of a body's inside: whether a body in it counts as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Volume {
-    /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound
-    /// a solid: together they are closed. The solid is where they wind about a point, in either
-    /// direction. Of nested shells, each has to be wound opposite to the one around it. A body
-    /// inside the solid overlaps it. A single piece is solid by itself.
+    /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound a solid: together
+    /// they are closed. The solid consists of the points about which they wind, in either direction. Of nested
+    /// shells, each has to be wound opposite to the one around it. A body inside the solid overlaps it. A single
+    /// piece is solid by itself.
     Solid,
     /// Only the pieces themselves can be touched.
     Surface,
 }
 
 impl Body {
-    /// Creates a body over a hierarchy that the core builds, split at medians.
+    /// Creates a body over a hierarchy that this function builds, split at medians.
     ///
     /// # Errors
     /// [`InputError::TooManyPieces`].
@@ -102,7 +101,7 @@ impl Body {
     /// features have the numbers that the pieces carry.
     ///
     /// # Errors
-    /// [`InputError::BadHierarchy`] when it is no hierarchy over these pieces.
+    /// [`InputError::BadHierarchy`] when the nodes are no hierarchy over these pieces.
     pub fn with_hierarchy(
         pieces: &Pieces,
         hierarchy: &Hierarchy,
@@ -111,7 +110,7 @@ impl Body {
         let (layout, pieces) = Layout::of(pieces, hierarchy)?;
         let (shells, tree) = join(pieces.len(), || shells(&pieces), || layout.fitted(&pieces));
         if !pieces.all_triangles() {
-            // Made now, so that no query waits for it.
+            // The searches are prepared now, so that no query waits for them.
             for piece in pieces.iter() {
                 piece.supported(support_of);
                 prepare(&piece);
@@ -129,13 +128,12 @@ impl Body {
         })
     }
 
-    /// Returns the body of one piece with the triangles of its surface, for queries against bodies
-    /// of many triangles: near each of those, only a few of its own are. Against other bodies it
-    /// stays one piece.
+    /// Returns the body of one piece with the triangles of its surface. They are for queries against bodies of many
+    /// triangles, each of which is near only a few of them. Against other bodies the body stays one piece.
     ///
     /// # Guarantee
-    /// That of queries holds when the triangles bound the same solid as the piece; this is not
-    /// checked. Answers name the same features, and the one piece.
+    /// The guarantee of queries holds when the triangles bound the same solid as the piece; this is not checked.
+    /// Answers name the same features, and the one piece.
     ///
     /// # Errors
     /// [`InputError::BadSurface`] unless the body is a solid of one piece without rounding, and the
@@ -159,32 +157,32 @@ impl Body {
     /// Returns the body with a hull tree over its pieces, for the schedules that use one.
     ///
     /// # Errors
-    /// [`HullFault::NotAPiece`](crate::HullFault::NotAPiece) unless its leaves are the body's pieces,
-    /// to the bit and in any order.
+    /// [`HullFault::NotAPiece`](crate::HullFault::NotAPiece) unless the tree's leaves are the body's pieces, to the
+    /// bit and in any order.
     #[cfg(feature = "hull-tree")]
     pub fn with_hull_tree(mut self, tree: HullTree) -> Result<Self, HullTreeError> {
         self.hull_tree = Some(tree.renumbered(&self.pieces)?);
         Ok(self)
     }
 
-    /// The pieces, in the order of the tree.
+    /// Returns the pieces, in the order of the tree.
     pub fn pieces(&self) -> &Pieces {
         &self.pieces
     }
 
-    /// Returns a piece, with a search structure for extremal points if it has many points.
+    /// Returns a piece. A piece of many points has a search structure for extremal points.
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
         self.pieces.get(index as usize).supported(support_of)
     }
 
-    /// Makes ahead what [`Piece::kept`] makes at the first request: for the pieces, for the hulls of the
-    /// hull tree, and for the triangles of the [surface](Body::with_surface), on all cores.
+    /// Computes in advance the values that [`Piece::kept`] computes at the first request: for the pieces, for the
+    /// hulls of the hull tree, and for the triangles of the [surface](Body::with_surface), on all cores.
     ///
-    /// Searches for extremal points of hulls are made ahead as well. What is there already stays.
+    /// Searches for extremal points of hulls are prepared in advance as well. Values that exist already stay.
     ///
     /// # Guarantee
-    /// `make` gets the pieces as oracles get them. Later requests for the type return these values.
+    /// The function `make` gets the pieces as oracles get them. Later requests for the type return these values.
     ///
     /// ```
     /// use ccd_core::{Body, Piece};
@@ -205,12 +203,12 @@ impl Body {
             pieces.extend(tree.hulls().iter());
         }
         for_each(&mut pieces, &(), |(), _, piece| {
-            // Queries hand out pieces with this search, too.
+            // Pieces in queries have this search, too.
             let _ = piece.supported(support_of).kept(&make);
         });
     }
 
-    /// Bounds the distance of the body's points from its origin.
+    /// Returns an upper bound of the distances of the body's points from its origin.
     ///
     /// ```
     /// let box_of_4 = ccd_core::Body::cuboid([2.0, 2.0, 1.0])?;
@@ -221,14 +219,14 @@ impl Body {
         self.tree.span()
     }
 
-    /// The meaning of the body's inside.
+    /// Returns the meaning of the body's inside.
     pub fn volume(&self) -> Volume {
         self.volume
     }
 
-    /// Returns the body that replaces this one against another: its surface, if it has one and the
-    /// other body has many triangles. A box that is larger than the other body is not replaced: its
-    /// own triangles would hardly be nearer to anything than the box is.
+    /// Returns the body that replaces this one against another: its surface, if it has one and the other body has
+    /// many triangles. A box that is larger than the other body is not replaced: its triangles would hardly be nearer
+    /// to anything than the box is.
     pub(crate) fn against(&self, other: &Body) -> &Body {
         let many = other.pieces.all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
@@ -238,13 +236,13 @@ impl Body {
         }
     }
 
-    /// The hull tree over its pieces, if it has one; its leaves name [`Body::pieces`].
+    /// Returns the hull tree over the body's pieces, if it has one. The leaves name [`Body::pieces`].
     #[cfg(feature = "hull-tree")]
     pub fn hull_tree(&self) -> Option<&HullTree> {
         self.hull_tree.as_ref()
     }
 
-    /// The approximate number of bytes held.
+    /// Returns the approximate number of bytes held.
     pub fn bytes(&self) -> usize {
         #[cfg(feature = "hull-tree")]
         let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
@@ -273,18 +271,18 @@ impl Body {
         .map_or(feature, Feature::Face)
     }
 
-    /// Returns whether its faces bound a solid that its pieces need not fill.
+    /// Returns whether the body's faces bound a solid that its pieces need not fill.
     pub(crate) fn may_be_hollow(&self) -> bool {
         self.volume == Volume::Solid && (self.pieces.all_triangles() || self.pieces.len() > 1)
     }
 
-    /// The tree over the pieces.
+    /// Returns the tree over the pieces.
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
     }
 
-    /// Some points of every connected part. Either all of a part is inside another solid, or its
-    /// surface crosses the solid's.
+    /// Returns some points of every connected part. Either a whole part is inside another solid, or its surface
+    /// crosses that of the solid.
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }
@@ -296,8 +294,7 @@ fn support_of(piece: &Piece<'_>) -> Support {
     Support::of_points(piece.points)
 }
 
-/// Returns six times the volume bounded by a closed surface of triangles, negative where their
-/// normals point inward.
+/// Returns six times the volume bounded by a closed surface of triangles; negative if their normals point inward.
 fn signed_volume(pieces: &Pieces) -> f64 {
     let cone = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(a);
     (0..pieces.len()).map(|k| cone(pieces.triangle(k))).sum()

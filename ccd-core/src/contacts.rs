@@ -32,9 +32,9 @@ pub enum ContactsError {
         /// The problem's duration.
         duration: f64,
     },
-    /// More pairs are near, of nodes, of boxes of faces, or of features, than the problem's
-    /// [budget](crate::Settings::budget) allows. Either the bodies are small for the margin and the
-    /// tolerance, or one is deep in the other.
+    /// More pairs are near than the problem's [budget](crate::Settings::budget) allows: pairs of nodes, of boxes of
+    /// faces, or of features. Either the bodies are small for the margin and the tolerance, or one is deep in the
+    /// other.
     TooMany {
         /// The budget.
         budget: u64,
@@ -52,8 +52,7 @@ impl Problem<'_> {
         ];
         let budget = self.budget;
         let too_many = || ContactsError::TooMany { budget };
-        // Two measured distances may be off in either direction: that of the boxes and that of the
-        // features.
+        // Two measured distances may be off in either direction: that of the boxes, and that of the features.
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
         for skin in &mut skins {

@@ -1,24 +1,24 @@
-//! Faults of an input; numerical trouble is an [`Outcome`](crate::Outcome) instead.
+//! Faults of an input. Numerical trouble is an [`Outcome`](crate::Outcome) instead.
 
 use crate::limits::MAX_COORDINATE;
 use std::fmt;
 
-/// An invalid input, with the offending element.
+/// An invalid input, with the invalid element.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
-    /// A NaN or an infinity.
+    /// The quantity is NaN or infinite.
     NotFinite {
-        /// The quantity.
+        /// The name of the quantity.
         what: &'static str,
     },
-    /// A quaternion of length zero names no orientation.
+    /// A quaternion of length zero represents no orientation.
     ZeroQuaternion,
     /// A quantity is out of range.
     OutOfRange {
-        /// The quantity.
+        /// The name of the quantity.
         what: &'static str,
-        /// Its value.
+        /// The value of the quantity.
         value: f64,
         /// The accepted values, in words.
         allowed: &'static str,
@@ -39,9 +39,9 @@ pub enum InputError {
         /// The number of joints: links count from 0, the base, to this.
         joints: usize,
     },
-    /// A link is seen only from links nearer to the base, or from itself.
+    /// A link can be seen only from links nearer to the base, or from itself.
     NotSeenFrom {
-        /// The link to see from.
+        /// The link from which the other is seen.
         from: usize,
         /// The link that is seen.
         link: usize,
@@ -57,7 +57,7 @@ pub enum InputError {
     NoPieces,
     /// A piece needs at least one point.
     EmptyPiece {
-        /// Its index.
+        /// The index of the piece.
         piece: usize,
     },
     /// A point of a piece is NaN, infinite or beyond [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
@@ -75,11 +75,11 @@ pub enum InputError {
         /// The radius.
         radius: f64,
     },
-    /// A face names a vertex that does not exist.
+    /// A face has a vertex index that does not exist.
     VertexOutOfRange {
         /// The face's index.
         face: usize,
-        /// The vertex it names.
+        /// The index of the vertex.
         vertex: u32,
         /// The number of vertices.
         vertices: usize,
@@ -88,12 +88,13 @@ pub enum InputError {
     FaceIds {
         /// The number of faces.
         faces: usize,
-        /// The number of numbers.
+        /// The number of face numbers.
         ids: usize,
     },
-    /// A surface is one of triangles that bound a solid, of a solid body of one piece without rounding.
+    /// A surface must consist of triangles that bound a solid, and belong to a solid body of one piece without
+    /// rounding.
     BadSurface,
-    /// A facet of a polytope names a corner that the polytope does not have.
+    /// A facet of a polytope has a corner index that the polytope does not have.
     FacetOutOfRange {
         /// The piece's index.
         piece: usize,
@@ -109,10 +110,10 @@ pub enum InputError {
     },
     /// A hierarchy must hold every piece exactly once, below one root, without cycles.
     BadHierarchy {
-        /// The piece or node at which that fails.
+        /// The piece or node at which the check fails.
         at: usize,
     },
-    /// More pieces than an index can name.
+    /// There are more pieces than an index can name.
     TooManyPieces {
         /// The number of pieces.
         pieces: usize,
@@ -203,7 +204,7 @@ impl fmt::Display for InputError {
 
 impl std::error::Error for InputError {}
 
-/// Refuses a quantity that is not allowed: that has to be computed so that NaN makes it false.
+/// Returns an error for a quantity, unless `allowed` holds. The condition has to be false for NaN.
 pub(crate) fn check(
     what: &'static str,
     value: f64,
@@ -221,13 +222,13 @@ pub(crate) fn check(
     }
 }
 
-/// Refuses what is no length of a shape.
+/// Returns an error for a value that is not a valid length of a shape.
 pub(crate) fn check_length(what: &'static str, length: f64) -> Result<(), InputError> {
     let allowed = (0.0..=MAX_COORDINATE).contains(&length);
     check(what, length, allowed, "from 0 to 1e12")
 }
 
-/// A number in as few digits as identify it: those with many places by a power of ten.
+/// A number in as few digits as identify it. Very large and very small numbers have a power of ten.
 struct Short(f64);
 
 impl fmt::Display for Short {

@@ -1,13 +1,13 @@
 //! Certified continuous collision detection for rigid bodies: two bodies move; when do they first
 //! touch, where, and with which features?
 //!
-//! A [`Body`] is a set of convex [pieces](Pieces) with a tree over them; a [`Motion`] carries it
-//! along; a [`Query`] poses the question; a [`Schedule`] answers it with the help of a
-//! [`DistanceOracle`], the backend that measures the distance of two pieces. Backends, mesh files and
-//! commands live in crates of their own: this one knows no backend, no file, no IO.
+//! A [`Body`] is a set of convex [pieces](Pieces) with a tree over them, and a [`Motion`] moves it. A [`Query`]
+//! combines two moving bodies with a duration and settings. A [`Schedule`] answers it with the help of a
+//! [`DistanceOracle`], the backend that measures the distance of two pieces. Backends, mesh files and commands live
+//! in separate crates: this one contains no backend, no file format, no IO.
 //!
 //! # Example
-//! When do two balls meet that fly at each other off centre?
+//! When do two balls meet whose paths pass each other off centre?
 //!
 //! ```
 //! use ccd_core::{glam::DVec3, schedule::{BestFirst, Schedule}, *};
@@ -45,10 +45,10 @@
 //!    shown by two witness points.
 //! 3. **Always ends.** When a limit is reached, the outcome is [`Outcome::Unresolved`], and its time
 //!    is still a certified lower bound. Bad input is a typed [`InputError`].
-//! 4. **Checkable.** A backend is never believed: its claim is [checked](Separation) with one support
+//! 4. **Checkable.** A claim of a backend is never used unchecked: it is [checked](Separation) with one support
 //!    query. A wrong one makes a query slow or unresolved, never late.
-//! 5. **Same answer** whichever backend, schedule or order of the two bodies, within the tolerance;
-//!    the same call twice gives the same bits; except for what a [deadline](Settings::deadline) ends.
+//! 5. **Same answer** whichever backend, schedule or order of the two bodies, within the tolerance. The same call
+//!    twice gives the same bits, unless a [deadline](Settings::deadline) ends it.
 //!
 //! # From the paper to the files
 //! | step | file |
@@ -84,8 +84,8 @@
 //! - `hull-tree`: trees of convex hulls, checked by exact signs, and the schedule over them.
 //! - `serde`: pieces, hierarchies and hull trees can be stored; what is read is checked as what is
 //!   made.
-//! - `avx512`: lets the crate be built with AVX-512 by a rustc that has LLVM 22 or older, which
-//!   miscompiles it; for one that is known not to. From LLVM 23 on it takes no feature.
+//! - `avx512`: allows a build with AVX-512 by a rustc with LLVM 22 or older. These versions miscompile it: the feature
+//!   is for one that is known not to. From LLVM 23 on no feature is needed.
 
 #[cfg(all(target_feature = "avx512f", faulty_avx512, not(feature = "avx512")))]
 compile_error!(

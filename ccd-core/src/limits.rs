@@ -1,22 +1,22 @@
-//! The defaults of a query, and the numbers that are accepted.
+//! The defaults of a query, and the ranges of accepted numbers.
 
 /// The default tolerance of a query, in the scene's unit of length `[FAST06 §6.2]`.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// The default limit of a query's [work](crate::Stats::work): a few seconds, and less than a
-/// gigabyte of waiting pairs (0.6 at worst, seen with the schedule `Fast`).
+/// The default limit of a query's [work](crate::Stats::work): a few seconds, and less than a gigabyte of waiting
+/// pairs (at most 0.6 in measurements, with the schedule `Fast`).
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
 
-/// The least accepted tolerance, in the scene's unit of length: squares of relevant distances stay
-/// above the underflow of f64 (2.2e-308).
+/// The least accepted tolerance, in the scene's unit of length. Squares of relevant distances stay above the
+/// underflow of f64 (2.2e-308).
 pub const LEAST_TOLERANCE: f64 = 1e-100;
 
-/// The largest coordinate of points, positions and centres, and the longest travel, margin and tolerance,
-/// in the scene's unit of length: squares of distances, and of speeds after the [largest turn](MAX_TURN),
-/// stay below the overflow of f32 (3.4e38).
+/// The largest coordinate of points, positions and centres, and the largest travel, margin and tolerance, in the
+/// scene's unit of length. Squares of distances, and of speeds after the [largest turn](MAX_TURN), stay below the
+/// overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e12;
 
-/// Coordinates nearer to 0 than this, except 0 itself, are too fine for exact predicates.
+/// The least magnitude of a coordinate for exact predicates: coordinates nearer to 0, except 0 itself, are too fine.
 ///
 /// The last bit of a coordinate c is at least 2⁻⁵³ |c|. The error terms of a determinant are
 /// multiples of the product of three such bits, which must not underflow: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
@@ -24,7 +24,7 @@ pub const LEAST_COORDINATE: f64 = 1e-90;
 
 /// The longest duration of bodies on trajectories, in the scene's unit of time.
 ///
-/// Derivatives of the fourth order are bounded. What of them underflows, 5e-324, moves a point by less than the
+/// Derivatives of the fourth order are bounded. The part that underflows, 5e-324, moves a point by less than the
 /// [least tolerance](LEAST_TOLERANCE) in that time: `5e-324 · (1e50)⁴ < 1e-100`.
 pub const MAX_DURATION: f64 = 1e50;
 
@@ -32,7 +32,7 @@ pub const MAX_DURATION: f64 = 1e50;
 /// point by 1e-10 of its arm.
 pub const MAX_TURN: f64 = 1e6;
 
-/// The share of the radius by which polytopes about cylinders and cones may exceed them by default: 144 corners about
+/// The default share of the radius by which polytopes about cylinders and cones may exceed them: 144 corners about
 /// the circle, and contacts early by a quarter of a thousandth of the radius.
 pub const EXCESS_SHARE: f64 = 1.0 / 4096.0;
 

@@ -39,7 +39,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Rest, with the body's frame equal to the world's.
+    /// The motion at rest, with the body's frame equal to the world's.
     pub const STILL: Motion = Motion {
         start: Pose::IDENTITY,
         velocity: DVec3::ZERO,
@@ -70,8 +70,8 @@ impl Motion {
         Motion::about(start, velocity, spin, DVec3::ZERO)
     }
 
-    /// Like [`Motion::new`], but turns about `centre`, a point in the body's frame; `velocity` is
-    /// the velocity of that point.
+    /// Like [`Motion::new`], with a turn about `centre`, a point in the body's frame; `velocity` is the velocity of
+    /// that point.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -103,8 +103,8 @@ impl Motion {
     /// Creates a motion from the poses at `t = 0` and `t = duration` by the shortest turn about
     /// `centre`, a point in the body's frame that moves on a straight line.
     ///
-    /// Velocities are derived from the poses and rounded. A query over at most `duration` allows
-    /// for that: its certificate holds for the motion between the poses as given
+    /// Velocities are derived from the poses and rounded. A query over at most `duration` accounts for that rounding:
+    /// its certificate holds for the motion between the poses as given
     /// ([`rounding::distance_rounding`](crate::rounding::distance_rounding)).
     ///
     /// At half a turn both directions are shortest. The motion turns counterclockwise about the
@@ -130,37 +130,37 @@ impl Motion {
                 allowed: "positive and finite",
             });
         }
-        // Differences first: positions far from the world's origin lose no accuracy.
+        // The differences are computed first: positions far from the world's origin lose no accuracy.
         let turned = Frame::from(end).rotation - Frame::from(start).rotation;
         let travel = (end.translation() - start.translation()) + turned * centre;
         let turn = shortest_turn(end.rotation() * start.rotation().conjugate());
         Motion::about(start, travel / duration, turn / duration, centre)
     }
 
-    /// The pose at `t = 0`.
+    /// Returns the pose at `t = 0`.
     pub fn start(&self) -> Pose {
         self.start
     }
 
-    /// The velocity of the [centre](Motion::centre), per unit of time.
+    /// Returns the velocity of the [centre](Motion::centre), per unit of time.
     pub fn velocity(&self) -> DVec3 {
         self.velocity
     }
 
-    /// The angular velocity, in radians per unit of time, along the world's axes.
+    /// Returns the angular velocity, in radians per unit of time, along the world's axes.
     pub fn spin(&self) -> DVec3 {
         self.spin
     }
 
-    /// The point of the body that moves on a straight line, in the body's frame.
+    /// Returns the point of the body that moves on a straight line, in the body's frame.
     pub fn centre(&self) -> DVec3 {
         self.centre
     }
 
-    /// The pose at time `t`.
+    /// Returns the pose at time `t`.
     pub fn pose(&self, t: f64) -> Pose {
         let rotation = DQuat::from_scaled_axis(t * self.spin) * self.start.rotation();
-        // The centre's displacement, less the origin's displacement by the turn about it.
+        // The displacement of the centre, minus that of the origin by the turn about the centre.
         let turned = rotation * self.centre - self.start.rotation() * self.centre;
         Pose::from_unit(
             self.start.translation() + (t * self.velocity - turned),
@@ -169,7 +169,7 @@ impl Motion {
     }
 }
 
-/// The rotation vector of a unit quaternion, of length at most π.
+/// Returns the rotation vector of a unit quaternion, of length at most π.
 fn shortest_turn(rotation: DQuat) -> DVec3 {
     let rotation = if rotation.w < 0.0 {
         -rotation
@@ -179,7 +179,7 @@ fn shortest_turn(rotation: DQuat) -> DVec3 {
     let axis = rotation.xyz();
     let sine = length(axis);
     if sine > 0.0 {
-        // atan2 keeps its digits at small angles, where acos loses them.
+        // The function atan2 keeps its digits at small angles, and acos does not.
         axis * (2.0 * sine.atan2(rotation.w) / sine)
     } else {
         DVec3::ZERO

@@ -1,4 +1,4 @@
-//! A query about two motions, as schedules search it.
+//! A query about two motions, in the form that schedules search.
 
 use crate::body::Body;
 use crate::body::excess::Excess;
@@ -17,39 +17,39 @@ use glam::DVec3;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// A query about two motions, in units of its own: time runs from 0 to 1, and the origin is near both bodies.
+/// A query about two motions, in its own units: time runs from 0 to 1, and the origin is near both bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem<'a> {
     pub(crate) a: Side<'a>,
     pub(crate) b: Side<'a>,
-    /// The time at which it begins: 0, unless it is a part of another one.
+    /// The time at which the problem begins: 0, unless it is a part of another one.
     begin: f64,
     duration: f64,
     /// The origin of the problem's coordinates in the world, near both bodies.
     origin: DVec3,
-    /// The tolerance, at least the least one that can be certified.
+    /// The tolerance; at least the least one that can be certified.
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
-    /// What the closest approach is compared with.
+    /// The distance with which the closest approach is compared.
     pub(crate) clearance: Option<f64>,
     pub(crate) start: StartPolicy,
     /// The plane in which bodies that are let go touch at the start.
     pub(crate) touching: Option<TouchingPlane>,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
-    /// Set by another thread that wants no answer any more.
+    /// A flag that another thread sets to stop the query.
     pub(crate) stop: Option<&'a AtomicBool>,
-    /// Bounds the rounding of any distance computed in f64: [`rounding::distance_rounding`].
+    /// A bound of the rounding of any distance computed in f64: [`rounding::distance_rounding`].
     pub(crate) rounding: f64,
     /// The vector instructions to use.
     pub(crate) level: Level,
 }
 
-/// A body on its path in the problem's units.
+/// A body on its path, in the problem's units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side<'a> {
     pub(crate) body: &'a Body,
-    /// The given body, of one piece, if `body` is its surface.
+    /// The given body, of one piece, if `body` is the surface of that body.
     pub(crate) given: Option<&'a Body>,
     pub(crate) path: Path,
 }
@@ -78,10 +78,10 @@ impl Which {
 }
 
 impl<'a> Problem<'a> {
-    /// Poses a query about two bodies on motions.
+    /// Creates the problem of two bodies on motions.
     ///
     /// # Errors
-    /// Those of [`Query::new`](crate::Query::new).
+    /// The errors of [`Query::new`](crate::Query::new).
     pub(crate) fn new(
         bodies: [(&'a Body, Motion); 2],
         duration: f64,
@@ -90,8 +90,8 @@ impl<'a> Problem<'a> {
         Problem::accelerated(bodies, [DVec3::ZERO; 2], duration, terms)
     }
 
-    /// Like [`Problem::new`] for bodies whose centres accelerate, for schedules that take
-    /// [accelerations](crate::schedule::solve::Solve::takes_accelerations).
+    /// Like [`Problem::new`], for bodies whose centres accelerate, and for schedules that take
+    /// [accelerations](crate::schedule::solve::Solve::takes_accelerations) into account.
     pub(crate) fn accelerated(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
@@ -145,13 +145,13 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The tolerance of the answer: the requested one, or the least that can be certified in f64 at
-    /// the scene's coordinates.
+    /// Returns the tolerance of the answer: the requested one, or the least that can be certified in f64 at the
+    /// scene's coordinates.
     pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// How far the given bodies may exceed their shapes.
+    /// Returns the distance by which the given bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
         let given = |side: &Side<'a>| side.given.unwrap_or(side.body);
         Excess::of(given(&self.a), given(&self.b))
@@ -163,24 +163,24 @@ impl<'a> Problem<'a> {
         [piece(&self.a, a), piece(&self.b, b)]
     }
 
-    /// The distance at which a pair is in contact.
+    /// Returns the distance at which a pair is in contact.
     pub(crate) fn contact_distance(&self) -> f64 {
         self.margin + self.tolerance
     }
 
-    /// The gap that all clocks prove: half the tolerance beyond the margin. A pair of pieces whose
-    /// clock runs out is well within the tolerance.
+    /// Returns the gap that all clocks prove: half the tolerance beyond the margin. A pair of pieces whose clock has
+    /// run out is well within the tolerance.
     pub(crate) fn gap(&self) -> f64 {
         self.margin + 0.5 * self.tolerance
     }
 
-    /// The gap that the clocks of pairs of nodes prove where rounding allows. It is the same for all
-    /// sizes of nodes, so that clocks that run out at a common contact run out together.
+    /// Returns the gap that the clocks of pairs of nodes prove if rounding allows. It is the same for all sizes of
+    /// nodes, so that clocks that run out at a common contact run out together.
     pub(crate) fn node_gap(&self) -> f64 {
         self.margin + NODE_GAP * self.tolerance
     }
 
-    /// Returns the clock of a time of the motions, up to rounding.
+    /// Returns the clock that belongs to a time of the motions, up to rounding.
     pub(crate) fn clock(&self, time: f64) -> f64 {
         if self.duration > 0.0 {
             (time - self.begin) / self.duration
@@ -189,7 +189,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem of the given bodies, if surfaces replace them here; none otherwise.
+    /// Returns the problem of the given bodies, if surfaces replace them here; `None` otherwise.
     pub(crate) fn given(&self) -> Option<Self> {
         let of = |side: &Side<'a>| Side {
             body: side.given.unwrap_or(side.body),
@@ -212,9 +212,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem with bodies let go that begin at a gap beyond the margin: pairs that
-    /// part or slide keep more than half of it. Only if there is no gap worth the name, pairs of
-    /// pieces are let go, and all that touch in the plane of the contact.
+    /// Returns the problem in which bodies that begin at a gap beyond the margin are let go: pairs that part or slide
+    /// keep more than half of that gap. If there is no useful gap, pairs of pieces are let go instead, and all pairs
+    /// that touch in the plane of the contact.
     pub(crate) fn leaving(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
         let least = rounding::least_tolerance(self.rounding);
         let (tolerance, start) = if 0.5 * gap > least {
@@ -234,8 +234,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem without a margin, and with a contact at the start as an answer: distances
-    /// are measured.
+    /// Returns the problem for measuring distances: without a margin, and with a contact at the start as an answer.
     pub(crate) fn measuring(&self) -> Self {
         Problem {
             margin: 0.0,
@@ -243,17 +242,17 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem that asks for distances below the least one found: pairs in contact are
-    /// nearer than that, by half of the tolerance, and pairs that keep the margin are within the
-    /// tolerance of it. What is left in between is room for proofs.
+    /// Returns the problem for distances below the least one found. Pairs in contact are nearer than that by half of
+    /// the tolerance, and pairs that keep the margin are within the tolerance of it. The rest in between is room for
+    /// proofs.
     pub(crate) fn below(&self, upper: f64) -> Self {
         let half = self.keeping(upper, 0.5 * self.tolerance).tolerance;
         self.keeping(greater(0.0, upper - 2.0 * half), half)
     }
 
-    /// Returns the problem with another margin, and a tolerance that can be certified there.
+    /// Returns the problem with another margin, and with a tolerance that can be certified with it.
     pub(crate) fn keeping(&self, margin: f64, tolerance: f64) -> Self {
-        // Distances may be off by more where they are measured beyond a margin.
+        // Distances may be off by more if they are measured beyond a margin.
         let rounding = self.rounding + rounding::margin_rounding(margin);
         Problem {
             margin,
@@ -264,7 +263,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the problem in a part of the time, from one clock to a later one, with the margin raised by a distance
-    /// and another tolerance. Places are off by more than in the whole, see
+    /// and with another tolerance. Positions are off by more than in the whole, see
     /// [`place_rounding`](rounding::place_rounding).
     pub(crate) fn part(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
         let of = |side: &Side<'a>| Side {
@@ -277,7 +276,7 @@ impl<'a> Problem<'a> {
             a: of(&self.a),
             b: of(&self.b),
             begin: self.time(from),
-            // Rounded down, so that no time is late.
+            // The duration is rounded down, so that no time is late.
             duration: self.duration * (to - from) * (1.0 - rounding::RATE_F64),
             margin: (self.margin + raised).next_up(),
             tolerance: greater(tolerance, rounding::least_tolerance(rounding)),
@@ -295,7 +294,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns a clock as a time of the motions, rounded so that it is never late.
+    /// Returns the time of the motions that belongs to a clock, rounded so that it is never late.
     pub(crate) fn time(&self, s: f64) -> f64 {
         if s >= 1.0 {
             self.begin + self.duration
@@ -316,12 +315,12 @@ impl<'a> Problem<'a> {
 }
 
 impl Side<'_> {
-    /// Returns the number of a piece in the given body.
+    /// Returns the index that a piece has in the given body.
     pub(crate) fn number(&self, piece: u32) -> u32 {
         if self.given.is_some() { 0 } else { piece }
     }
 
-    /// Returns the span of the body plus twice the length of its centre of rotation, in the body's
+    /// Returns the span of the body plus twice the distance of its centre of rotation from its origin, in the body's
     /// frame.
     pub(crate) fn span(&self) -> f64 {
         self.body.tree().span() + 2.0 * length(self.path.centre)
@@ -340,7 +339,7 @@ impl Side<'_> {
     }
 }
 
-/// Refuses a point with a coordinate that is too large.
+/// Returns an error for a point with a coordinate that is too large.
 pub(crate) fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError> {
     let largest = point
         .to_array()

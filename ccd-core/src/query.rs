@@ -13,7 +13,7 @@ use crate::settings::{Settings, Terms};
 use std::fmt;
 use std::time::Duration;
 
-/// A body and what moves it.
+/// A body and its movement.
 ///
 /// ```
 /// use ccd_core::{Body, Motion, Moving};
@@ -25,16 +25,16 @@ use std::time::Duration;
 pub struct Moving<'a> {
     /// The body.
     pub body: &'a Body,
-    /// What moves it.
+    /// The movement of the body.
     pub movement: Movement<'a>,
 }
 
-/// What moves a body.
+/// The movement of a body.
 #[derive(Clone, Copy)]
 pub enum Movement<'a> {
     /// Constant velocities.
     Motion(Motion),
-    /// Anything else.
+    /// Any other movement.
     Trajectory(&'a dyn Trajectory),
 }
 
@@ -133,10 +133,10 @@ impl fmt::Debug for Movement<'_> {
 
 /// A valid query about two moving bodies over `[0, duration]`.
 ///
-/// The same query serves every question: [schedules](crate::Schedule) find the first contact,
+/// One query serves every question: [schedules](crate::Schedule) find the first contact,
 /// [`BestFirst`](crate::schedule::BestFirst) and [`DepthFirst`](crate::schedule::DepthFirst) answer the others.
 ///
-/// Between two [motions](Motion) it is answered at once. Along other [trajectories](Trajectory) it is answered
+/// A query about two [motions](Motion) is answered at once. Along other [trajectories](Trajectory) it is answered
 /// stretch by stretch, and bodies in contact at the start are never [let go](crate::StartPolicy::Leave).
 ///
 /// ```
@@ -160,7 +160,7 @@ pub struct Query<'a> {
 }
 
 impl<'a> Query<'a> {
-    /// Poses a query about two bodies, each with its motion, its trajectory, or the pose at which it rests.
+    /// Creates a query about two bodies, each with its motion, its trajectory, or the pose at which it rests.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for
@@ -201,7 +201,7 @@ impl<'a> Query<'a> {
         })
     }
 
-    /// Returns the query with another deadline, for callers that share the time among many.
+    /// Returns the query with another deadline, for callers that divide the time among many queries.
     #[must_use]
     pub fn with_deadline(mut self, deadline: Option<Duration>) -> Self {
         self.terms.deadline = deadline;
@@ -211,8 +211,8 @@ impl<'a> Query<'a> {
         self
     }
 
-    /// The tolerance of the answer: the requested one, or the least that can be certified in f64 at the coordinates of
-    /// the two motions. Along trajectories it may be larger.
+    /// Returns the tolerance of the answer: the requested one, or the least that can be certified in f64 at the
+    /// coordinates of the two motions. Along trajectories it may be larger.
     pub fn tolerance(&self) -> f64 {
         let problem = self.problem.as_ref();
         problem.map_or(self.terms.tolerance, Problem::tolerance)
@@ -246,7 +246,7 @@ impl<'a> Query<'a> {
     /// No pair within margin + tolerance is missed, and
     /// [`Separation::lower`](crate::Separation::lower) of every pair is within that. Lower and
     /// upper bound are those of the two features, rounding included. The same call gives the same
-    /// bits. Along trajectories the bodies are where [`Trajectory::pose`] places them, and what that strays is not included.
+    /// bits. Along trajectories the bodies are at [`Trajectory::pose`]; the deviation of that pose is not included.
     ///
     /// # Errors
     /// [`ContactsError`].
@@ -285,7 +285,7 @@ impl<'a> Query<'a> {
         Problem::new(bodies, 0.0, &self.terms)?.contacts_at(0.0)
     }
 
-    /// How far the bodies may exceed their shapes.
+    /// Returns the distance by which the bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
         Excess::of(self.a.body, self.b.body)
     }

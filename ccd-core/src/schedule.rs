@@ -1,13 +1,13 @@
 //! Schedules: the order in which the clocks of pairs are advanced.
 //!
-//! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one
-//! at a time, in f64). A schedule keeps the waiting pairs (`queue.rs`, `stack.rs`, `fast/front.rs`) and
-//! the proven facts (`proven.rs`). `search.rs` has the steps, and each question draws its own conclusions
-//! from them: the first contact (`best_first.rs`, in steps `first_contact.rs`), any contact (`any_contact.rs`), the closest approach
-//! (`closest_approach.rs`). `nearest.rs` measures bodies at one clock, `start.rs` those in contact at the
-//! start; `answer.rs` runs the schedule as the policy for the start demands. `along.rs` asks along
-//! trajectories. `rounds.rs` searches a period of bodies that turn many times for all that repeat it. `out_of_reach.rs` tells bodies apart that are far
-//! from each other all the time.
+//! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one at a time, in
+//! f64). A schedule keeps the waiting pairs (`queue.rs`, `stack.rs`, `fast/front.rs`) and the proven facts
+//! (`proven.rs`). The steps of a search are in `search.rs`. Each question draws its own conclusions from them: the
+//! first contact (`best_first.rs`, in steps `first_contact.rs`), any contact (`any_contact.rs`), the closest approach
+//! (`closest_approach.rs`). `nearest.rs` measures the distance of the bodies at one clock, and `start.rs` that of
+//! bodies in contact at the start. `answer.rs` runs the schedule under the query's policy for the start. `along.rs`
+//! has the questions about trajectories. `rounds.rs` searches one period of bodies that turn many times, for all
+//! periods that repeat it. `out_of_reach.rs` proves that bodies far from each other never touch.
 
 mod along;
 mod answer;

@@ -1,4 +1,5 @@
-//! The settings of queries: what counts as a contact, how accurate the answer is, and how much work it may take.
+//! The settings of queries: the distance that counts as a contact, the accuracy of the answer, and the limits of the
+//! work.
 
 use crate::error::{InputError, check};
 use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE};
@@ -7,7 +8,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// What counts as a contact, the accuracy of the answer, and the limits of the work on it.
+/// The settings of a query: the distance that counts as a contact, the accuracy of the answer, and the limits of the
+/// work.
 ///
 /// ```
 /// use ccd_core::Settings;
@@ -23,10 +25,9 @@ pub struct Settings {
     pub tolerance: f64,
     /// The distance to keep; 0 reports touching. In the scene's unit of length.
     pub margin: f64,
-    /// A distance that the closest approach is to be compared with: the search ends as soon as it is
-    /// proven to be kept, or seen not to be, by the shapes that the bodies may
-    /// [exceed](crate::Body::with_excess). With none the closest approach is measured. Other
-    /// questions have the margin. In the scene's unit of length.
+    /// The required distance with which the closest approach is compared. The search ends as soon as the distance is
+    /// proven to be kept, or violated, by the shapes that the bodies may [exceed](crate::Body::with_excess). With
+    /// `None` the closest approach is measured. Other questions use the margin. In the scene's unit of length.
     pub clearance: Option<f64>,
     /// The treatment of a contact at the start.
     pub start: StartPolicy,
@@ -40,11 +41,11 @@ pub struct Settings {
     /// used. The closest approach takes up to half as much again for early bounds. No path takes more than 65,536. The search for the [last
     /// contact](crate::schedule::BestFirst::contact_interval) has as much again.
     pub budget: u64,
-    /// The longest time before the query is left unresolved; with none no clock is read.
+    /// The longest time before the query is left unresolved; with `None` no clock is read.
     ///
-    /// It is checked every few hundred visits, and therefore exceeded by less than a millisecond if
-    /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached
-    /// depends on the machine: answers that it ends differ from one call to the next.
+    /// The deadline is checked every few hundred visits, and is therefore exceeded by less than a millisecond if
+    /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached depends on the
+    /// machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
     /// The vector instructions to compute with. Answers are the same, to the last bit.
     pub instructions: Instructions,
@@ -74,7 +75,7 @@ impl Settings {
         stop: None,
     };
 
-    /// Returns the settings as a query keeps them.
+    /// Returns the settings in the form that a query stores.
     pub(crate) fn terms(&self) -> Terms<'_> {
         Terms {
             tolerance: self.tolerance,
@@ -95,7 +96,7 @@ impl Default for Settings {
     }
 }
 
-/// The settings as a query keeps them: the flag is borrowed, so that a query counts no references.
+/// The settings in the form that a query stores: the flag is borrowed, so that a query counts no references.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terms<'a> {
     pub(crate) tolerance: f64,
@@ -109,7 +110,7 @@ pub(crate) struct Terms<'a> {
 }
 
 impl Terms<'_> {
-    /// Refuses a duration, a tolerance, a margin or a clearance that is out of range.
+    /// Returns an error for a duration, a tolerance, a margin or a clearance that is out of range.
     pub(crate) fn check(&self, duration: f64) -> Result<(), InputError> {
         let finite = 0.0..=f64::MAX;
         check(
@@ -135,10 +136,10 @@ impl Terms<'_> {
 /// On x86 these are AVX2 or SSE2. Other targets have one set each, NEON for instance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Instructions {
-    /// The best of the machine, found at run time.
+    /// The best instructions of the machine, detected at run time.
     #[default]
     Best,
-    /// Those of the target that the program was built for, which every machine of that target has.
+    /// The instructions of the target that the program was built for, which every machine of that target has.
     Baseline,
 }
 
@@ -171,18 +172,16 @@ pub enum StartPolicy {
     /// The answer is [`Touching`](crate::Outcome::Touching).
     #[default]
     Report,
-    /// Bodies that are within the tolerance at the start are let go for as long as they do not
-    /// approach. The answer is the time at which they come within half the gap that they began
-    /// with; from then on that is the tolerance.
+    /// Bodies that are within the tolerance at the start are let go as long as they do not approach. The answer is
+    /// the time at which they come within half the gap that they began with; that half is the tolerance from then on.
     ///
-    /// If that gap is no more than rounding, or the bodies begin inside the margin, pieces that
-    /// rest on each other are let go until they approach. This takes a look at every pair of pieces
-    /// that begins inside the margin: a margin as large as the bodies may cost the whole budget.
+    /// If that gap is no more than rounding, or the bodies begin inside the margin, pieces that rest on each other
+    /// are let go until they approach. This takes one visit for every pair of pieces that begins inside the margin: a
+    /// margin as large as the bodies may cost the whole budget.
     ///
-    /// Pieces that touch only later are let go as well, as long as the plane in which the bodies
-    /// began to touch is between them and they do not approach it: a body slides on flat ground from
-    /// one triangle onto the next, and onto another flat top of the same height. The plane stays with
-    /// either body. All else that touches later is a contact, and so are two open surfaces that slide
-    /// within the plane: their sides are unknown.
+    /// Pieces that touch only later are let go as well, as long as the plane in which the bodies began to touch is
+    /// between them and they do not approach it. A body thus slides on flat ground from one triangle onto the next,
+    /// and onto another flat top of the same height. The plane stays with either body. Every other later touch is a
+    /// contact. So is that of two open surfaces that slide within the plane: their sides are unknown.
     Leave,
 }

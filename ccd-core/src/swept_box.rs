@@ -1,4 +1,4 @@
-//! Boxes that moving bodies do not leave, for a broad phase over many of them.
+//! Boxes that contain moving bodies at all times, for a broad phase over many bodies.
 
 use crate::body::Body;
 use crate::error::InputError;
@@ -13,7 +13,7 @@ use crate::rounding::{STRETCH_F64, least_tolerance, share_of_rounding};
 use crate::settings::{Settings, Terms};
 use glam::DVec3;
 
-/// A box along the world's axes that a moving body does not leave, grown by half the distance of a contact.
+/// A box along the world's axes that contains a moving body at all times, grown by half the contact distance.
 ///
 /// # Guarantee
 /// Two bodies are free, over the same duration and with the same settings, if their boxes have no point in common.
@@ -46,14 +46,14 @@ impl SweptBox {
 }
 
 impl Moving<'_> {
-    /// Returns a box that the body does not leave from time 0 to `duration`.
+    /// Returns a box that contains the body from time 0 to `duration`.
     ///
-    /// The box is about all poses: that at the start, moved along, and grown by what the body turns; or the ball
-    /// that a body which turns farther stays in.
+    /// The box contains all poses. It is the box at the start, moved along the path and grown by the displacement due
+    /// to turning. For a body that turns farther, it is the box of the ball that contains the turning body.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for what [`Query::new`](crate::Query::new) refuses, with a travel at most 1e12
-    /// from the world's origin.
+    /// [`InputError::OutOfRange`] for values that [`Query::new`](crate::Query::new) refuses, with a travel of at most
+    /// 1e12 from the world's origin.
     pub fn swept_box(&self, duration: f64, settings: &Settings) -> Result<SweptBox, InputError> {
         let terms = settings.terms();
         terms.check(duration)?;
@@ -66,10 +66,10 @@ impl Moving<'_> {
     }
 }
 
-/// The number of parts of equal length that a trajectory is cut into, besides those at its corners.
+/// The number of parts of equal length into which a trajectory is cut, besides the cuts at its corners.
 const PARTS: usize = 16;
 
-/// Returns the box about those of all stretches.
+/// Returns the box about the boxes of all stretches.
 fn of_stretches(
     body: &Body,
     trajectory: &dyn Trajectory,
@@ -83,7 +83,7 @@ fn of_stretches(
         } else {
             duration
         };
-        // A corner bounds a stretch better; of many in one part, some are left out.
+        // A stretch that ends at a corner has a better bound. If one part has many corners, some are left out.
         let corner = trajectory
             .corner(from, to)
             .filter(|&at| at > from && at < to);
@@ -112,7 +112,7 @@ fn of_stretch(
     let reach = centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius;
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
     let room = (moved + stretch.stray.at(reach)) * (1.0 + STRETCH_F64);
-    // What is no bound is NaN: then the body may be anywhere.
+    // A value that is no bound is NaN. Then the body may be anywhere.
     let room = DVec3::splat(if room >= 0.0 { room } else { f64::INFINITY });
     let rounding = DVec3::splat(2.0 * f64::EPSILON) * most(swept.min.abs(), swept.max.abs());
     Ok(SweptBox {
@@ -137,7 +137,7 @@ fn of_motion(
     side.check()?;
     let Side { path, .. } = &side;
     let (low, high) = at_start(&side);
-    // As seen from the centre of rotation, which goes straight, the body only turns.
+    // As seen from the centre of rotation, which moves straight, the body only turns.
     let way = path.velocity;
     let room = DVec3::splat(room(&side, terms));
     Ok(SweptBox {
@@ -146,7 +146,7 @@ fn of_motion(
     })
 }
 
-/// Returns the box at the start about all that the body turns to while its centre of rotation stands still.
+/// Returns a box that contains the body in all orientations while its centre of rotation stays at the start.
 fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().whole();
@@ -168,13 +168,13 @@ fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     )
 }
 
-/// Bounds half the distance of a contact, which is the greater one of the settings and the least that can be
-/// certified, and the rounding of the box.
+/// Returns a bound of half the contact distance and of the rounding of the box. The tolerance in that distance is the
+/// greater of the one in the settings and the least that can be certified.
 fn room(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;
     let rounding = share_of_rounding(side.span(), path.rate, way);
-    // The box is made by no more operations than a distance; its sums round by a few units of the greatest number.
+    // The box takes no more operations than a distance, and its sums round by a few units of the greatest number.
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }
 

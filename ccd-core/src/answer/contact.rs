@@ -1,11 +1,11 @@
-//! Where two bodies touch: a checked pair of nearest points, or the proof of an overlap.
+//! The contact of two bodies: a checked pair of nearest points, or the proof of an overlap.
 
 use crate::body::excess::Excess;
 use crate::body::feature::Feature;
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// A checked pair of nearest points, with the features that hold them.
+/// A checked pair of nearest points, with the features that contain them.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
@@ -36,14 +36,14 @@ pub struct Contact {
     pub feature_a: Feature,
     /// The feature of body B at its witness point.
     pub feature_b: Feature,
-    /// The piece of body A, as an index into [`Body::pieces`](crate::Body::pieces).
+    /// The index of the piece of body A in [`Body::pieces`](crate::Body::pieces).
     pub piece_a: u32,
-    /// The piece of body B.
+    /// The index of the piece of body B.
     pub piece_b: u32,
 }
 
 impl Contact {
-    /// Returns a contact of the bodies with an upper bound for their shapes.
+    /// Returns a contact of the bodies with an upper bound that holds for their shapes.
     pub(crate) fn of_shapes(self, excess: Excess) -> Self {
         Contact {
             separation: Separation {
@@ -54,8 +54,7 @@ impl Contact {
         }
     }
 
-    /// Returns the contact with a lower bound of at most `least`, which bounds a part of the
-    /// bodies.
+    /// Returns the contact with its lower bound lowered to at most `least`, a bound for a part of the bodies.
     pub(crate) fn no_nearer_than(self, least: f64) -> Self {
         Contact {
             separation: Separation {
@@ -78,7 +77,7 @@ pub struct Separation {
     /// [greatest](crate::schedule::DepthFirst::greatest_distance)
     /// distance, plus the excess of both bodies.
     pub upper: f64,
-    /// Unit vector from A to B along which `lower` was checked.
+    /// The unit vector from A to B along which `lower` was checked.
     pub normal: DVec3,
     /// The witness point on A.
     pub witness_a: DVec3,

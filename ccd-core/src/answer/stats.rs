@@ -1,4 +1,4 @@
-//! What an answer cost.
+//! The cost of an answer.
 
 use crate::distance::oracle::Effort;
 use crate::tuning::LOOKS_PER_VISIT;
@@ -8,8 +8,8 @@ use crate::tuning::LOOKS_PER_VISIT;
 pub struct Stats {
     /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
     pub iterations: u64,
-    /// The approximate number of looks at points of pieces: in each step of an oracle's search, and
-    /// each time a gap is followed.
+    /// The approximate number of evaluations of points of pieces: in each step of an oracle's search, and each time a
+    /// gap is followed.
     pub point_looks: u64,
     /// The number of calls of the oracle.
     pub oracle_calls: u64,
@@ -25,8 +25,8 @@ pub struct Stats {
 }
 
 impl Stats {
-    /// Returns the work that the [budget](crate::Settings::budget) limits: iterations, plus one for
-    /// every [`LOOKS_PER_VISIT`] looks at points.
+    /// Returns the work that the [budget](crate::Settings::budget) limits: iterations, plus one for every
+    /// [`LOOKS_PER_VISIT`] evaluations of points.
     #[inline]
     pub fn work(&self) -> u64 {
         self.iterations + self.point_looks / LOOKS_PER_VISIT

@@ -1,30 +1,30 @@
-//! What is known when a limit ends a query.
+//! The bounds that are proven when a limit ends a query.
 
 use super::Contact;
 use std::fmt;
 
-/// What is known of a query that a limit ended.
+/// The bounds that are proven for a query that a limit ended.
 ///
-/// It is also an error, for callers that need an answer.
+/// The type is also an error, for callers that need an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unresolved {
     /// The limit.
     pub limit: Limit,
-    /// The bodies do not touch before this time, certified; 0 for questions about a distance.
+    /// The time before which the bodies do not touch, certified; 0 for queries about a distance.
     pub safe_until: f64,
-    /// The bodies do not touch after this time, certified; infinite unless the last contact was asked for.
+    /// The time after which the bodies do not touch, certified; infinite unless the query is about the last contact.
     pub safe_from: f64,
-    /// A lower bound of the distance that was asked for; 0 if none is proven.
+    /// A lower bound of the requested distance; 0 if none is proven.
     pub lower: f64,
-    /// An upper bound of the distance that was asked for; infinite if none is known.
+    /// An upper bound of the requested distance; infinite if none is known.
     pub upper: f64,
-    /// The time of the least or greatest distance that was measured, and the nearest pieces at that time. `None` if none
-    /// was measured.
+    /// The time of the least or greatest distance that was measured, and the nearest pieces at that time. `None` if
+    /// none was measured.
     pub at: Option<(f64, Contact)>,
 }
 
 impl Unresolved {
-    /// Returns what is known of a question about contacts.
+    /// Returns the value for a query about contacts.
     pub fn until(safe_until: f64, limit: Limit) -> Self {
         Unresolved {
             limit,
@@ -36,7 +36,7 @@ impl Unresolved {
         }
     }
 
-    /// Returns what is known of the least distance: a lower bound, and the nearest pieces that were measured.
+    /// Returns the value for the least distance: a lower bound, and the nearest pieces that were measured.
     pub(crate) fn least(lower: f64, at: Option<(f64, Contact)>, limit: Limit) -> Self {
         Unresolved {
             lower,
@@ -46,7 +46,7 @@ impl Unresolved {
         .with_upper_of_contact()
     }
 
-    /// Returns the same with the upper bound of the least distance that was measured.
+    /// Returns the value with the upper bound of the least distance that was measured.
     pub(super) fn with_upper_of_contact(self) -> Self {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
         Unresolved {
@@ -104,7 +104,7 @@ impl fmt::Display for Limit {
 }
 
 impl Limit {
-    /// Says what ended a query, and what to do about it.
+    /// Returns the reason why a query ended, and what to do about it.
     ///
     /// ```
     /// assert!(ccd_core::Limit::Budget.advice().starts_with("the budget is spent"));

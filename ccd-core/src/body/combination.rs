@@ -12,7 +12,7 @@ pub struct Combination {
 }
 
 impl Combination {
-    /// The combination of no points; terms can be [pushed](Combination::push).
+    /// The combination of no points. Terms can be [pushed](Combination::push).
     pub const EMPTY: Combination = Combination {
         indices: [0; 4],
         weights: [0.0; 4],
@@ -37,7 +37,7 @@ impl Combination {
     /// Adds a term. Weights that are not positive, or outside of [`WEIGHTS`], are dropped. Equal
     /// indices are merged. Terms beyond four distinct indices are dropped.
     pub fn push(&mut self, index: u32, weight: f64) {
-        // NaN is in no range.
+        // A NaN is in no range.
         if !WEIGHTS.contains(&weight) {
             return;
         }
@@ -51,20 +51,19 @@ impl Combination {
         }
     }
 
-    /// The indices of the points with a positive weight.
+    /// Returns the indices of the points with a positive weight.
     pub fn support(&self) -> &[u32] {
         &self.indices[..self.len as usize]
     }
 
-    /// Returns the point, or none when the combination is empty or has an index that `points`
-    /// lacks.
+    /// Returns the point; `None` when the combination is empty or has an index that `points` lacks.
     ///
     /// Weights are divided by their sum, so that the result is in the hull up to rounding.
     pub fn of(&self, points: &[DVec3]) -> Option<DVec3> {
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
         let first = *points.get(*self.support().first()? as usize)?;
         for (&index, &weight) in self.support().iter().zip(&self.weights) {
-            // Relative to the first point: the rounding is that of the piece's size.
+            // The sum is relative to the first point, so that its rounding is that of the piece's size.
             sum += weight * (*points.get(index as usize)? - first);
             total += weight;
         }

@@ -1,18 +1,19 @@
-//! How far a body may exceed the shape that is meant.
+//! The distance by which a body may exceed the shape that it represents.
 
 use super::Body;
 use crate::error::{InputError, check_length};
 
 impl Body {
-    /// Returns the body as an enclosure of a shape: one that may exceed it by a length.
+    /// Returns the body as an enclosure of a shape, which it may exceed by a length.
     ///
     /// The body of an [`Enclosure`](crate::Enclosure) states its own excess; that of all others is 0.
     ///
     /// # Guarantee
-    /// That of distances holds for the shape where the body holds the shape, and no point of the body is farther than the
-    /// excess from it; neither is checked. Lower bounds and times are those of the body. Upper bounds of the [least
-    /// distance](crate::schedule::DepthFirst::closest_approach) and of the [greatest one](crate::schedule::DepthFirst::greatest_distance) are
-    /// larger by the excess of both bodies. A first contact states the distance of the bodies themselves.
+    /// The guarantee of distances holds for the shape if the body contains the shape, and no point of the body is
+    /// farther than the excess from the shape; neither is checked. Lower bounds and times are those of the body.
+    /// Upper bounds of the [least distance](crate::schedule::DepthFirst::closest_approach) and of the [greatest
+    /// one](crate::schedule::DepthFirst::greatest_distance) are larger by the excess of both bodies. A first contact
+    /// states the distance of the bodies themselves.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a length that is not from 0 to [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
@@ -30,13 +31,13 @@ impl Body {
         Ok(Body { excess, ..self })
     }
 
-    /// How far the body may exceed the shape that is meant, in its own unit of length; 0 for exact bodies.
+    /// Returns the distance by which the body may exceed its shape, in its own unit of length; 0 for exact bodies.
     pub fn excess(&self) -> f64 {
         self.excess
     }
 }
 
-/// How far two bodies may exceed their shapes, together.
+/// The distance by which two bodies together may exceed their shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Excess(f64);
 
@@ -48,7 +49,7 @@ impl Excess {
         })
     }
 
-    /// The largest distance of shapes whose bodies have a common point.
+    /// Returns the largest distance of shapes whose bodies have a common point.
     pub(crate) fn of_overlap(self) -> f64 {
         self.0
     }
@@ -62,7 +63,8 @@ impl Excess {
         }
     }
 
-    /// Returns the distance of bodies whose shapes are certainly nearer than `distance`; not above 0 if there is none.
+    /// Returns the distance below which bodies have shapes that are certainly nearer than `distance`; not above 0 if
+    /// there is none.
     pub(crate) fn below(self, distance: f64) -> f64 {
         if self.0 > 0.0 {
             (distance - self.0).next_down()

@@ -2,8 +2,8 @@
 
 use super::polytope::{Face, Origin};
 
-/// The facets of a piece: convex polygons, each a loop of indices into the piece's points,
-/// counterclockwise seen from outside; and the mesh's faces on them.
+/// The facets of a piece: convex polygons, each a loop of indices into the piece's points, counterclockwise seen from
+/// outside. The mesh's faces on them are included.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
     pub(crate) origins: &'a [Origin],
@@ -15,7 +15,7 @@ pub struct Facets<'a> {
 }
 
 impl<'a> Facets<'a> {
-    /// No facets.
+    /// The empty list of facets.
     pub const NONE: Facets<'static> = Facets {
         origins: &[],
         ends: &[],
@@ -24,7 +24,7 @@ impl<'a> Facets<'a> {
         faces: &[],
     };
 
-    /// The number of facets.
+    /// Returns the number of facets.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
@@ -34,7 +34,7 @@ impl<'a> Facets<'a> {
         self.ends.is_empty()
     }
 
-    /// The corner loops, facet by facet.
+    /// Returns the corner loops, facet by facet.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &'a [u32]> + Clone + use<'a> {
         let facets = *self;
         (0..facets.ends.len()).map(move |k| facets.get(k))
@@ -46,7 +46,7 @@ impl<'a> Facets<'a> {
         &self.corners[start as usize..self.ends[k] as usize]
     }
 
-    /// The origin of each facet in the mesh.
+    /// Returns the origin of each facet in the mesh.
     pub fn origins(&self) -> &'a [Origin] {
         self.origins
     }

@@ -1,4 +1,4 @@
-//! Finds the side of a flat piece on which the solid is.
+//! The side of a flat piece on which the solid is.
 
 use super::tree::ray::crossings;
 use super::{Body, Volume};
@@ -7,15 +7,15 @@ use crate::rounding::U64;
 use crate::tuning::BELOW_SURFACE;
 use glam::DVec3;
 
-/// The side of a flat piece on which the solid is, which the body's faces bound.
+/// The side of a flat piece on which the solid is that the body's faces bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Facing {
-    /// On one side only: the unit normal that points out of the solid.
+    /// The solid is on one side only; the unit normal points out of it.
     Out(DVec3),
-    /// On neither side, or unknown: a piece of a surface, a piece with a volume or no area, two
-    /// faces back to back.
+    /// The solid is on neither side, or its side is unknown: a piece of a surface, a piece with a volume or without
+    /// an area, two faces back to back.
     Neither,
-    /// On one side here and on the other there, or too near to other faces to decide.
+    /// The solid is on different sides at different points, or other faces are too near to decide.
     Unclear,
 }
 
@@ -36,8 +36,8 @@ impl Body {
         self.kept(piece).map_or(Facing::Neither, |kept| kept.facing)
     }
 
-    /// Returns the unit normal of a flat piece that points out of the solid bounded by the body's
-    /// faces; none if there is none.
+    /// Returns the unit normal of a flat piece that points out of the solid bounded by the body's faces; `None` if
+    /// the piece has none.
     pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
         match self.facing(piece) {
             Facing::Out(normal) => Some(normal),
@@ -45,8 +45,7 @@ impl Body {
         }
     }
 
-    /// Returns a point of the solid next to the middle of a piece, or within it; none if there is
-    /// none.
+    /// Returns a point of the solid next to the middle of a piece, or within the piece; `None` if there is none.
     pub(crate) fn point_inside(&self, piece: u32) -> Option<DVec3> {
         if !self.pieces().get(piece as usize).is_flat() {
             return Some(self.middle(piece));
@@ -99,8 +98,7 @@ impl Body {
         Kept { facing, inside }
     }
 
-    /// Returns the side of a face with that normal on which the surface winds about a point of the
-    /// face.
+    /// Returns the side of a face with this normal on which the surface winds about a point of the face.
     fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
         // A mean is rounded in units of the coordinates.
         let slack = 4.0 * U64 * at.abs().element_sum();
@@ -121,7 +119,7 @@ impl Body {
         }
     }
 
-    /// Returns whether its surface certainly winds about a point.
+    /// Returns whether the body's surface certainly winds about a point.
     fn winds_about(&self, point: DVec3) -> bool {
         crossings(self.tree(), self.pieces(), point, 0.0)
             .is_some_and(|found| found.on == 0 && found.beyond != 0)

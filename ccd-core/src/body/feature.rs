@@ -1,10 +1,10 @@
-//! Features that touch: vertices, edges and faces, numbered as in the mesh.
+//! Features in contact: vertices, edges and faces, numbered as in the mesh.
 
 use std::fmt;
 
 /// A feature of a body, numbered from 0 as in the body's mesh.
 ///
-/// Prints as `v7`, `e3-7`, `f12` or `p0`.
+/// A feature prints as `v7`, `e3-7`, `f12` or `p0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Feature {
     /// A vertex.
@@ -18,7 +18,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    /// Returns the edge between two vertices, or the vertex when both are the same one.
+    /// Returns the edge between two vertices, or the vertex when both are the same.
     pub fn edge(v: u32, w: u32) -> Self {
         if v == w {
             Feature::Vertex(v)

@@ -1,4 +1,4 @@
-//! Finds the feature of a mesh that contains a point of a polytope.
+//! The lookup of the mesh's feature that contains a point of a polytope.
 
 use super::combination::Combination;
 use super::facets::range;
@@ -79,8 +79,8 @@ struct FacetsByCorner {
 }
 
 impl FacetsByCorner {
-    /// Returns the table of a piece of many facets, made once and stored; none for few facets, or a
-    /// piece outside of a list.
+    /// Returns the table of a piece of many facets, created once and stored; `None` for a piece of few facets, or
+    /// outside of a list.
     fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > CLIMBED_POINTS;
         let kept = many.then(|| piece.kept(|piece| Box::new(FacetsByCorner::new(piece))))?;
@@ -131,7 +131,7 @@ pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     (off <= reach).then_some(face)
 }
 
-/// Returns the larger of a point's distances from a triangle's plane, and beyond its edges.
+/// Returns the greater of two distances of a point: from a triangle's plane, and beyond the triangle's edges.
 fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;

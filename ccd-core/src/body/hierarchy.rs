@@ -1,4 +1,4 @@
-//! A binary hierarchy over pieces, the output of any BVH builder.
+//! A binary hierarchy over pieces, as any BVH builder returns it.
 
 use super::pieces::Pieces;
 use crate::error::InputError;
@@ -6,8 +6,8 @@ use glam::DVec3;
 
 /// A binary tree whose leaves are the pieces of a body, each exactly once.
 ///
-/// It only groups pieces; all bounds are computed from the pieces. A poor hierarchy therefore makes
-/// a query slow, never wrong.
+/// A hierarchy only groups pieces; all bounds are computed from the pieces. A poor hierarchy therefore makes a query
+/// slow, never wrong.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -90,7 +90,7 @@ impl Hierarchy {
         Hierarchy { nodes }
     }
 
-    /// The nodes, the root first.
+    /// Returns the nodes, the root first.
     pub fn nodes(&self) -> &[HierarchyNode] {
         &self.nodes
     }
@@ -100,7 +100,7 @@ impl Hierarchy {
 impl TryFrom<Vec<HierarchyNode>> for Hierarchy {
     type Error = InputError;
 
-    /// Makes a hierarchy of stored nodes; the number of leaves is the number of pieces.
+    /// Creates a hierarchy from stored nodes; the number of leaves is the number of pieces.
     fn try_from(nodes: Vec<HierarchyNode>) -> Result<Self, InputError> {
         let leaf = |node: &&HierarchyNode| matches!(node, HierarchyNode::Leaf(_));
         let pieces = nodes.iter().filter(leaf).count();

@@ -32,9 +32,9 @@ use std::sync::Arc;
 ///
 /// # Guarantee
 /// - A leaf's hull is its piece.
-/// - An inner hull is exactly that of its children's points: each of its points is one of theirs,
-///   and each of theirs is inside of it. Construction checks both with exact arithmetic `[SHE97]`.
-///   The distance of two nodes therefore never exceeds that of any two pieces below them.
+/// - The hull of an inner node is exactly that of its children's points: each of its points is one of theirs, and
+///   each of theirs is inside it. Construction checks both with exact arithmetic `[SHE97]`. The distance of two nodes
+///   therefore never exceeds that of any two pieces below them.
 /// - If the nearest features of two nodes are [not free](FacetClass::Free), their distance is that
 ///   of the pieces below them.
 ///
@@ -63,25 +63,25 @@ struct Hulls {
     evenly_rounded: Vec<bool>,
     /// Half the diagonal of each hull's box, rounding included.
     sizes: Vec<f64>,
-    /// The facets that meet in each point of all hulls, counted within its hull, in order.
+    /// The facets that meet in each point of all hulls, by their indices within the hull, in order.
     meeting: Vec<u32>,
     /// The end of each point's facets.
     meeting_ends: Vec<u32>,
 }
 
 impl HullTree {
-    /// The nodes, the root first; leaves name pieces.
+    /// Returns the nodes, the root first; leaves name pieces.
     pub fn hierarchy(&self) -> &Hierarchy {
         &self.hierarchy
     }
 
-    /// The hulls of all nodes, in their order, usable like pieces. Features of an inner hull have
+    /// Returns the hulls of all nodes, in the order of the nodes, usable like pieces. Features of an inner hull have
     /// their names in the mesh if they are part of it.
     pub fn hulls(&self) -> &Pieces {
         &self.hulls.pieces
     }
 
-    /// The classes of the facets of a node's hull, in their order.
+    /// Returns the classes of the facets of a node's hull, in the order of the facets.
     ///
     /// # Panics
     /// When there is no such node.
@@ -122,8 +122,8 @@ impl HullTree {
         holding.map(class).min().unwrap_or(inside)
     }
 
-    /// Returns a node's hull. If it has many points, extremal ones are found by climbing edges that
-    /// are proven to be those of the hull, otherwise by searching a tree.
+    /// Returns a node's hull. In a hull of many points, extremal ones are found by climbing edges if these are proven
+    /// to be those of the hull, and otherwise by searching a tree.
     pub(crate) fn hull(&self, node: u32) -> Piece<'_> {
         self.hulls.pieces.get(node as usize).supported(support_of)
     }
@@ -145,13 +145,13 @@ impl HullTree {
             .collect()
     }
 
-    /// Half the diagonal of a node's box, rounding included.
+    /// Returns half the diagonal of a node's box, rounding included.
     #[inline]
     pub(crate) fn size(&self, node: u32) -> f64 {
         self.hulls.sizes[node as usize]
     }
 
-    /// The approximate number of bytes held.
+    /// Returns the approximate number of bytes held.
     pub(crate) fn bytes(&self) -> usize {
         self.hulls.bytes()
     }

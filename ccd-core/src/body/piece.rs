@@ -16,15 +16,15 @@ use std::any::Any;
 /// A ball is one point and a radius, a capsule two points and a radius, a triangle three points.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<'a> {
-    /// At least one point, all finite; not necessarily all extreme, or distinct.
+    /// The points: at least one, all finite; not necessarily all extreme, or distinct.
     pub points: &'a [DVec3],
-    /// Rounding radius ≥ 0.
+    /// The rounding radius, ≥ 0.
     pub radius: f64,
-    /// The facets of the hull, where known: empty for up to three points.
+    /// The facets of the hull, if known; empty for up to three points.
     pub facets: Facets<'a>,
     /// A search for extremal points, if one is prepared and proven correct.
     pub(crate) support: Option<&'a Support>,
-    /// The place for the values that backends store with it.
+    /// The place for the values that backends store with the piece.
     pub(crate) slot: Option<Slot<'a>>,
 }
 
@@ -48,14 +48,14 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns a value that a backend derives from the piece. It is made at the first request and
-    /// kept as long as the list of the piece. None for a piece that belongs to no list.
+    /// Returns a value that a backend derives from the piece. The value is computed at the first request and stored
+    /// as long as the list of the piece exists. Returns `None` for a piece that belongs to no list.
     ///
-    /// The value belongs to the piece as the list has it, regardless of later changes of the public
-    /// fields. `make` must not request the same type of the same piece: it would wait for itself.
+    /// The value belongs to the piece as stored in the list, regardless of later changes of the public fields. The
+    /// function `make` must not request the same type of the same piece: it would wait for itself.
     ///
-    /// Each type has its own values, so that every backend should have a type of its own. The first
-    /// request takes memory for one entry for every piece of the list: box large values.
+    /// Each type has its own values, so every backend should define its own type. The first request takes memory for
+    /// one entry for every piece of the list: box large values.
     ///
     /// ```
     /// use ccd_core::{glam::DVec3, Piece, Pieces};
@@ -75,7 +75,8 @@ impl<'a> Piece<'a> {
         Some(entry.get_or_init(|| make(self)))
     }
 
-    /// Returns the piece with a search for extremal points if it has many, made once and kept.
+    /// Returns the piece with a search for extremal points if it has many points. The search is created once and
+    /// stored.
     #[inline]
     pub(crate) fn supported(self, make: impl FnOnce(&Self) -> Support) -> Self {
         if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
@@ -88,8 +89,8 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns the mesh's triangles that are on the piece, with the numbers of their faces;
-    /// polygons are fans about their first corner.
+    /// Returns the mesh's triangles that are on the piece, with the numbers of their faces. Polygons become fans
+    /// about their first corner.
     pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
         let facets = self.facets.origins.iter().zip(self.facets.iter());
         let fans = facets.flat_map(|(origin, corners)| {
@@ -107,11 +108,11 @@ impl<'a> Piece<'a> {
         fans.chain(faces.map(|face| (face.id, face.corners)))
     }
 
-    /// Returns the index of a point that is farthest along a direction of any length. For a piece
-    /// of a body with many points, it does not look at all of them.
+    /// Returns the index of a point that is farthest along a direction of any length. For a piece of a body with many
+    /// points, only some of them are tested.
     ///
     /// # Guarantee
-    /// Like [`Support::extremal`].
+    /// The guarantee of [`Support::extremal`].
     pub fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(support) = self.support {
             return support.extremal(direction);
@@ -146,7 +147,7 @@ impl<'a> Piece<'a> {
         squares.fold(0.0, greater).sqrt()
     }
 
-    /// Returns the approximate number of looks at points to find an extremal one.
+    /// Returns the approximate number of points tested to find an extremal one.
     pub(crate) fn looks(&self) -> u64 {
         let few = self.points.len().min(CLIMBED_POINTS);
         match self.support {
@@ -155,7 +156,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns whether it is in a plane: a polytope of volume has more than two facets.
+    /// Returns whether the piece is in a plane: a polytope with volume has more than two facets.
     pub(crate) fn is_flat(&self) -> bool {
         self.points.len() <= 3 || self.facets.len() == 2
     }

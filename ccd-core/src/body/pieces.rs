@@ -26,7 +26,7 @@ use glam::DVec3;
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    /// The end of each piece's points; empty for triangles, which have three each.
+    /// The end of each piece's points. The list is empty for triangles, which have three each.
     point_ends: Vec<u32>,
     radii: Radii,
     shape: Shape,
@@ -34,7 +34,7 @@ pub struct Pieces {
     side_table: SideTable,
 }
 
-/// Indices have 32 bits: a quarter of their range names points, the rest leaves room for nodes.
+/// The most points. Indices have 32 bits: a quarter of their range is for points, the rest leaves room for nodes.
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ enum Radii {
 
 #[derive(Clone, Debug)]
 enum Shape {
-    /// Every piece is a triangle; with the mesh's number of each.
+    /// Every piece is a triangle, and has its number in the mesh.
     Triangles {
         face_ids: Vec<u32>,
     },
@@ -136,7 +136,7 @@ impl Pieces {
         Ok(self)
     }
 
-    /// The number of pieces: at least one.
+    /// Returns the number of pieces, which is at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         match &self.shape {
@@ -174,12 +174,12 @@ impl Pieces {
         (0..self.len()).map(|k| self.get(k))
     }
 
-    /// All points of all pieces in order; points that pieces share appear once for each.
+    /// Returns all points of all pieces in order. Points that pieces share appear once for each piece.
     pub fn points(&self) -> &[DVec3] {
         &self.points
     }
 
-    /// The approximate number of bytes held.
+    /// Returns the approximate number of bytes held.
     pub(crate) fn bytes(&self) -> usize {
         let numbers = self.vertex_ids.len() + self.point_ends.len();
         let others = match &self.shape {
@@ -196,8 +196,7 @@ impl Pieces {
         [corners[0], corners[1], corners[2]]
     }
 
-    /// Returns the corners of a piece that is a triangle, or of the first of the mesh's triangles
-    /// on it.
+    /// Returns the corners of a piece that is a triangle, or of the first of the mesh's triangles on the piece.
     pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
         if self.all_triangles() {
             Some(self.triangle(index))
@@ -238,9 +237,9 @@ impl Pieces {
         out
     }
 
-    /// Returns the mesh's feature at a point of a piece: the vertex, edge or face that contains the
-    /// corners that the point combines, or the face that contains the point all the same;
-    /// [`Feature::Piece`] inside, and on a polytope whose facets are all virtual.
+    /// Returns the mesh's feature at a point of a piece. This is the vertex, edge or face that contains the corners
+    /// that the point combines, or else the face that contains the point; [`Feature::Piece`] inside, and on a
+    /// polytope whose facets are all virtual.
     pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
         match (&self.shape, point.support()) {

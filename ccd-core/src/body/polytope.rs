@@ -1,4 +1,4 @@
-//! A piece, as input.
+//! The input format of a piece.
 
 use glam::DVec3;
 
@@ -6,15 +6,15 @@ use glam::DVec3;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Polytope {
-    /// The points whose hull it is.
+    /// The points; the polytope is their hull.
     pub points: Vec<DVec3>,
-    /// The number of each point in its mesh; empty numbers them from 0.
+    /// The number of each point in its mesh. An empty list numbers them from 0.
     pub vertex_ids: Vec<u32>,
-    /// The hull's facets, where known: they tile its boundary; a flat polygon has two.
+    /// The hull's facets, if known: they tile the boundary of the hull. A flat polygon has two.
     pub facets: Vec<Facet>,
     /// The mesh's faces that are on the hull's boundary and are not a facet by themselves.
     pub faces: Vec<Face>,
-    /// Rounding radius ≥ 0.
+    /// The rounding radius, ≥ 0.
     pub radius: f64,
 }
 
@@ -22,9 +22,9 @@ pub struct Polytope {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
-    /// Its origin in the mesh.
+    /// The origin of the facet in the mesh.
     pub origin: Origin,
-    /// Indices into the polytope's points, counterclockwise seen from outside.
+    /// The corners as indices into the polytope's points, counterclockwise seen from outside.
     pub corners: Vec<u32>,
 }
 
@@ -32,11 +32,11 @@ pub struct Facet {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Origin {
-    /// The face of that number.
+    /// The face with this number.
     Face(u32),
     /// Several coplanar faces, listed in [`Polytope::faces`].
     Faces,
-    /// No part of the mesh, or only partly: it closes the polytope.
+    /// The facet is no part of the mesh, or only partly: it closes the polytope.
     Virtual,
 }
 
@@ -44,10 +44,10 @@ pub enum Origin {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Face {
-    /// Its number in the mesh.
+    /// The number of the face in the mesh.
     pub id: u32,
-    /// The numbers of its corners in the mesh.
+    /// The numbers of the face's corners in the mesh.
     pub vertices: [u32; 3],
-    /// Counterclockwise seen from outside; not necessarily points of the polytope.
+    /// The corners, counterclockwise seen from outside; not necessarily points of the polytope.
     pub corners: [DVec3; 3],
 }

@@ -7,7 +7,7 @@ use crate::error::{InputError, check_length};
 use glam::DVec3;
 
 impl Body {
-    /// A ball about the origin; exact, not a mesh.
+    /// Creates a ball about the origin; exact, not a mesh.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a radius that is not from 0 to
@@ -21,8 +21,7 @@ impl Body {
         })
     }
 
-    /// Returns all points within `radius` of the segment from `−half_height` to `half_height` along
-    /// z.
+    /// Creates a capsule: all points within `radius` of the segment from `−half_height` to `half_height` along z.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a length that is not from 0 to
@@ -37,7 +36,7 @@ impl Body {
         })
     }
 
-    /// A box about the origin, given by half of each side.
+    /// Creates a box about the origin, given by half of each side.
     ///
     /// Corner `k` has a positive x, y, z if bit 0, 1, 2 of `k` is set. Faces 0 to 5 have the
     /// outward normals −x, +x, −y, +y, −z, +z.
@@ -78,10 +77,10 @@ impl Body {
         })
     }
 
-    /// A body of one convex piece, filled.
+    /// Creates a solid body of one convex piece.
     ///
     /// # Errors
-    /// Those of [`Pieces::polytopes`].
+    /// The errors of [`Pieces::polytopes`].
     pub fn polytope(polytope: Polytope) -> Result<Self, InputError> {
         Body::new(&Pieces::polytopes(&[polytope])?, Volume::Solid)
     }

@@ -1,4 +1,4 @@
-//! Cylinders and cones, as convex polytopes about them.
+//! Cylinders and cones, enclosed by convex polytopes.
 
 use super::pieces::Pieces;
 use super::polytope::{Facet, Origin, Polytope};
@@ -12,7 +12,8 @@ use std::f64::consts::{PI, TAU};
 
 /// A cylinder or a cone about the origin, along z.
 ///
-/// A circle is no hull of points: a body is a polytope about the shape, an [`Enclosure`].
+/// A circle is not the hull of finitely many points. The body is therefore a polytope about the shape, an
+/// [`Enclosure`].
 ///
 /// ```
 /// use ccd_core::Round;
@@ -39,10 +40,10 @@ enum Kind {
 /// A convex polytope about a [`Round`] shape.
 ///
 /// # Guarantee
-/// It holds the shape, in exact arithmetic on the stored numbers. None of its points is farther from the shape than the
-/// [excess](Enclosure::excess): contacts may be early by that, and never late. Upper
-/// bounds of distances have it added. It touches the shape in the planes of its
-/// flat ends, and along four lines in the planes x = 0 and y = 0.
+/// The polytope contains the shape, in exact arithmetic on the stored numbers. None of its points is farther from the
+/// shape than the [excess](Enclosure::excess): contacts may be early by that distance, and are never late. Upper
+/// bounds of distances include the excess. The polytope touches the shape in the planes of its flat ends, and along
+/// four lines in the planes x = 0 and y = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enclosure {
     polytope: Polytope,
@@ -51,7 +52,7 @@ pub struct Enclosure {
 }
 
 impl Round {
-    /// A cylinder, from `−half_height` to `half_height` along z.
+    /// Creates a cylinder, from `−half_height` to `half_height` along z.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
@@ -59,7 +60,7 @@ impl Round {
         Round::new(Kind::Cylinder, radius, half_height)
     }
 
-    /// A cone. Its base is at `−half_height` along z, its apex at `half_height`.
+    /// Creates a cone. Its base is at `−half_height` along z, its apex at `half_height`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
@@ -86,17 +87,17 @@ impl Round {
         })
     }
 
-    /// The excess of [`Body::cylinder`] and [`Body::cone`]: [`EXCESS_SHARE`] of the radius.
+    /// Returns the excess of [`Body::cylinder`] and [`Body::cone`]: [`EXCESS_SHARE`] of the radius.
     pub fn usual_excess(&self) -> f64 {
         EXCESS_SHARE * self.radius
     }
 
-    /// An excess that is accepted, with [`MOST_CORNERS`]: a little less than 1.9e-8 of the radius.
+    /// Returns an excess that is accepted, with [`MOST_CORNERS`]: a little less than 1.9e-8 of the radius.
     pub fn least_excess(&self) -> f64 {
         1.01 * self.radius * (1.0 / (PI / MOST_CORNERS).cos() - 1.0)
     }
 
-    /// Returns a polytope about it that exceeds it by at most a length.
+    /// Returns a polytope that contains the shape, and exceeds it by at most a length.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for an excess less than the [least](Round::least_excess), or a radius whose polytope
@@ -138,24 +139,24 @@ impl Round {
 }
 
 impl Enclosure {
-    /// The polytope. Its facets are its exact boundary, and plane: those that are no triangles have all corners at one
-    /// height, or in pairs above each other.
+    /// Returns the polytope. Its facets are its exact boundary, and plane: facets that are not triangles have all
+    /// corners at one height, or in pairs above each other.
     ///
-    /// The base is facet 0, the other end of a cylinder facet 1; the sides follow, counterclockwise about z.
+    /// Facet 0 is the base, and facet 1 the other end of a cylinder. The sides follow, counterclockwise about z.
     pub fn polytope(&self) -> &Polytope {
         &self.polytope
     }
 
-    /// The largest distance of its points from the shape.
+    /// Returns the largest distance of the polytope's points from the shape.
     pub fn excess(&self) -> f64 {
         self.excess
     }
 
-    /// Returns the body, solid, with its [excess](Body::excess). One that is not flat has
+    /// Returns the solid body with its [excess](Body::excess). A body that is not flat has
     /// [triangles](Body::with_surface), too.
     ///
     /// # Errors
-    /// Those of [`Body::polytope`].
+    /// The errors of [`Body::polytope`].
     pub fn body(&self) -> Result<Body, InputError> {
         let body = Body::polytope(self.polytope.clone())?.with_excess(self.excess)?;
         let (triangles, numbers) = self.triangles();
@@ -166,8 +167,8 @@ impl Enclosure {
         body.with_surface(Body::new(&pieces, Volume::Solid)?)
     }
 
-    /// Returns the facets as triangles, each with the number of its facet; none of a flat one, which gains nothing by
-    /// them.
+    /// Returns the facets as triangles, each with the number of its facet. A flat polytope returns no triangles: they
+    /// would have no advantage.
     pub fn triangles(&self) -> (Vec<[u32; 3]>, Vec<u32>) {
         let facets = (0..).zip(&self.polytope.facets);
         let fans = facets.flat_map(|(number, Facet { corners, .. })| {
@@ -184,10 +185,11 @@ impl Enclosure {
 
 /// The corners of a regular polygon about a circle, counterclockwise.
 ///
-/// Their number is a multiple of four, and the middles of edges are on the axes, where the polygon touches the circle.
+/// The number of corners is a multiple of four. The middles of edges are on the axes, where the polygon touches the
+/// circle.
 struct Ring {
     corners: Vec<[f64; 2]>,
-    /// The largest distance of its points from the disc.
+    /// The largest distance of the polygon's points from the disc.
     excess: f64,
 }
 
@@ -201,7 +203,7 @@ impl Ring {
         }
         let count = corners(radius, excess)?;
         let step = TAU / count;
-        // Of the corners; the edges are `radius` from the middle.
+        // This is the distance of the corners from the middle; the edges are at distance `radius`.
         let reach = radius / (0.5 * step).cos() * ABOUT + 4.0 * LEAST_F64;
         if !(reach <= MAX_COORDINATE) {
             return Err(InputError::OutOfRange {
@@ -221,10 +223,10 @@ impl Ring {
     }
 }
 
-/// Returns the number of corners of a polygon that exceeds a circle by no more than is asked.
+/// Returns the number of corners of a polygon that exceeds a circle by at most `asked`.
 fn corners(radius: f64, asked: f64) -> Result<f64, InputError> {
-    // A corner is at `radius / cos(π/n)`. The share of the excess is clamped where angles lose no digits; what the
-    // rounding of the corners adds is taken off.
+    // A corner is at `radius / cos(π/n)`. The share of the excess is clamped to a range in which angles lose no
+    // digits. The rounding of the corners is subtracted.
     let share = lesser(asked / radius - 4.0 * (ABOUT - 1.0), 1.0);
     let half_angle = (share * (2.0 + share)).sqrt().atan();
     let count = 4.0 * greater(1.0, (PI / half_angle / 4.0).ceil());
@@ -241,11 +243,11 @@ fn corners(radius: f64, asked: f64) -> Result<f64, InputError> {
 }
 
 impl Body {
-    /// A cylinder about the origin, from `−half_height` to `half_height` along z: a polytope about it, which exceeds it
-    /// by at most [`EXCESS_SHARE`] of the radius. [`Round::enclosed`] makes finer ones.
+    /// Creates a cylinder about the origin, from `−half_height` to `half_height` along z. The body is a polytope
+    /// about it, which exceeds it by at most [`EXCESS_SHARE`] of the radius. [`Round::enclosed`] returns finer ones.
     ///
     /// # Guarantee
-    /// That of [`Enclosure`]: contacts may be early by the excess, and never late.
+    /// The guarantee of [`Enclosure`]: contacts may be early by the excess, and are never late.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`].
@@ -261,8 +263,8 @@ impl Body {
         Round::cylinder(radius, half_height)?.usual_body()
     }
 
-    /// A cone about the origin, whose base is at `−half_height` along z, and whose apex at `half_height`: a polytope
-    /// about it, as of [`Body::cylinder`].
+    /// Creates a cone about the origin, with the base at `−half_height` along z, and the apex at `half_height`. The
+    /// body is a polytope about it, as that of [`Body::cylinder`].
     ///
     /// # Errors
     /// [`InputError::OutOfRange`].

@@ -11,7 +11,7 @@ pub(crate) type Shell = [DVec3; 6];
 /// Returns the extreme points of every connected part; pieces that share a point are connected.
 ///
 /// # Complexity
-/// Linear in the number of points, about.
+/// Approximately linear in the number of points.
 pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
     let (mut parts, distinct) = by_number(pieces);
@@ -22,7 +22,7 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
             count -= usize::from(parts.join(k - 1, k));
         }
     }
-    // A single part needs no more joining.
+    // A single part needs no further joining.
     if count > 1 {
         join_equal(points, &distinct, &mut parts);
     }
@@ -45,10 +45,10 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     shells
 }
 
-/// Joins points with one number at one place. Returns the sets, and the first point of each.
+/// Joins points with the same number at the same place. Returns the sets, and the first point of each.
 ///
-/// The points of a mesh's vertex have its number, so that hardly any equal points remain. Numbers
-/// are not relied on: points count as equal by their coordinates.
+/// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
+/// numbers: points count as equal by their coordinates.
 fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
@@ -56,7 +56,7 @@ fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
         .iter()
         .max()
         .map_or(0, |&last| (last as usize).saturating_add(1));
-    // Numbers may be anything: a table of them must not be larger than the points.
+    // Numbers may be arbitrary: a table of them must not be larger than the points.
     let range = if range <= 2 * points.len() { range } else { 0 };
     let mut first = vec![NONE; range];
     let (mut parts, mut distinct) = (Vec::with_capacity(points.len()), Vec::new());
@@ -83,7 +83,7 @@ fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
 fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
-        // 0 and −0 are the same.
+        // The numbers 0 and −0 are equal.
         let bits = (points[k as usize] + DVec3::ZERO)
             .to_array()
             .map(f64::to_bits);
@@ -98,7 +98,7 @@ fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
     }
 }
 
-/// Disjoint sets: every element names another one of its set, a root itself.
+/// Disjoint sets: every element stores another one of its set, and a root stores itself.
 struct Parts(Vec<u32>);
 
 impl Parts {
@@ -111,7 +111,7 @@ impl Parts {
         k
     }
 
-    /// Makes one set of two. Returns whether they were two.
+    /// Joins the sets of two elements. Returns whether the sets were different.
     fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;

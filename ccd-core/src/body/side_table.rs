@@ -4,16 +4,16 @@ use std::any::Any;
 use std::fmt;
 use std::sync::OnceLock;
 
-/// One list for every requested type, with an entry for each piece that is made at its first
+/// A table of values: one list for every requested type. Each list has an entry for each piece, computed at its first
 /// request.
 ///
-/// It lives as long as the pieces, and is shared by all threads that share them. A copy of the
-/// pieces starts with an empty table.
+/// The table lives as long as the pieces, and is shared by all threads that share them. A copy of the pieces starts
+/// with an empty table.
 #[derive(Default)]
 pub(crate) struct SideTable(OnceLock<Box<Column>>);
 
 struct Column {
-    /// A `Vec<OnceLock<T>>` of some `T`.
+    /// A `Vec<OnceLock<T>>` of some type `T`.
     entries: Box<dyn Any + Send + Sync>,
     /// The columns of other types.
     next: SideTable,

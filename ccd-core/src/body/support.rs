@@ -14,12 +14,11 @@ use super::facets::Facets;
 use crate::tuning::CLIMBED_POINTS;
 use glam::DVec3;
 
-/// Finds extremal corners of one piece. Few corners are all scanned, eight at once. For many
-/// corners, a tree over them is searched, or edges are climbed from a start in a table of
-/// directions.
+/// A search for extremal corners of one piece. If there are few corners, all are scanned, eight at once. For many
+/// corners, a tree over them is searched, or edges are climbed from a start in a table of directions.
 ///
-/// A [`Body`](crate::Body) keeps trees for its pieces of many points; they suit any points.
-/// Climbing takes half the time and relies on the facets.
+/// A [`Body`](crate::Body) stores trees for its pieces of many points; trees suit any points. Climbing takes half the
+/// time, and relies on the facets.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, Facets, Support};
@@ -29,7 +28,7 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Debug)]
 pub enum Support {
-    /// Looks at every corner.
+    /// Tests every corner.
     Scan(SupportScan),
     /// Climbs along edges.
     Climb(Box<SupportTable>),
@@ -38,8 +37,8 @@ pub enum Support {
 }
 
 impl Support {
-    /// Prepares a piece of these points. If there are more than [`CLIMBED_POINTS`] of them, the
-    /// facets must be those of their hull; without facets, every point is scanned.
+    /// Prepares a piece of these points. If there are more than [`CLIMBED_POINTS`] of them, the facets must be those
+    /// of their hull. Without facets, every point is scanned.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
         let climbed = points.len() > CLIMBED_POINTS;
         match climbed.then(|| SupportTable::new(points, facets)).flatten() {
@@ -68,7 +67,7 @@ impl Support {
         }
     }
 
-    /// Returns the same, for a direction along which a corner may be known to be nearly extreme.
+    /// Like `Support::extremal`, for a direction along which a corner may be known to be nearly extreme.
     #[inline]
     pub(crate) fn extremal_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {

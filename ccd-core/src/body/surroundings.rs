@@ -1,4 +1,4 @@
-//! The surface around one of its points.
+//! The surface of a body around one of its points.
 
 use super::Body;
 use super::piece::Piece;
@@ -6,12 +6,12 @@ use super::tree::point_query::{is_past, pieces_near};
 use glam::DVec3;
 
 impl Body {
-    /// Calls `add` with the ways of the surface around a point of it, in the body's frame: the vectors to the corners
-    /// of all faces that are nearer than about `reach`, to the points of pieces without known faces, and into the
-    /// solid.
+    /// Calls `add` with the offsets of the surface around a point of it, in the body's frame. They are vectors from
+    /// the point: to the corners of all faces nearer than about `reach`, to the points of pieces without known faces,
+    /// and into the solid.
     ///
     /// # Complexity
-    /// Linear in the faces of the pieces that are so near.
+    /// Linear in the number of faces of the pieces within that distance.
     pub(crate) fn ways_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for k in pieces_near(self.tree(), at, reach) {
             let piece = self.pieces().get(k as usize);
@@ -21,7 +21,7 @@ impl Body {
                     [a] => !is_past([a; 3], at, reach),
                     [a, b] => !is_past([a, b, b], at, reach),
                     [a, b, c] => !is_past([a, b, c], at, reach),
-                    // Its box is.
+                    // The box of the piece is near.
                     _ => true,
                 };
                 if near {
@@ -36,8 +36,8 @@ impl Body {
     }
 }
 
-/// Calls `look` with the mesh's triangles on a piece. If there are none, calls it with those of its facets, or with all
-/// its points.
+/// Calls `look` with the mesh's triangles on a piece. If there are none, calls it with those of the piece's facets,
+/// or with all points of the piece.
 fn for_each_face(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
     let mut is_on_mesh = false;
     for (_, triangle) in piece.mesh_triangles() {

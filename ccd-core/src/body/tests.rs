@@ -2,7 +2,7 @@ use super::polytope::{Facet, Origin, Polytope};
 use super::*;
 use glam::DVec3;
 
-/// A box on a square, and the square of another piece under it, twice as large.
+/// A box on a square, where the square of another piece under it is twice as large.
 fn box_on_a_square() -> Body {
     let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let facet = |origin, corners: &[u32]| Facet {

@@ -1,16 +1,16 @@
-//! Work on all cores whose result does not depend on their number.
+//! Parallel work on all cores, with a result that does not depend on their number.
 
 use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// Lists of fewer elements, and subtrees of fewer nodes, are not worth a thread.
+/// The least number of elements of a list, and of nodes of a subtree, that are worth a thread.
 pub(super) const WORTHWHILE: usize = 1024;
 
-/// Consecutive elements that one thread takes at a time.
+/// The number of consecutive elements that one thread takes at a time.
 const SHARE: usize = 64;
 
-/// Calls a function with every element and its index, each thread with a workspace of its own.
+/// Calls a function with every element and its index. Each thread has its own workspace.
 pub(super) fn for_each<T: Send, W: Clone + Send>(
     list: &mut [T],
     workspace: &W,
@@ -47,7 +47,7 @@ fn for_each_in<T: Send, W: Clone + Send>(
     scope(|threads_of| {
         for _ in 1..threads {
             let own = workspace.clone();
-            // Without a thread, the others take its shares.
+            // If no thread can be started, the others take its shares.
             let thread = Builder::new().spawn_scoped(threads_of, || take_shares(own));
             if thread.is_err() {
                 break;
@@ -57,7 +57,7 @@ fn for_each_in<T: Send, W: Clone + Send>(
     });
 }
 
-/// Calls two functions, side by side if the work is worth a thread and there is one.
+/// Calls two functions, in parallel if the work is worth a thread and there is one.
 pub(super) fn join<A: Send, B>(
     size: usize,
     aside: impl FnOnce() -> A + Send,

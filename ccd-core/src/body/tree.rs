@@ -20,7 +20,7 @@ pub(crate) use whole::Whole;
 use super::pieces::Pieces;
 use glam::DVec3;
 
-/// An immutable tree in the body's frame. Node 0 is the root; ids beyond the nodes name triangles.
+/// An immutable tree in the body's frame. Node 0 is the root. Ids after those of the nodes are triangles.
 ///
 /// # Invariants
 /// A node's box and ball contain all its pieces, rounding radii included, in exact arithmetic on
@@ -38,10 +38,10 @@ pub(crate) struct Tree {
     span: f64,
 }
 
-/// A node, or a triangle beyond the nodes.
+/// The id of a node, or of a triangle after the nodes.
 pub(crate) type NodeId = u32;
 
-/// The node or triangle that a [`NodeId`] names.
+/// The node or triangle of a [`NodeId`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Named<'a> {
     Node(&'a Node),
@@ -63,7 +63,7 @@ impl Tree {
         self.nodes.len()
     }
 
-    /// Returns the piece that an id names, if it names a single one.
+    /// Returns the piece of an id, if it is that of a single piece.
     #[inline]
     pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
         match self.get(id) {
@@ -85,7 +85,7 @@ impl Tree {
         Some(&self.slabs[place].1)
     }
 
-    /// Lays out a group of triangles, of the pieces that the tree is over.
+    /// Returns the layout of a group of triangles, which are pieces of the tree.
     #[inline(always)]
     pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
         let row = &self.triangles[index as usize];
@@ -94,32 +94,32 @@ impl Tree {
         TriangleGroup::new(row, triangles.as_chunks().0)
     }
 
-    /// The members of a group of triangles.
+    /// Returns the members of a group of triangles.
     pub(crate) fn triangle_members(&self, index: u32) -> &Members {
         &self.triangles[index as usize].members
     }
 
-    /// The largest distance of a point from the body's origin.
+    /// Returns the largest distance of a point from the body's origin.
     pub(crate) fn span(&self) -> f64 {
         self.span
     }
 
-    /// A ball around all pieces: its centre and its radius.
+    /// Returns a ball around all pieces: its centre and its radius.
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         (self.nodes[0].centre, f64::from(self.nodes[0].radius))
     }
 
-    /// The radius of the root's ball.
+    /// Returns the radius of the root's ball.
     pub(crate) fn radius(&self) -> f32 {
         self.nodes[0].radius
     }
 
-    /// The box about all pieces.
+    /// Returns the box about all pieces.
     pub(crate) fn whole(&self) -> &Whole {
         &self.whole
     }
 
-    /// The half sizes of the root's box.
+    /// Returns the half sizes of the root's box.
     pub(crate) fn half(&self) -> [f32; 3] {
         self.nodes[0].half
     }

@@ -4,14 +4,14 @@ use super::skin::Skin;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// The trees over the faces of one body's pieces. Each is made at the first request for its piece:
-/// a piece of many faces may be near many others, and is sorted once.
+/// The trees over the faces of one body's pieces. Each tree is built at the first request for its piece: a piece of
+/// many faces may be near many others, and is sorted only once.
 pub(super) struct FaceTrees {
     nodes: Vec<Boxed>,
     roots: HashMap<u32, u32>,
 }
 
-/// Some faces in a box along the axes of A's frame, rounding radius included.
+/// Some faces in one box along the axes of A's frame, rounding radius included.
 #[derive(Clone, Copy)]
 struct Boxed {
     low: DVec3,
@@ -22,12 +22,12 @@ struct Boxed {
 #[derive(Clone, Copy)]
 enum Below {
     Face(u32),
-    /// Two children: the node after this one, and the given one.
+    /// An inner node with two children: the next node in the list, and the node with this index.
     Halves(u32),
 }
 
-/// The pairs of faces that are nearer than `reach`, by their boxes, and the number of pairs of
-/// boxes that may be visited to find them.
+/// The pairs of faces whose boxes are nearer than `reach`, and the number of pairs of boxes that may be visited to
+/// find them.
 pub(super) struct NearFaces {
     pub(super) pairs: Vec<[u32; 2]>,
     pub(super) budget: u64,
@@ -35,7 +35,7 @@ pub(super) struct NearFaces {
 }
 
 impl NearFaces {
-    /// Adds the pairs below two roots. Returns none when the budget is spent.
+    /// Adds the pairs below two roots. Returns `None` when the budget is spent.
     pub(super) fn among(&mut self, trees: &[FaceTrees; 2], roots: [u32; 2]) -> Option<()> {
         let mut stack = vec![roots];
         while let Some([at_a, at_b]) = stack.pop() {
@@ -105,7 +105,7 @@ impl FaceTrees {
         }
     }
 
-    /// Returns the root over a piece's faces; none for a piece without faces.
+    /// Returns the root over a piece's faces; `None` for a piece without faces.
     pub(super) fn root(&mut self, skin: &mut Skin<'_>, piece: u32) -> Option<u32> {
         if let Some(&root) = self.roots.get(&piece) {
             return Some(root);
@@ -121,8 +121,8 @@ impl FaceTrees {
         &self.nodes[at as usize]
     }
 
-    /// Adds a node around some faces, and the nodes below it, by halving: the depth is the
-    /// logarithm of their number.
+    /// Adds a node around some faces, and the nodes below it, by halving. The depth is the logarithm of the number of
+    /// faces.
     fn add(&mut self, faces: &mut [Boxed]) -> Option<u32> {
         let around = faces.iter().copied().reduce(Boxed::around)?;
         let at = self.nodes.len();
@@ -146,7 +146,7 @@ impl Boxed {
         }
     }
 
-    /// Returns the box around both, with the first one's children.
+    /// Returns the box around both boxes, with the children of the first one.
     fn around(self, other: Boxed) -> Boxed {
         Boxed {
             low: self.low.min(other.low),
@@ -155,7 +155,7 @@ impl Boxed {
         }
     }
 
-    /// Returns whether they are certainly farther apart than `reach` along a coordinate.
+    /// Returns whether two boxes are certainly farther apart than `reach` along a coordinate.
     fn apart(&self, other: &Boxed, reach: f64) -> bool {
         let gap = (other.low - self.high).max(self.low - other.high);
         gap.max_element() > reach
@@ -166,7 +166,7 @@ impl Boxed {
     }
 }
 
-/// Splits at least two faces into halves, by their middles along the longest side.
+/// Splits at least two faces into halves, by their middles along the longest side of the box.
 fn halves(faces: &mut [Boxed], size: DVec3) -> (&mut [Boxed], &mut [Boxed]) {
     let (axis, half) = (size.max_position(), faces.len() / 2);
     let middle = |face: &Boxed| face.low[axis] + face.high[axis];

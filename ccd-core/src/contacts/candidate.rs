@@ -1,14 +1,13 @@
-//! Two nearest points that may make a pair.
+//! Two nearest points of two faces that may become a pair of features.
 
 use glam::DVec3;
 
-/// Two nearest points, in A's frame, and a face with each.
+/// Two nearest points, in A's frame, and a face for each.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) points: [DVec3; 2],
     pub(super) faces: [u32; 2],
-    /// The sum of both faces' rounding radii: faces that share an edge or a corner may have other
-    /// radii.
+    /// The sum of both faces' rounding radii: faces that share an edge or a corner may have different radii.
     pub(super) radii: f64,
 }
 

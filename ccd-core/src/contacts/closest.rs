@@ -1,14 +1,14 @@
-//! Nearest points in closed form: of a triangle to a corner, and of two crossing edges `[ERICSON05
+//! Nearest points in closed form: those of a triangle and a point, and those of two crossing edges `[ERICSON05
 //! §5.1]`.
 
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// The part of a triangle that a point is on.
+/// The part of a triangle that contains a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Corner(usize),
-    /// From this corner to the next one.
+    /// The edge from this corner to the next one.
     Edge(usize),
     Inside,
 }
@@ -23,7 +23,7 @@ pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (P
     let corner = |k| (Part::Corner(k), corners[k]);
     let edge = |k| Some((Part::Edge(k), inner_foot(from, [corners[k], next(k)])?));
     let inside = inside(from, corners).map(|foot| (Part::Inside, foot));
-    // The smallest part comes first: it is taken if no larger one is nearer.
+    // The smallest parts come first: a smaller part is taken if no larger one is nearer.
     let parts = [
         Some(corner(0)),
         Some(corner(1)),
@@ -48,14 +48,14 @@ pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (P
     best
 }
 
-/// Returns the nearest points of two edges if these are inside of both, and nearer than the end of
-/// either by more than `rounding`. Edges that are parallel, or meet at an end, do not cross.
+/// Returns the nearest points of two edges if these are inside of both edges, and nearer than either edge's ends by
+/// more than `rounding`. Edges that are parallel, or meet at an end, do not cross.
 pub(super) fn crossing(e: [DVec3; 2], f: [DVec3; 2], rounding: f64) -> Option<[DVec3; 2]> {
     let (along_e, along_f, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
     let across = along_e.cross(along_f);
     let start = way.cross(along_f).dot(across) / across.length_squared();
     let inner = |p: DVec3, edge: [DVec3; 2]| inner_foot(p, edge);
-    // Two projections correct the share after cancellation; NaN is in no range.
+    // Two projections correct the share after cancellation. A NaN is in no range.
     if !(start > 0.0 && start < 1.0) {
         return None;
     }
@@ -76,7 +76,7 @@ fn same_kind(one: Part, other: Part) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 
-/// Returns the foot of a point on a segment, if it is between the ends.
+/// Returns the foot of a point on a segment, if the foot is between the ends.
 fn inner_foot(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
     let along = b - a;
     let share = (from - a).dot(along) / along.length_squared();
@@ -94,7 +94,7 @@ fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
     inner_foot(from, edge).unwrap_or(nearer_end)
 }
 
-/// Returns the foot of a point in a triangle's plane, if it is inside of the triangle.
+/// Returns the foot of a point in a triangle's plane, if the foot is inside the triangle.
 fn inside(from: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let (u, v) = (b - a, c - a);
     let normal = u.cross(v);

@@ -10,9 +10,9 @@ pub struct FeaturePair {
     pub feature_a: Feature,
     /// The feature of body B.
     pub feature_b: Feature,
-    /// A piece of body A that has it, as an index into [`Body::pieces`](crate::Body::pieces).
+    /// The index in [`Body::pieces`](crate::Body::pieces) of a piece of body A with this feature.
     pub piece_a: u32,
-    /// A piece of body B that has it.
+    /// The index of a piece of body B with this feature.
     pub piece_b: u32,
     /// The separation of the two features, not of the pieces, in world coordinates.
     pub separation: Separation,

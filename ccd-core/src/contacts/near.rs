@@ -1,4 +1,4 @@
-//! Finds the near pieces of two bodies, and the near faces of these, without a look at most others.
+//! The search for the near pieces of two bodies, and for the near faces of these, by trees.
 
 use super::boxes::{FaceTrees, NearFaces};
 use super::skin::Skin;
@@ -10,8 +10,8 @@ use crate::problem::{Problem, Side};
 use crate::rounding::BOX_F64;
 use glam::DVec3;
 
-/// Returns all pairs of faces, of A and of B, that may be nearer than `reach`; none when that
-/// exceeds the problem's budget of pairs of nodes, or of boxes of faces.
+/// Returns all pairs of faces, of A and of B, that may be nearer than `reach`; `None` when their search exceeds the
+/// problem's budget, of pairs of nodes or of boxes of faces.
 pub(super) fn near_faces(
     problem: &Problem<'_>,
     skins: &mut [Skin<'_>; 2],
@@ -33,7 +33,7 @@ pub(super) fn near_faces(
     Some(near.pairs)
 }
 
-/// Returns the pairs of pieces with all nodes above them possibly nearer than `reach`.
+/// Returns the pairs of pieces whose nodes, on all levels of the trees, may be nearer than `reach`.
 fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);
@@ -81,13 +81,13 @@ fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
 struct Extent {
     centre: DVec3,
     radius: f64,
-    /// Directions along which the node is thin.
+    /// The directions along which the node is thin.
     axes: [DVec3; 3],
     shape: Shape,
 }
 
 enum Shape {
-    /// The reach along each axis.
+    /// The extent along each axis, from the centre.
     Box([f64; 3]),
     Triangle([DVec3; 3]),
 }
@@ -97,7 +97,7 @@ impl Extent {
         match side.body.tree().get(at) {
             Named::Node(node) => {
                 let radius = f64::from(node.radius);
-                // Axes rounded to f32 are no exact frame.
+                // Axes rounded to f32 are not exactly orthonormal.
                 let more = f64::from(node.rounding) + BOX_F64 * radius;
                 Extent {
                     centre: to_a.point(node.centre),
@@ -137,8 +137,8 @@ impl Extent {
     }
 }
 
-/// Returns whether two nodes are certainly farther apart than `reach`: by their balls, along the
-/// axes of either, or along the vector between them. Written so that NaN counts as near.
+/// Returns whether two nodes are certainly farther apart than `reach`: by their balls, along the axes of either, or
+/// along the vector between them. Written so that NaN counts as near.
 fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);

@@ -1,4 +1,4 @@
-//! The surface of one body near the other, as corners, edges and triangles with names.
+//! The surface of one body near the other, as named corners, edges and triangles.
 
 mod unpack;
 
@@ -17,16 +17,16 @@ pub(super) struct Skin<'a> {
     to_a: Frame,
     corners: Vec<Corner>,
     faces: Vec<Face>,
-    /// Corners by place and number.
+    /// The indices of corners, by place and number.
     known: HashMap<(PointBits, Option<u32>), u32>,
-    /// The edges within a plane, and the faces on either side. The first is the one to which points
-    /// on the edge belong.
+    /// The edges within a plane, and the faces on either side. Points on such an edge belong to the first of these
+    /// faces.
     within: HashMap<[u32; 2], [u32; 2]>,
-    /// Marks corners within a plane that have no number.
+    /// Marks the corners within a plane that have no number.
     hidden: Vec<bool>,
-    /// The faces around each of these.
+    /// The faces around each of the hidden corners.
     faces_around: HashMap<u32, Vec<u32>>,
-    /// The first triangle with a face's number.
+    /// The first triangle with each face number.
     first_of: HashMap<Feature, u32>,
     /// The sum of the normals around each corner.
     outward: Vec<DVec3>,
@@ -36,7 +36,7 @@ pub(super) struct Skin<'a> {
 struct Corner {
     at: DVec3,
     place: PointBits,
-    /// Its number in the mesh, if its piece has it.
+    /// The corner's number in the mesh, if its piece has one.
     id: Option<u32>,
 }
 
@@ -76,15 +76,15 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Returns the faces of a piece; to be called once a piece.
+    /// Unpacks a piece and returns its faces. It is to be called once for each piece.
     pub(super) fn of_piece(&mut self, piece: u32) -> Range<u32> {
         let first = self.faces.len() as u32;
         self.unpack(piece);
         first..self.faces.len() as u32
     }
 
-    /// Finds the edges and corners that are due to the cut into triangles, not to the shape. To be
-    /// called after all needed pieces are unpacked. Heights of up to `rounding` count as flat.
+    /// Finds the edges and corners that are due to the cut into triangles, and not to the shape. It is to be called
+    /// after all needed pieces are unpacked. Heights up to `rounding` count as flat.
     pub(super) fn hide_cuts(&mut self, rounding: f64) {
         self.share_numbers();
         self.add_normals();
@@ -102,7 +102,7 @@ impl<'a> Skin<'a> {
             }
         }
         self.hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
-        // Segments and points are within no plane.
+        // Segments and points are not within a plane.
         let thin = |face: &&Face| edges(face.corners).count() < 3;
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
             self.hidden[corner as usize] = false;
@@ -145,8 +145,8 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Returns the approximate outward direction at a spot of a face: the sum of the normals
-    /// around; zero if none is known.
+    /// Returns the approximate outward direction at a spot of a face: the sum of the normals around the spot, or zero
+    /// if none is known.
     pub(super) fn outward(&self, spot: Spot, face: u32) -> DVec3 {
         let at = |corner: u32| self.outward[corner as usize];
         match spot {
@@ -156,7 +156,7 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Returns the unit normal of a face that points out of the body; zero if it is unknown.
+    /// Returns the unit normal of a face that points out of the body; zero if that normal is unknown.
     fn normal(&self, face: u32) -> DVec3 {
         let piece = self.face(face).piece;
         if let Some(normal) = self.body.outward_normal(piece) {
@@ -175,8 +175,8 @@ impl<'a> Skin<'a> {
         0..self.faces.len() as u32
     }
 
-    /// Calls `look` with the corners of a face, or all points of its piece if that has no facets, and with a point of
-    /// the solid below it.
+    /// Calls `look` with the corners of a face, and with a point of the solid below it. If the piece of the face has
+    /// no facets, all its points take the place of the corners.
     pub(super) fn for_ends_around(&self, face: u32, look: impl FnMut(DVec3)) {
         let index = self.face(face).piece;
         let piece = self.body.pieces().get(index as usize);
@@ -225,8 +225,8 @@ impl<'a> Skin<'a> {
         faces.unwrap_or_default()
     }
 
-    /// Returns the spot to report for a spot on a face, and its face. Spots within a plane belong
-    /// to a face, and triangles that share one number are one face.
+    /// Returns the spot to report for a spot on a face, and the face of that spot. Spots within a plane belong to a
+    /// face, and triangles that share one number are one face.
     pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
         let face = match spot {
             Spot::Corner(corner) if self.hidden[corner as usize] => face,
@@ -266,8 +266,7 @@ impl<'a> Skin<'a> {
         edges(self.face(face).corners).filter(|&ends| self.across(ends).is_none())
     }
 
-    /// Returns the face to which a point on an edge within a plane belongs; none for an edge of the
-    /// shape.
+    /// Returns the face to which a point on an edge within a plane belongs; `None` for an edge of the shape.
     pub(super) fn across(&self, ends: [u32; 2]) -> Option<u32> {
         self.within.get(&ends).map(|faces| faces[0])
     }
@@ -283,7 +282,7 @@ impl<'a> Skin<'a> {
         self.outward = outward;
     }
 
-    /// Gives corners without a number the number that another piece has there.
+    /// Gives corners without a number the number of another piece's corner at the same place.
     fn share_numbers(&mut self) {
         let mut numbered: HashMap<PointBits, (u32, u32)> = HashMap::new();
         for (k, corner) in (0u32..).zip(&self.corners) {
@@ -300,11 +299,11 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Returns whether two faces are in one plane, on either side of the edge that they share:
-    /// neither sticks out of the other's plane, or they are cut from one facet.
+    /// Returns whether two faces are in one plane, on either side of the edge that they share: neither rises above
+    /// the other's plane, or they are cut from one facet.
     fn in_one_plane(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
         let [one, other] = faces.map(|face| self.face(face));
-        // Rounding moves their surfaces off the plane by their radii.
+        // Rounding moves their surfaces off the plane by different radii.
         if one.radius.to_bits() != other.radius.to_bits() {
             return false;
         }
@@ -328,15 +327,14 @@ impl<'a> Skin<'a> {
     }
 }
 
-/// The first two faces at an edge, and the number of all.
+/// The first two faces at an edge, and the number of all faces there.
 #[derive(Default)]
 struct Sides {
     faces: [u32; 2],
     count: usize,
 }
 
-/// Returns the edges of a triangle, the smaller end first, each once: a segment has one, a point
-/// none.
+/// Returns the edges of a triangle, the smaller end first, each once. A segment has one edge, a point none.
 pub(super) fn edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
     let ends = move |k: usize| edge(corners, k);
     let proper = move |&k: &usize| ends(k)[0] != ends(k)[1] && !(0..k).any(|j| ends(j) == ends(k));

@@ -16,7 +16,7 @@ use twin::Mesh;
 mod cuts;
 mod twin;
 
-/// Two bodies at rest, A at its pose, B at the origin.
+/// Returns the contacts of two bodies at rest, A at its pose, B at the origin.
 fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> {
     let config = Settings {
         tolerance,
@@ -45,7 +45,7 @@ fn names(pairs: &[FeaturePair]) -> Vec<String> {
     names
 }
 
-/// Counts the pairs of vertices with faces, of edges, and all others.
+/// Counts the pairs of a vertex and a face, the pairs of edges, and all others.
 fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     let mut counts = [0; 3];
     for pair in pairs {
@@ -58,7 +58,7 @@ fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     counts
 }
 
-/// A cube, or slab, by 12 triangles that share 8 vertices, and as one piece.
+/// A cube, or slab, of 12 triangles that share 8 vertices, and the same as one piece.
 fn cuboids(half: DVec3) -> [Body; 2] {
     let solid = Body::cuboid(half).unwrap();
     [Mesh::cuboid(half).body(Volume::Solid), solid]
@@ -82,7 +82,7 @@ fn check_bounds(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
 fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
     for cube in cuboids(DVec3::splat(0.5)) {
         for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
-            // Over the diagonals of the slab's triangulation, and next to them; also in contact.
+            // The places are over the diagonals of the slab's triangulation, and next to them; also in contact.
             for (x, y) in [(0.0, 0.0), (0.3, 0.1), (0.25, -0.75)] {
                 for gap in [5e-4, 1e-6, 0.0] {
                     let pairs = contacts(&cube, &slab, at(x, y, 1.5 + gap), 1e-3);
@@ -137,14 +137,14 @@ fn flush_squares_cross_along_their_outlines() {
     check_bounds(&pairs, 0.0, -DVec3::Z);
 }
 
-/// Equal faces that cover each other: corners on corners, and no pairs that follow from them.
+/// Equal faces that cover each other meet corner on corner, without the pairs that follow from these.
 #[test]
 fn equal_faces_meet_in_their_corners() {
     for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
         let pairs = contacts(&a, &b, at(0.0, 0.0, 2.0005), 1e-3);
         assert_eq!(names(&pairs), ["v0 v4", "v1 v5", "v2 v6", "v3 v7"]);
         check_bounds(&pairs, 5e-4, -DVec3::Z);
-        // Shifted along one side: corners within edges.
+        // One face is shifted along one side, and its corners are within edges.
         let pairs = contacts(&a, &b, at(0.7, 0.0, 2.0005), 1e-3);
         assert_eq!(names(&pairs), ["e0-1 v5", "e2-3 v7", "v0 e4-5", "v2 e6-7"]);
         check_bounds(&pairs, 5e-4, -DVec3::Z);
@@ -167,7 +167,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     let pairs = contacts(&capsule, &slab, lying, 1e-3);
     assert_eq!(names(&pairs), ["v0 f5", "v1 f5"]);
     check_bounds(&pairs, 5e-4, -DVec3::Z);
-    // Across each other, and side by side.
+    // The edges cross each other, or are side by side.
     let across = turned(at(0.5005, 0.0, 0.0), DVec3::X, 1.0);
     let pairs = contacts(&capsule, &capsule, across, 1e-3);
     assert_eq!(names(&pairs), ["e0-1 e0-1"]);
@@ -177,7 +177,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     check_bounds(&pairs, 5e-4, -DVec3::X);
 }
 
-/// Approximate hulls have no features of a mesh, and hulls of unknown facets only their corners.
+/// Approximate hulls have no features of a mesh. Hulls of unknown facets have only their corners.
 #[test]
 fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
@@ -220,7 +220,7 @@ fn a_margin_is_reached_across() {
     }
 }
 
-/// Shapes with random numbers and places, so that no pair is on the brink.
+/// The shapes have random numbers and positions, so that no pair is just within or just out of reach.
 #[test]
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
@@ -282,7 +282,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     assert!(found[0] > 400 && found[1] > 400, "{found:?}");
 }
 
-/// Compares the pairs with the twin's, names and distances, in both orders.
+/// Compares the pairs with those of the reference, by names and distances, in both orders of the bodies.
 fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
     let config = Settings {
@@ -347,13 +347,13 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     assert_eq!(pairs, problem.contacts_at(0.0).unwrap());
 }
 
-/// Fine plates face to face: of a million pairs of triangles, only near ones are visited.
+/// Two fine plates are face to face: of a million pairs of triangles, only near ones are visited.
 #[test]
 fn fine_plates_face_to_face_are_no_trouble() {
     let rng = &mut rng(73);
     let plate = Mesh::terrain(rng, 60, 3.0, 0.0);
     let body = plate.body(Volume::Surface);
-    // Shifted by half a cell: every vertex is over a face, except those beyond the other plate.
+    // The plate is shifted by half a cell: every vertex is over a face, except those beyond the other plate.
     let cell = 6.0 / 60.0;
     let pairs = contacts(&body, &body, at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
     // Along two sides, 61 and 60 vertices of either plate hang over.

@@ -6,7 +6,7 @@ use crate::body::piece::Piece;
 use crate::motion::pose::Frame;
 use glam::DVec3;
 
-/// A backend: finds the distance of two convex pieces.
+/// A backend that computes the distance of two convex pieces.
 ///
 /// # Contract
 /// For pieces P and Q, given in frame A (Q through [`PiecePair::b_to_a`]), radii ignored:
@@ -26,11 +26,10 @@ use glam::DVec3;
 /// ([`Separation`](crate::Separation)). A poor claim makes a query slow or
 /// [unresolved](crate::Outcome::Unresolved), never late.
 pub trait DistanceOracle {
-    /// The memory that a call leaves for the next one on the same pair. The default is a cold
-    /// start.
+    /// The memory that a call leaves for the next one on the same pair. The default is a start without any.
     type Cache: Clone + Default;
 
-    /// Claims the axis and the nearest points of a pair.
+    /// Computes a claim: an axis, and the nearest points of a pair.
     ///
     /// Returns a [`GiveUp`] with the reason if the oracle has no answer; the caller may ask another
     /// one ([`OrElse`]).
@@ -45,18 +44,18 @@ pub trait DistanceOracle {
         Effort::default()
     }
 
-    /// Prepares a body ahead, so that its first queries are not slower than later ones.
+    /// Prepares a body in advance, so that its first queries are not slower than later ones.
     ///
     /// # Guarantee
-    /// Answers are the same bits with and without it. An oracle that keeps nothing of pieces does
-    /// nothing here.
+    /// Answers are the same bits with and without this call. An oracle that stores nothing about pieces does nothing
+    /// here.
     fn prepare(_body: &Body)
     where
         Self: Sized,
     {
     }
 
-    /// Asks `other` wherever this oracle gives up.
+    /// Returns an oracle that calls `other` if this oracle gives up.
     fn or_else<O: DistanceOracle>(self, other: O) -> OrElse<Self, O>
     where
         Self: Sized,
@@ -90,7 +89,7 @@ impl PiecePair<'_> {
 /// The claim of an oracle about a pair, unchecked, in A's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claim {
-    /// Points from A's piece to B's piece; any length.
+    /// A vector from A's piece to B's piece, of any length.
     pub axis: DVec3,
     /// The point of A's piece that is nearest to B's.
     pub a: Combination,
@@ -101,11 +100,11 @@ pub struct Claim {
 /// The effort of an oracle, over many calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
-    /// Steps of its search: from features to neighbouring features, from simplex to simplex.
+    /// The steps of the search: from features to neighbouring features, from simplex to simplex.
     pub steps: u64,
     /// The number of times that a search returned to an earlier state.
     pub cycles: u64,
-    /// The number of times that it gave up and another oracle was asked.
+    /// The number of times that the oracle gave up and another one was called.
     pub fallbacks: u64,
 }
 
@@ -140,8 +139,7 @@ impl std::ops::Sub for Effort {
 pub enum GiveUp {
     /// The oracle supports fewer points per piece.
     TooManyPoints,
-    /// The oracle needs the facets of the pieces' hulls, and they are not known or do not close a
-    /// hull.
+    /// The oracle needs the facets of the pieces' hulls, and they are unknown or do not close a hull.
     BadFacets,
     /// The search reached its cap of steps.
     StepCap,
@@ -151,8 +149,7 @@ pub enum GiveUp {
     Uncertified,
 }
 
-/// Two oracles; the second is asked wherever the first one gives up. Made by
-/// [`DistanceOracle::or_else`].
+/// Two oracles: the second is called if the first gives up. [`DistanceOracle::or_else`] creates it.
 #[derive(Clone, Debug, Default)]
 pub struct OrElse<First, Second> {
     first: First,
@@ -168,7 +165,7 @@ impl<First, Second> OrElse<First, Second> {
 }
 
 impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<First, Second> {
-    /// The second oracle's cache is made at its first call: most pairs never need it.
+    /// The second oracle's cache is created at its first call: most pairs never need it.
     type Cache = (First::Cache, Option<Second::Cache>);
 
     fn separation(

@@ -1,5 +1,5 @@
-//! Decides whether two pieces truly intersect. A claimed penetration is confirmed before it is
-//! believed, and so is its absence.
+//! The decision whether two pieces truly intersect. A claimed penetration is confirmed by a proof, and so is its
+//! absence.
 
 use super::oracle::PiecePair;
 use super::separation::Checked;
@@ -12,11 +12,11 @@ use glam::DVec3;
 /// The decision whether two pieces intersect by more than rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Intersection {
-    /// They certainly intersect: they still do after any move by less than rounding.
+    /// The pieces certainly intersect: they still do after any displacement by less than rounding.
     Certain,
-    /// They do not: an axis separates them, or would after so small a move.
+    /// The pieces do not intersect: an axis separates them, or would after such a small displacement.
     None,
-    /// Neither could be shown.
+    /// Neither could be proven.
     Undecided,
 }
 
@@ -24,10 +24,9 @@ pub(crate) enum Intersection {
 /// points' positions.
 ///
 /// # Guarantee
-/// Without rounding radii the claim is not believed either way: either the origin is in the hull of
-/// differences of the pieces' points by more than `rounding`, or an axis shows that it is not. With
-/// rounding radii either the claim's witnesses prove an intersection, or its axis disproves one. If
-/// neither does, the pieces count as touching.
+/// Without rounding radii the claim alone decides nothing. Either the origin is in the hull of the differences of the
+/// pieces' points by more than `rounding`, or an axis proves that it is not. With rounding radii either the claim's
+/// witnesses prove an intersection, or its axis disproves one. If neither does, the pieces count as touching.
 pub(crate) fn intersects(
     pair: &PiecePair<'_>,
     checked: &Checked,
@@ -47,7 +46,7 @@ pub(crate) fn intersects(
         return Intersection::None;
     }
     if !inner.begin(pair, rounding) {
-        // The differences are flat, up to rounding.
+        // The differences are in one plane, up to rounding.
         return Intersection::None;
     }
     for _ in 0..MAX_CORNERS {
@@ -68,7 +67,7 @@ pub(crate) fn intersects(
     Intersection::Undecided
 }
 
-/// The difference of two points, of A and of B in A's frame, that is farthest along a direction.
+/// Returns the difference of two points, of A and of B in A's frame, that is farthest along a direction.
 fn farthest_difference(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
     let of_b = pair.b.farthest(-pair.b_to_a.inverse_vector(along));
     pair.a.farthest(along) - pair.b_to_a.point(of_b)
@@ -77,32 +76,30 @@ fn farthest_difference(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
 /// A polytope with corners among the differences of the pieces' points `[GJK88]`: if it contains
 /// the origin, the pieces intersect.
 ///
-/// It grows as in the expanding polytope algorithm `[BERGEN01]`, but need not contain the origin
-/// initially. Its faces form a closed surface even where their normals are rounded: the faces that
-/// a new corner sees are replaced by a cone to their rim. Once all faces look away from the origin,
-/// the surface winds about it.
+/// The polytope grows as in the expanding polytope algorithm `[BERGEN01]`, but need not contain the origin initially.
+/// Its faces form a closed surface even if their normals are rounded: the faces that a new corner sees are replaced
+/// by a cone to their rim. Once all faces are turned away from the origin, the surface winds about it.
 #[derive(Debug, Default)]
 pub(crate) struct Inner {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
-    /// The edges of the faces that the last corner saw, towards those that it did not see.
+    /// The edges of the faces that the last corner saw, on the border to the faces that it did not see.
     rim: Vec<[usize; 2]>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Face {
-    /// Counterclockwise seen from outside.
+    /// The corners, counterclockwise as seen from outside.
     corners: [usize; 3],
-    /// Unit.
+    /// The unit normal.
     normal: DVec3,
-    /// The distances of the nearest and the farthest of its corners from the origin, along its
-    /// normal.
+    /// The heights of the lowest and the highest of the face's corners above the origin, along the normal.
     depth: f64,
     height: f64,
 }
 
 impl Inner {
-    /// Begins anew with a tetrahedron; returns false if all differences are flat.
+    /// Starts again with a tetrahedron. Returns false if all differences are in one plane.
     fn begin(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
         self.corners.clear();
         self.faces.clear();
@@ -128,7 +125,7 @@ impl Inner {
         });
     }
 
-    /// Returns the face that is nearest to the origin, or farthest on its wrong side.
+    /// Returns the face that is nearest to the origin, or farthest on the wrong side of it.
     fn shallowest(&self) -> Option<&Face> {
         self.faces.iter().min_by(|f, g| f.depth.total_cmp(&g.depth))
     }
@@ -158,8 +155,8 @@ impl Inner {
     }
 }
 
-/// Returns four differences far from one another, or none when all differences are in a plane
-/// up to rounding, so that no point is deeper than that.
+/// Returns four differences far from one another; `None` when all differences are in a plane up to rounding, so that
+/// no point is deeper than that.
 fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     let both = |along: DVec3| [along, -along].map(|along| farthest_difference(pair, along));
     let farther =
@@ -187,8 +184,8 @@ fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     })
 }
 
-/// The unit normal of a triangle, along which even the corners of a needle are level. The part of
-/// the cross product's rounding that lies along the needle would tilt the normal.
+/// Returns the unit normal of a triangle, computed so that even the corners of a needle are level along it. The part
+/// of the cross product's rounding that lies along the needle would tilt the normal.
 fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     let edges = [b - a, c - b, a - c];
     let longest = |e: DVec3, f: DVec3| {

@@ -1,4 +1,4 @@
-//! Checks the claims of oracles: none is believed unchecked.
+//! The check of the claims of oracles: no claim is used unchecked.
 
 pub(crate) mod sharp;
 
@@ -13,13 +13,13 @@ use glam::DVec3;
 pub(crate) struct Checked {
     /// The claim; its combinations name existing points.
     pub(crate) claim: Claim,
-    /// Bounds the distance from below, rounding deducted; negative when no axis separates.
+    /// A lower bound of the distance, rounding deducted; negative when no axis separates.
     pub(crate) lower: f64,
-    /// Bounds the distance from above, rounding added.
+    /// An upper bound of the distance, rounding added.
     pub(crate) upper: f64,
     /// The unit axis that `lower` was computed along.
     pub(crate) axis: DVec3,
-    /// The distance of the witnesses before the pieces' radii are taken off.
+    /// The distance of the witnesses before the pieces' radii are subtracted.
     pub(crate) core_distance: f64,
     /// The points that `upper` was computed from, on the rounded surfaces.
     pub(crate) witness_a: DVec3,
@@ -72,7 +72,7 @@ pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
     support_gap_near(pair, n, from, [None; 2])
 }
 
-/// Like [`support_gap`]; climbs edges from corners that may be known to be nearly extreme.
+/// Like [`support_gap`], by climbing edges from corners that may be known to be nearly extreme.
 #[inline]
 fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
     let highest = match pair.a.support {
@@ -100,8 +100,8 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
     lowest + origin_b - highest
 }
 
-/// Returns the point that a combination names. A combination with numbers of points that the
-/// piece does not have is replaced.
+/// Returns a combination and its point. A combination with indices of points that the piece does not have is
+/// replaced.
 fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
     match combination.of(points) {
         Some(point) => (combination, point),

@@ -1,7 +1,7 @@
 //! Exact signs: the side of a plane or a line on which a point is, by the crate `robust` `[SHE97]`.
 //!
-//! One convention: `Greater` is in front of a triangle, where its corners are seen
-//! counterclockwise, and to the left of a line.
+//! One convention holds: `Greater` is in front of a triangle, where its corners are seen counterclockwise, and to the
+//! left of a line.
 
 use crate::limits::LEAST_COORDINATE;
 use glam::DVec3;
@@ -25,16 +25,15 @@ pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     let [p, q, r] = triangle;
     let level = p.cmpeq(q) & p.cmpeq(r) & p.cmpeq(point);
     if level.any() {
-        // The points are in a plane across a coordinate axis. This case would take the predicate
-        // its longest computation.
+        // The points are in a plane across a coordinate axis. The predicate would take its longest computation here.
         return Ordering::Equal;
     }
     // Shewchuk's determinant is positive behind.
     sign(-orient3d(coord3(p), coord3(q), coord3(r), coord3(point)))
 }
 
-/// Returns the side of a line on which a point is, seen against a coordinate axis, from `a` towards
-/// `b`: `Greater` to the left.
+/// Returns the side of a line on which a point is, for a view along a coordinate axis, against its direction, from
+/// `a` towards `b`. `Greater` is to the left.
 ///
 /// # Guarantee
 /// Like [`side`].

@@ -4,7 +4,7 @@ use crate::settings::Instructions;
 use fearless_simd::Level;
 
 impl Instructions {
-    /// Returns these instructions as [`vectorize!`](crate::vectorize) takes them.
+    /// Returns these instructions in the form that [`vectorize!`](crate::vectorize) takes.
     #[doc(hidden)]
     pub fn level(self) -> Level {
         match self {
@@ -14,14 +14,14 @@ impl Instructions {
     }
 }
 
-/// Evaluates an expression with a token of the best of the instructions that pay: AVX2 and SSE2 on
-/// x86, the only ones elsewhere. All functions that it calls have to be `#[inline(always)]`, closures
-/// too: what is not inlined is compiled for the oldest machine.
+/// Evaluates an expression with a token of the best useful instructions: AVX2 and SSE2 on x86, the only ones
+/// elsewhere. All functions called by the expression, closures included, have to be `#[inline(always)]`: others are
+/// compiled for the oldest machine.
 ///
-/// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every
-/// level more is a copy of the code.
+/// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every further level is
+/// another copy of the code.
 ///
-/// For the distance backends of this project; no stable interface.
+/// This is for the distance backends of this project, and no stable interface.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! vectorize {

@@ -4,7 +4,7 @@
 //! a loop that folds with them (rustc 1.95, LLVM 22.1.2). They compile a comparison and a choice
 //! correctly.
 
-/// The lesser of two numbers: the first one, unless the second is less.
+/// Returns the lesser of two numbers: the first one, unless the second is less.
 ///
 /// A NaN is never chosen over a first argument that is a number: `fold(f64::INFINITY, lesser)`
 /// skips NaN. A NaN as the first argument stays.
@@ -20,7 +20,7 @@ pub fn lesser<T: PartialOrd>(first: T, second: T) -> T {
     if second < first { second } else { first }
 }
 
-/// The greater of two numbers: the first one, unless the second is greater; NaN as in [`lesser`].
+/// Returns the greater of two numbers: the first one, unless the second is greater; NaN as in [`lesser`].
 ///
 /// ```
 /// use ccd_core::order::greater;

@@ -1,4 +1,4 @@
-//! Vectors of three numbers in f64, each in one vector of the machine, and matrices of three of them.
+//! Vectors of three numbers in f64, each in one vector register, and matrices of three of them.
 
 use fearless_simd::{
     ExtractToken, Simd, SimdBase, SimdNarrow, SimdSplit, f32x4, f64x4, prelude::*,
@@ -6,7 +6,7 @@ use fearless_simd::{
 use glam::{DMat3, DVec3, Vec3};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// Three numbers in memory, and a fourth that is nothing.
+/// Three numbers in memory, and an unused fourth.
 pub(crate) type Row = [f64; 4];
 
 /// A vector.
@@ -17,7 +17,7 @@ pub(crate) struct Packed<L: Simd>(f64x4<L>);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PackedMatrix<L: Simd>([Packed<L>; 3]);
 
-/// Returns a vector with a fourth number.
+/// Returns the vector with a fourth number.
 pub(crate) fn row(v: DVec3) -> Row {
     [v.x, v.y, v.z, 0.0]
 }
@@ -43,13 +43,13 @@ impl<L: Simd> Packed<L> {
         DVec3::new(self.0[0], self.0[1], self.0[2])
     }
 
-    /// Rounds to f32.
+    /// Rounds the vector to f32.
     #[inline(always)]
     pub(crate) fn narrow(self) -> f32x4<L> {
         self.0.narrow(self.0).split().0
     }
 
-    /// Rounds to f32.
+    /// Rounds the vector to f32.
     #[inline(always)]
     pub(crate) fn as_vec3(self) -> Vec3 {
         as_vec3(self.narrow())

@@ -7,8 +7,8 @@ use std::ops::Range;
 
 /// Points in a binary tree of boxes.
 ///
-/// It suits many planes, such as the facets of a hull, that each have few of many points in front
-/// or on them. Each query takes about O(log n).
+/// The tree suits many planes, such as the facets of a hull, if each plane has few of many points in front or on it.
+/// Each query takes about O(log n).
 ///
 /// ```
 /// use ccd_core::glam::DVec3;
@@ -25,7 +25,7 @@ pub struct PointTree {
     base: DVec3,
     /// The points in the order of the leaves, with their original indices.
     points: Vec<(DVec3, u32)>,
-    /// Every node before those below it, the left ones first.
+    /// The nodes: every node precedes those below it, and left ones precede right ones.
     nodes: Vec<Node>,
     /// The largest absolute coordinate.
     reach: f64,
@@ -37,7 +37,7 @@ struct Node {
     half: DVec3,
     /// The points of a leaf; empty for an inner node.
     points: Range<u32>,
-    /// The first node that is not below this one.
+    /// The first node in the list that is not below this one.
     next: u32,
 }
 
@@ -57,7 +57,7 @@ impl PointTree {
         if !points.is_empty() {
             tree.build(0..points.len());
         }
-        // The bound is that of the boxes, not of the points: heights are taken of boxes' corners.
+        // The bound is that of the boxes, not of the points: heights are computed for corners of boxes.
         let corner = |node: &Node| (node.middle.abs() + node.half).max_element();
         tree.reach = tree.nodes.iter().map(corner).fold(0.0, greater);
         tree
@@ -70,7 +70,7 @@ impl PointTree {
         for &(p, _) in points.iter() {
             (lo, hi) = (lo.min(p), hi.max(p));
         }
-        // Widened by the rounding of halving. The sum of two products in place of one is within the
+        // The box is widened by the rounding of halving. The sum of two products in place of one is within the
         // allowance for heights.
         let (middle, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let half = half + (lo.abs().max(hi.abs())) * f64::EPSILON;

@@ -25,7 +25,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
     let mut axes = DMat3::IDENTITY;
     for sweep in 0..12 {
         let (i, j) = [(0, 1), (0, 2), (1, 2)][sweep % 3];
-        // A smaller angle than this turns no box visibly.
+        // A rotation by a smaller angle does not change a box noticeably.
         if !(m[i][j].abs() > LEAST_TURN * (m[j][j] - m[i][i]).abs()) {
             continue;
         }
@@ -46,7 +46,7 @@ fn half_angle(y: f64, x: f64) -> (f64, f64) {
         return (0.5 * y.atan2(x)).sin_cos();
     }
     let length = square.sqrt();
-    // The larger of the two is a root of a sum, in which nothing cancels.
+    // The larger of the two is the root of a sum without cancellation.
     let larger = (0.5 + 0.5 * x.abs() / length).sqrt();
     let smaller = 0.5 * y.abs() / (length * larger);
     let (sine, cosine) = if x > 0.0 {

@@ -1,14 +1,13 @@
 //! Lengths and directions of vectors of any size.
 //!
-//! A length is the root of a sum of squares. Squares of components below about 1e-154 lose their
-//! digits, then vanish; above 1e154 they overflow. A vector divided by such a length is no unit
-//! vector, and a height along it is no distance. Every proof along an axis takes the axis from
-//! here.
+//! A length is the root of a sum of squares. Squares of components below about 1e-154 lose their digits, then vanish;
+//! above 1e154 they overflow. A vector divided by such a length is not a unit vector, and a height along it is not a
+//! distance. Every proof along an axis uses the functions of this module for the axis.
 
 use crate::rounding::{SCALE, SQUARES};
 use glam::DVec3;
 
-/// Returns the unit vector along `v`; none for zero, and for a NaN or infinite component.
+/// Returns the unit vector along `v`; `None` for zero, and for a NaN or infinite component.
 ///
 /// # Guarantee
 /// Its length is 1 to within `4u`, for vectors of any length: three squares and their sum (3u,
@@ -38,8 +37,7 @@ fn unit_of_extreme(v: DVec3) -> Option<DVec3> {
     (length > 0.0 && length.is_finite()).then(|| v / length)
 }
 
-/// Returns the unit vector, or an arbitrary one if there is none: a support gap is a bound along
-/// any.
+/// Returns the unit vector, or an arbitrary one if there is none: a support gap along any axis is a bound.
 #[inline]
 pub(crate) fn unit_or_any(v: DVec3) -> DVec3 {
     unit(v).unwrap_or(DVec3::X)
@@ -61,7 +59,7 @@ pub fn distance(a: DVec3, b: DVec3) -> f64 {
     length(b - a)
 }
 
-/// Returns a vector across two others, of any length; zero if they are parallel up to rounding.
+/// Returns a vector perpendicular to two others, of any length; zero if they are parallel up to rounding.
 ///
 /// The components of a cross product are products, which vanish for short vectors. Both vectors are
 /// therefore scaled to a length near 1 first.
@@ -70,8 +68,8 @@ pub fn across(a: DVec3, b: DVec3) -> DVec3 {
     scaled(a).0.cross(scaled(b).0)
 }
 
-/// Returns the unit normal of a triangle, on the side from which its corners turn left; none if
-/// they are on one line.
+/// Returns the unit normal of a triangle, on the side from which its corners turn left; `None` if they are on one
+/// line.
 #[inline]
 pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let across_both = (b - a).cross(c - a);
@@ -84,16 +82,16 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     }
 }
 
-/// Returns the vector times a power of two that makes its square an ordinary number, and the
-/// inverse of that power.
+/// Returns the vector times a power of two, and the inverse of that power. The factor moves the vector's square into
+/// the normal range.
 #[inline]
 fn scaled(v: DVec3) -> (DVec3, f64) {
     let (scale, back) = scale_of(v.length_squared());
     (v * scale, back)
 }
 
-/// Returns the power of two that makes the square of a vector an ordinary number, and its inverse, by the square
-/// as computed.
+/// Returns the power of two that moves the square of a vector into the normal range, and its inverse, for the
+/// computed square.
 #[inline]
 pub(crate) fn scale_of(square: f64) -> (f64, f64) {
     if square < *SQUARES.start() {

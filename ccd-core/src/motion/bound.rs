@@ -1,23 +1,23 @@
 //! Bounds of the rate at which a moving body advances along a fixed axis.
 //!
-//! Coarser than the exact [`Track`](super::track::Track) of a point:
+//! These bounds are coarser than the exact [`Track`](super::track::Track) of a point:
 //! - [`published`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
-//! - [`sound`]: holds over any later interval `[C2A09]`.
+//! - [`sound`]: a bound that holds over any later interval `[C2A09]`.
 
 use crate::math::order::greater;
 use crate::math::vector::length;
 use glam::DVec3;
 
-/// Constant velocity of a centre and constant angular velocity about it.
+/// A constant velocity of a centre, and a constant angular velocity about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Velocities {
     /// The velocity of the centre.
     pub(crate) linear: DVec3,
-    /// Angular velocity about the centre, in radians per unit of time.
+    /// The angular velocity about the centre, in radians per unit of time.
     pub(crate) spin: DVec3,
 }
 
-/// The bound of a body's advance along an axis by which a schedule divides distances.
+/// The bound of a body's advance along an axis, by which a schedule divides distances.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Bound {
     /// `max (n×ω)·r + |v·n|` over the arms r, as printed in the paper `[FAST06 §4.2 Eq. 5]`. It
@@ -29,11 +29,10 @@ pub enum Bound {
     Sound,
 }
 
-/// Returns `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very instant, over the
-/// arms `rᵢ` from the centre; `farthest` returns the arm that is farthest along a direction
-/// `[FAST06 §4.2 Eq. 5]`.
+/// Returns `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this instant, over the arms `rᵢ` from the
+/// centre. `farthest` returns the arm that is farthest along a direction `[FAST06 §4.2 Eq. 5]`.
 ///
-/// **Unsound over a step**: the arms turn with the body. For comparison only.
+/// The bound is **unsound over a step**: the arms turn with the body. It is for comparison only.
 pub(crate) fn published(
     motion: &Velocities,
     n: DVec3,
@@ -47,7 +46,7 @@ pub(crate) fn published(
 /// points no farther than `reach` from the axis of rotation `[C2A09]`.
 ///
 /// # Guarantee
-/// Holds over any interval, up to a few units in the last place.
+/// The bound holds over any interval, up to a few units in the last place.
 pub(crate) fn sound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
     motion.linear.dot(n) + length(n.cross(motion.spin)) * reach
 }

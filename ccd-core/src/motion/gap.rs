@@ -1,10 +1,10 @@
-//! Computes the time for which a gap stays open.
+//! The time for which a gap stays open.
 
 use crate::rounding::RATE_F64;
 use crate::tuning::WORTHWHILE;
 
-/// A gap that closes by at most `rate τ + bend τ²/2` within `τ`. Where bodies accelerate away from each other
-/// the bend is negative.
+/// A gap that closes by at most `rate τ + bend τ²/2` within `τ`. The second derivative `bend` is negative if the
+/// bodies accelerate away from each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub(crate) gap: f64,
@@ -33,7 +33,7 @@ impl Gap {
         } else {
             f64::INFINITY
         };
-        // A pair that is not apart gets no free time, even if it recedes.
+        // A pair in contact gets no free time, even if it recedes.
         if gap > 0.0 && tau > 0.0 {
             tau * (1.0 - RATE_F64)
         } else {
@@ -41,12 +41,12 @@ impl Gap {
         }
     }
 
-    /// A gap that closes ever slower may stay open for good.
+    /// Returns the free time of a gap that closes ever slower, and may never close.
     #[cold]
     fn free_time_of_parting(&self) -> f64 {
         let (gap, rate, bend) = (self.gap, self.rate, self.bend);
         let (square, lost) = (rate * rate, -2.0 * bend * gap);
-        // A sum that is lost to rounding, or to underflow, counts as none.
+        // A sum that is lost to rounding or to underflow counts as zero.
         let left = (square - lost) + RATE_F64 * (square + lost) + f64::MIN_POSITIVE;
         let tau = if rate > 0.0 && left >= 0.0 {
             2.0 * gap / (rate + left.sqrt())
@@ -62,8 +62,8 @@ impl Gap {
     }
 }
 
-/// Returns the first time within `[0, horizon]` at which a gap may close, or a lower bound of it,
-/// or none if it stays open; `free_time(τ)` is a time for which it stays open from `τ` on.
+/// Returns the first time within `[0, horizon]` at which a gap may close, or a lower bound of it; `None` if the gap
+/// stays open. `free_time(τ)` returns a time for which it stays open from `τ` on.
 #[inline]
 pub(crate) fn first_crossing(
     horizon: f64,
@@ -77,7 +77,7 @@ pub(crate) fn first_crossing(
         if tau >= horizon {
             return None;
         }
-        // Steps shrink from here on: the rest is not worth a round.
+        // Steps shrink from here on, and the rest is not worth another round.
         if step <= tau * WORTHWHILE {
             break;
         }

@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 impl TryFrom<Isometry3<f64>> for Pose {
     type Error = InputError;
 
-    /// Converts to the same placement.
+    /// Converts an isometry to the same placement.
     ///
     /// # Errors
     /// [`InputError::NotFinite`] for a NaN or infinite part.

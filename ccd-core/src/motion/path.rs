@@ -1,5 +1,5 @@
-//! A motion in a problem's own units: time runs from 0 to 1, and the origin is near both bodies.
-//! Neither a far origin of the world nor a long duration costs digits.
+//! A motion in a problem's own units: time runs from 0 to 1, and the origin is near both bodies. Neither a far origin
+//! of the world nor a long duration costs digits.
 
 use super::Motion;
 use super::bound::Velocities;
@@ -9,29 +9,29 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use glam::{DMat3, DVec3};
 
-/// `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`, and
-/// `s²/2 · acceleration` further on a stretch of a trajectory.
+/// The motion `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`. On a
+/// stretch of a trajectory the centre is displaced by `s²/2 · acceleration` as well.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
-    /// `A = R₀ − C`
+    /// The factor of the cosine, `A = R₀ − C`.
     cosine: DMat3,
-    /// `B = [u]× R₀`
+    /// The factor of the sine, `B = [u]× R₀`.
     sine: DMat3,
-    /// `C = u uᵀ R₀`
+    /// The constant part, `C = u uᵀ R₀`.
     constant: DMat3,
-    /// The rotation's centre, in the body's frame.
+    /// The centre of rotation, in the body's frame.
     pub(crate) centre: DVec3,
     /// The centre's position at `s = 0`.
     start: DVec3,
     /// The centre's velocity at `s = 0`, per unit of `s`.
     pub(crate) velocity: DVec3,
-    /// The centre's acceleration, which is constant; zero but on stretches of trajectories.
+    /// The centre's acceleration, which is constant; zero except on stretches of trajectories.
     pub(crate) acceleration: DVec3,
     /// The angular velocity along the world's axes, per unit of `s`.
     pub(crate) spin: DVec3,
-    /// The angular velocity along the body's axes; it is constant.
+    /// The angular velocity along the body's axes, which is constant.
     pub(crate) spin_local: DVec3,
-    /// `|spin|`
+    /// The angular speed, `|spin|`.
     pub(crate) rate: f64,
     /// The direction of `spin`; zero if the body does not turn.
     pub(crate) axis: DVec3,
@@ -43,7 +43,7 @@ impl Path {
         let spin = motion.spin() * duration;
         let rate = length(spin);
         let axis = unit(spin).unwrap_or(DVec3::ZERO);
-        // A body that does not turn has only the constant part.
+        // The rotation of a body that does not turn has only the constant part.
         let [cosine, sine, constant] = if rate > 0.0 {
             let constant = outer(axis) * start.rotation;
             let sine = cross_matrix(axis) * start.rotation;
@@ -67,7 +67,7 @@ impl Path {
         }
     }
 
-    /// Lets the centre accelerate by this much per unit of `s`.
+    /// Returns the path with this acceleration of the centre, per unit of `s`.
     pub(crate) fn accelerated(self, acceleration: DVec3) -> Self {
         Path {
             acceleration,
@@ -75,7 +75,7 @@ impl Path {
         }
     }
 
-    /// Returns the path from one `s` to a later one, with times from 0 to 1 again. Places are off by
+    /// Returns the path from one `s` to a later one, with times from 0 to 1 again. Positions are off by
     /// [`place_rounding`](crate::rounding::place_rounding) at most.
     pub(crate) fn part(&self, [from, to]: [f64; 2]) -> Self {
         let time = to - from;
@@ -132,7 +132,7 @@ impl Path {
         self.velocity + self.acceleration * s
     }
 
-    /// Bounds the speed of the centre of rotation at any time.
+    /// Returns a bound of the speed of the centre of rotation at any time.
     pub(crate) fn speed(&self) -> f64 {
         length(self.velocity) + length(self.acceleration)
     }
@@ -177,12 +177,12 @@ impl Path {
     }
 }
 
-/// `u uᵀ`
+/// Returns `u uᵀ`.
 fn outer(u: DVec3) -> DMat3 {
     DMat3::from_cols(u * u.x, u * u.y, u * u.z)
 }
 
-/// `[u]×`
+/// Returns `[u]×`.
 fn cross_matrix(u: DVec3) -> DMat3 {
     DMat3::from_cols(
         DVec3::new(0.0, u.z, -u.y),

@@ -1,28 +1,28 @@
-//! The periods after which two turning bodies are back at the same places relative to each other, or nearly.
+//! The periods after which two turning bodies are back in the same relative pose, or nearly.
 //!
-//! After a time `T`, a body that turns at a rate `ω` has the orientation that it had, turned by `ε = |ω T − 2π p|` for
-//! the nearest whole number of turns `p`, and after `k` such times by `k ε`. A point at a distance of at most `ρ` from
-//! the centre of rotation is then within `k ε ρ` of where it was, as seen from the centre. The centre of one body moves
-//! relative to the other's by at most `(|v| + |a|) k T` in that time, with `v` and `a` the difference of their
-//! velocities and accelerations, and times from 0 to 1. No distance of a point of one body from a point of the other
-//! changes by more than the sum, `k` times that of a period. Whatever is said of all distances in one period holds
-//! for the `k` periods from there, up to that.
+//! After a time `T`, a body that turns at a rate `ω` has its former orientation, turned by `ε = |ω T − 2π p|` for the
+//! nearest whole number of turns `p`; after `k` such times, turned by `k ε`. A point at a distance of at most `ρ`
+//! from the centre of rotation is then within `k ε ρ` of its former place, relative to the centre. The centre of one
+//! body moves relative to the other's by at most `(|v| + |a|) k T` in that time, with `v` and `a` the difference of
+//! their velocities and accelerations, and times from 0 to 1. No distance of a point of one body from a point of the
+//! other changes by more than the sum, which is `k` times that of a period. A bound of all distances in one period
+//! therefore holds for the `k` periods from there, up to that change.
 //!
-//! If both bodies turn, a period has to be nearly a whole number of turns of either. The best fractions of their rates
-//! are the convergents of its continued fraction.
+//! If both bodies turn, a period has to be nearly a whole number of turns of each. The best fractions for the ratio
+//! of their rates are the convergents of its continued fraction.
 
 use super::path::Path;
 use crate::math::vector::length;
 use crate::rounding::{RATE_F64, TURNS_F64};
 use std::f64::consts::TAU;
 
-/// A time after which distances are the same again, or nearly.
+/// A time after which all distances repeat, or nearly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Period {
-    /// In units of the paths' time.
+    /// The length of the period, in units of the paths' time.
     pub(crate) length: f64,
-    /// Bounds how much any distance differs after a period; after `k` periods it is `k` times that. Rounding of the
-    /// rates comes on top, see [`place_rounding`](crate::rounding::place_rounding).
+    /// A bound of the change of any distance after a period; after `k` periods the bound is `k` times that. The
+    /// rounding of the rates comes in addition, see [`place_rounding`](crate::rounding::place_rounding).
     pub(crate) change: f64,
 }
 
@@ -34,7 +34,8 @@ pub(crate) struct Reaching<'p> {
 }
 
 impl Period {
-    /// Returns the periods that fit in twice, short ones first. Later ones are longer, and after them less changes.
+    /// Returns the periods that fit twice into the whole time, short ones first. Later ones are longer, and distances
+    /// change less after them.
     pub(crate) fn all(bodies: [Reaching<'_>; 2]) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;
         let [slow, fast] = if a.path.rate > b.path.rate {
@@ -57,13 +58,13 @@ impl Period {
             .take_while(|period| period.length <= 0.5)
     }
 
-    /// The length of the first period, and a little more: what comes after whole periods leaves no time out.
+    /// Returns the length of the first period and a little more, so that whole periods leave no time out.
     pub(crate) fn covering(&self) -> f64 {
         self.length * (1.0 + TURNS_F64)
     }
 }
 
-/// The fractions nearest to a number from 0 to 1 for their size: numerator and denominator.
+/// The fractions nearest to a number from 0 to 1 for their size, as numerators and denominators.
 struct Convergents {
     rest: f64,
     last: [f64; 2],

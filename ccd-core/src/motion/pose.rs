@@ -19,7 +19,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The body's own frame equals the world's.
+    /// The pose whose frame equals the world's.
     pub const IDENTITY: Pose = Pose {
         translation: DVec3::ZERO,
         rotation: DQuat::IDENTITY,
@@ -66,12 +66,12 @@ impl Pose {
         Pose::new(translation, DQuat::IDENTITY)
     }
 
-    /// The position of the body's origin in the world.
+    /// Returns the position of the body's origin in the world.
     pub fn translation(&self) -> DVec3 {
         self.translation
     }
 
-    /// The body's orientation, a unit quaternion.
+    /// Returns the body's orientation, a unit quaternion.
     pub fn rotation(&self) -> DQuat {
         self.rotation
     }
@@ -99,7 +99,7 @@ impl Pose {
         Pose::from_unit(rotation * -self.translation, rotation)
     }
 
-    /// Returns the pose further on by a vector.
+    /// Returns the pose displaced by a vector.
     pub(crate) fn moved(&self, by: DVec3) -> Pose {
         Pose::from_unit(self.translation + by, self.rotation)
     }
@@ -110,7 +110,7 @@ impl Pose {
     }
 }
 
-/// Returns the unit quaternion of the same orientation, for finite ones of any length; none for zero.
+/// Returns the unit quaternion of the same orientation, for finite quaternions of any length; `None` for zero.
 fn unit(rotation: DQuat) -> Option<DQuat> {
     let (scale, _) = scale_of(rotation.length_squared());
     let scaled = rotation * scale;
@@ -121,14 +121,14 @@ fn unit(rotation: DQuat) -> Option<DQuat> {
 /// A pose in the form that is cheapest to apply: a rotation matrix and a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Columns are the images of the axes.
+    /// The rotation. Its columns are the images of the axes.
     pub rotation: DMat3,
     /// The image of the origin.
     pub translation: DVec3,
 }
 
 impl Frame {
-    /// Maps every point to itself.
+    /// The frame that maps every point to itself.
     pub const IDENTITY: Frame = Frame {
         rotation: DMat3::IDENTITY,
         translation: DVec3::ZERO,
@@ -140,7 +140,7 @@ impl Frame {
         self.rotation * point + self.translation
     }
 
-    /// Returns `rotationᵀ · (point − translation)`: undoes [`Frame::point`].
+    /// Returns `rotationᵀ · (point − translation)`, the inverse of [`Frame::point`].
     #[inline(always)]
     pub fn inverse_point(&self, point: DVec3) -> DVec3 {
         self.inverse_vector(point - self.translation)

@@ -6,14 +6,15 @@ use crate::math::packed::{Packed, PackedMatrix, Row, row, rows};
 use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
-/// A body as seen from another, prepared once a query.
+/// A body as seen from another, prepared once for each query.
 ///
-/// If only one of the two turns, all that changes is a sum of three constant parts: of cosine, of sine
-/// and of one, as in the rotation of a single [`Path`].
+/// If only one of the two turns, the view is a sum of three constant parts: factors of cosine, of sine and of one, as
+/// in the rotation of a single [`Path`].
 #[derive(Clone, Debug)]
 pub(crate) struct View {
     seen: Parts,
-    /// The centres of rotation in their bodies' frames: of the body that looks, and of the seen one.
+    /// The centres of rotation in their bodies' frames: that of the body from which the other is seen, and that of
+    /// the seen one.
     centre: Row,
     other_centre: Row,
 }
@@ -22,15 +23,15 @@ pub(crate) struct View {
 enum Parts {
     OneTurns {
         rotation: Turning<[Row; 3]>,
-        /// From centre to centre at the start, and the change per unit of time.
+        /// The vector from centre to centre at the start, and its change per unit of time.
         way: Turning<Row>,
         change: Turning<Row>,
         acceleration: Option<Turning<Row>>,
         spin: Row,
     },
-    /// Along the axes of the world.
+    /// Both bodies turn. Vectors are along the axes of the world.
     BothTurn {
-        /// The inverse of the rotation of the body that looks.
+        /// The inverse of the rotation of the body from which the other is seen.
         inverse: Turning<[Row; 3]>,
         other: Turning<[Row; 3]>,
         way: Row,
@@ -40,7 +41,7 @@ enum Parts {
     },
 }
 
-/// `cos(ω s) P + sin(ω s) Q + K`
+/// The sum `cos(ω s) P + sin(ω s) Q + K`.
 #[derive(Clone, Copy, Debug)]
 struct Turning<T> {
     rate: f64,
@@ -50,20 +51,20 @@ struct Turning<T> {
 /// One body as seen from another at an instant, along the axes of the latter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen<L: Simd> {
-    /// Takes the seen body's frame to the seeing one's.
+    /// The rotation from the seen body's frame to the seeing body's frame.
     pub(crate) rotation: PackedMatrix<L>,
-    /// From the seeing body's centre of rotation to the seen one's.
+    /// The vector from the seeing body's centre of rotation to the seen body's.
     pub(crate) way: Packed<L>,
-    /// The velocity of the seeing body's centre minus that of the seen one's.
+    /// The velocity of the seeing body's centre minus that of the seen body's.
     pub(crate) velocity: Packed<L>,
-    /// Its derivative, if the centres accelerate differently.
+    /// The derivative of the velocity, if the centres accelerate differently.
     pub(crate) acceleration: Option<Packed<L>>,
     /// The angular velocity of the seen body.
     pub(crate) spin: Packed<L>,
 }
 
 impl View {
-    /// Returns the other body as `own` sees it.
+    /// Returns the view of the other body from `own`.
     pub(crate) fn new(own: &Path, other: &Path) -> Self {
         let way = other.centre_at(0.0) - own.centre_at(0.0);
         let change = other.velocity - own.velocity;
@@ -133,13 +134,13 @@ impl View {
         }
     }
 
-    /// The centre of rotation of the body that looks, in its frame.
+    /// Returns the centre of rotation of the seeing body, in its frame.
     #[inline(always)]
     pub(crate) fn centre<L: Simd>(&self, level: L) -> Packed<L> {
         Packed::load(level, &self.centre)
     }
 
-    /// The centre of rotation of the seen body, in its frame.
+    /// Returns the centre of rotation of the seen body, in its frame.
     #[inline(always)]
     pub(crate) fn other_centre<L: Simd>(&self, level: L) -> Packed<L> {
         Packed::load(level, &self.other_centre)
@@ -147,7 +148,7 @@ impl View {
 }
 
 impl Parts {
-    /// At most one of the two turns: of the other one's rotation there is only the constant part.
+    /// Returns the view if at most one of the bodies turns. The rotation of the other one has only the constant part.
     fn one_turns(
         own: &Path,
         other: &Path,
@@ -203,7 +204,7 @@ impl Turning<Row> {
     }
 }
 
-/// Returns the change of a way until `s`, and its rate then, from the rate at 0.
+/// Returns the displacement by a constant acceleration until `s`, and the rate at `s`, from the rate at 0.
 #[inline(always)]
 fn accelerated<L: Simd>(
     change: Packed<L>,

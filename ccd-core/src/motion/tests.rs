@@ -1,4 +1,4 @@
-//! Motions pass through the poses from which they are made.
+//! Tests that motions pass through the poses from which they are created.
 
 use super::Motion;
 use super::pose::Pose;
@@ -8,7 +8,7 @@ use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
-/// The distance to which two poses take points of about unit size.
+/// Returns the distance between the images of points of about unit size under two poses.
 fn apart(a: &Pose, b: &Pose) -> f64 {
     let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let off = points.map(|p| a.transform_point(p).distance(b.transform_point(p)));
@@ -52,7 +52,7 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
     }
 }
 
-/// Both directions are as short: the signs of the quaternions decide.
+/// Both directions are equally short, and the signs of the quaternions decide.
 #[test]
 fn half_a_turn_goes_about_the_axis_as_it_is_given() {
     let turn = |start: DQuat, end: DQuat| {
@@ -76,7 +76,7 @@ fn any_number_of_turns_is_a_motion() {
     let end = Pose::at(DVec3::X).unwrap();
     assert!(apart(&motion.pose(1.0), &end) < 1e-13);
     assert!(apart(&motion.pose(0.5), &Pose::at(0.5 * DVec3::X).unwrap()) < 1e-13);
-    // A quarter of a turn later its orientation is different.
+    // The orientation after another quarter of a turn is different.
     assert!(apart(&motion.pose(1.0 / 24.0), &end) > 1.0);
 }
 

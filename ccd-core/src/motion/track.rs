@@ -30,8 +30,8 @@ impl Track {
         self.drift + self.pull * tau + self.omega * (angle.cos * self.q - angle.sin * self.p)
     }
 
-    /// Returns the least height up to `horizon`, at which the body has turned by `end`, but for drift and pull,
-    /// which all points of a body share; rounded down.
+    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `drift` and `pull`,
+    /// which all points of a body share. `end` is the rotation at `horizon`.
     pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
         let turn = self.omega * horizon;
@@ -45,9 +45,9 @@ impl Track {
         self.height + (turned - RATE_F64 * swing * (1.0 + turn))
     }
 
-    /// Returns whether the point is lowest on its circle before a turn by less than 2π ends.
+    /// Returns whether the point passes the lowest point of its circle before the end of a turn by less than 2π.
     fn passes_trough(&self, turn: f64, end: Angle) -> bool {
-        // The trough is at the angle of (−p, −q): compared to the start, and to the end.
+        // The lowest point is at the angle of (−p, −q). It is compared to the start and to the end of the turn.
         let (after_start, before_end) = (-self.q, self.q * end.cos - self.p * end.sin);
         if turn < PI {
             after_start > 0.0 && before_end > 0.0
@@ -56,27 +56,27 @@ impl Track {
         }
     }
 
-    /// Returns a bound of what the turning adds to the second derivative.
+    /// Returns a bound of the second derivative due to rotation.
     #[inline]
     pub(crate) fn bend(&self) -> f64 {
         self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
     }
 }
 
-/// The motion that all points of a body share when seen along one axis.
+/// The motion along one axis that all points of a body share.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisMotion {
     drift: f64,
     pull: f64,
-    /// `n` less its part along the axis of rotation.
+    /// The part of `n` perpendicular to the axis of rotation.
     across: DVec3,
-    /// `n × u`
+    /// The cross product `n × u`.
     beside: DVec3,
     omega: f64,
 }
 
 impl AxisMotion {
-    /// Here `unit` is the direction of the axis of rotation, or zero if there is none.
+    /// Creates the motion along `n`; `unit` is the direction of the axis of rotation, or zero if there is none.
     #[inline]
     pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
         AxisMotion {
@@ -88,31 +88,31 @@ impl AxisMotion {
         }
     }
 
-    /// Lets the rate of all points change by this much per unit of time.
+    /// Returns the motion with this second derivative of the heights of all points.
     pub(crate) fn pulled(self, pull: f64) -> Self {
         AxisMotion { pull, ..self }
     }
 
-    /// The rate of points of a body that does not turn, now.
+    /// Returns the present rate of points of a body that does not turn.
     #[inline]
     pub(crate) fn drift(&self) -> f64 {
         self.drift
     }
 
-    /// Its derivative.
+    /// Returns the derivative of that rate.
     #[inline]
     pub(crate) fn pull(&self) -> f64 {
         self.pull
     }
 
-    /// The way of such points after some time.
+    /// Returns the displacement of such points after some time.
     #[inline]
     pub(crate) fn rise(&self, tau: f64) -> f64 {
         (self.drift + 0.5 * self.pull * tau) * tau
     }
 
-    /// Returns a bound of what turning adds to the second derivative of heights, for points at most `distance` from
-    /// the axis of rotation.
+    /// Returns a bound of the second derivative of heights due to rotation, for points at most `distance` from the
+    /// axis of rotation.
     #[inline]
     pub(crate) fn bend(&self, distance: f64) -> f64 {
         self.omega * self.omega * length(self.across) * distance
@@ -131,7 +131,7 @@ impl AxisMotion {
     }
 }
 
-/// The sine, the cosine, and the cosine minus one without cancellation.
+/// The sine and the cosine of an angle, and the cosine minus one without cancellation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Angle {
     sin: f64,
@@ -162,14 +162,14 @@ impl Angle {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spinning {
     start: DVec3,
-    /// The vector less its part along the axis.
+    /// The part of the vector perpendicular to the axis.
     across: DVec3,
-    /// `u × v`
+    /// The cross product `u × v`.
     beside: DVec3,
 }
 
 impl Spinning {
-    /// Here `unit` is the direction of the axis, or zero if there is none.
+    /// Creates the vector with its value at the start; `unit` is the direction of the axis, or zero if there is none.
     #[inline]
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
         Spinning {
@@ -184,13 +184,13 @@ impl Spinning {
         self.start + self.across * angle.cos_minus_one + self.beside * angle.sin
     }
 
-    /// Returns the derivative, per radian.
+    /// Returns the derivative of the vector, per radian.
     #[inline]
     pub(crate) fn slope_at(&self, angle: Angle) -> DVec3 {
         self.beside * angle.cos - self.across * angle.sin
     }
 
-    /// The length of the derivative, which is constant.
+    /// Returns the length of the derivative, which is constant.
     #[inline]
     pub(crate) fn slope(&self) -> f64 {
         self.beside.length()

@@ -1,4 +1,4 @@
-//! Motions of any kind, as stretches of the paper's motion that they stray from by a known amount.
+//! Motions of any kind, as stretches of the paper's motion with a known bound of their deviation.
 
 use super::Motion;
 use super::pose::Pose;
@@ -8,10 +8,10 @@ use crate::math::vector::length;
 use crate::rounding::STRETCH_F64;
 use glam::DVec3;
 
-/// A motion of any kind: between any two times it is near a [`Motion`], by a bound that it knows.
+/// A motion of any kind. Between any two times it is near a [`Motion`], up to a bound of its deviation.
 ///
-/// A query covers the time with stretches, long ones first. It takes shorter ones where the answer depends
-/// on it, so that bounds have to shrink with the stretch: with its square where the motion is smooth.
+/// A query covers the time with stretches, long ones first. It requests shorter ones if the answer depends on it. The
+/// bounds have to shrink with the length of the stretch: with its square if the motion is smooth.
 ///
 /// Implement [`Smooth`] instead, if velocities and bounds of accelerations are known.
 ///
@@ -41,29 +41,29 @@ use glam::DVec3;
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Trajectory: Sync {
-    /// Returns a motion near this one from a time to a later one, or the same.
+    /// Returns a motion near this one, from a time to a later one or to the same time.
     ///
     /// # Errors
     /// An [`InputError`] if there is no motion between these times.
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError>;
 
-    /// Returns a time between two others, if there is one, at which a velocity jumps: bounds of stretches
-    /// that end there are better. If there are several, one about the middle is best.
+    /// Returns a time between two others, if there is one, at which a velocity jumps: bounds of stretches that end
+    /// there are better. If there are several, the best one is near the middle.
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let _ = (from, to);
         None
     }
 
-    /// Returns the motion, if the trajectory is one over all time; otherwise `None`. Queries about two motions are
-    /// answered at once, instead of stretch by stretch.
+    /// Returns the motion if the trajectory is a single motion over all time; otherwise `None`. Queries about two
+    /// motions are answered at once, instead of stretch by stretch.
     fn as_motion(&self) -> Option<Motion> {
         None
     }
 
-    /// Returns the pose at a time, up to what the stretch of no length strays.
+    /// Returns the pose at a time, up to the deviation of the stretch of no length.
     ///
     /// # Errors
-    /// Those of [`Trajectory::stretch`].
+    /// The errors of [`Trajectory::stretch`].
     fn pose(&self, time: f64) -> Result<Pose, InputError> {
         Ok(self.stretch(time, time)?.motion.start())
     }
@@ -75,9 +75,9 @@ pub struct Stretch {
     /// The motion; its time 0 is the first of the two.
     pub motion: Motion,
     /// The constant acceleration of the motion's centre, added to the motion: after a time `t` all points are
-    /// `acceleration · t²/2` further on.
+    /// displaced by another `acceleration · t²/2`.
     pub acceleration: DVec3,
-    /// How far the trajectory strays from that.
+    /// A bound of the trajectory's deviation from the motion with this acceleration.
     pub stray: Stray,
 }
 
@@ -91,7 +91,7 @@ impl Stretch {
         }
     }
 
-    /// Returns the pose after a time, up to the stray.
+    /// Returns the pose after a time, up to the deviation.
     pub fn pose(&self, time: f64) -> Pose {
         let pose = self.motion.pose(time);
         if self.acceleration == DVec3::ZERO {
@@ -101,20 +101,20 @@ impl Stretch {
         }
     }
 
-    /// Returns the velocity of the body's point at `x` after a time, but for the stray.
+    /// Returns the velocity of the body's point at `x` after a time, without the deviation.
     pub(crate) fn velocity_at(&self, x: DVec3, time: f64) -> DVec3 {
         let motion = &self.motion;
         let arm = x - self.pose(time).transform_point(motion.centre());
         motion.velocity() + time * self.acceleration + motion.spin().cross(arm)
     }
 
-    /// Returns the stretch with another time as its time 0, but for rounding.
+    /// Returns the stretch with another time as its time 0, up to rounding.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
     pub(crate) fn started(&self, at: f64) -> Result<Stretch, InputError> {
         let pose = self.pose(at);
-        // Checked, and normalised once more.
+        // The pose is checked, and its quaternion normalised once more.
         let start = Pose::new(pose.translation(), pose.rotation())?;
         let Stretch {
             motion,
@@ -128,7 +128,7 @@ impl Stretch {
         })
     }
 
-    /// Bounds the error of a start that was computed for another time.
+    /// Returns a bound of the error of a start that was computed for another time.
     pub(crate) fn rounding_of_start(&self, time: f64) -> Stray {
         let Stretch { motion, .. } = self;
         let turned = length(motion.spin()) * time.abs();
@@ -141,30 +141,30 @@ impl Stretch {
     }
 }
 
-/// Bounds of the difference of two motions of a body.
+/// Bounds of the deviation between two motions of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stray {
-    /// The largest distance between the two places of the motion's centre, a point of the body, in the
-    /// scene's unit of length.
+    /// The largest distance between the two positions of the motion's centre, a point of the body, in the scene's
+    /// unit of length.
     pub shift: f64,
     /// The largest angle between the two orientations, in radians.
     pub turn: f64,
 }
 
 impl Stray {
-    /// The motions are the same.
+    /// No deviation: the motions are the same.
     pub const NONE: Stray = Stray {
         shift: 0.0,
         turn: 0.0,
     };
 
-    /// Bounds the distance between the two places of a point that is no farther than `reach` from the motion's
+    /// Returns a bound of the distance between the two positions of a point that is at most `reach` from the motion's
     /// centre.
     pub fn at(&self, reach: f64) -> f64 {
         let Stray { shift, turn } = *self;
         match turn > 0.0 {
             true => shift + turn * reach,
-            // No turn is exact at any reach. What is no bound is NaN.
+            // Without a turn the bound is exact for any `reach`. A value that is no bound becomes NaN.
             false if turn == 0.0 => shift,
             false => f64::NAN,
         }
@@ -182,15 +182,15 @@ impl std::ops::Add for Stray {
     }
 }
 
-/// A trajectory without jumps of its velocities, known by bounds of its accelerations.
+/// A trajectory without jumps of its velocities, given by bounds of its accelerations.
 ///
 /// Between two times it is near the motion with the velocities of the middle, `m`. With bounds `a` and `α` of the
 /// accelerations, `|x(t) − x(m) − v(m) (t − m)| ≤ a (t − m)²/2`, and the angle between both orientations is at
 /// most `∫ |ω(s) − ω(m)| ds ≤ α (t − m)²/2`: the rotation that takes one to the other turns at the
 /// difference of their angular velocities.
 ///
-/// Where the linear acceleration of the middle is known as well, and a bound `j` of how fast it changes, the centre
-/// strays by at most `j |t − m|³/6` from the motion with that acceleration. That shrinks faster with the time:
+/// If the linear acceleration of the middle is known as well, and a bound `j` of its rate of change, the centre
+/// deviates by at most `j |t − m|³/6` from the motion with that acceleration. That shrinks faster with the time:
 /// bodies that pass each other closely take no more stretches than others do.
 ///
 /// ```
@@ -221,14 +221,14 @@ pub trait Smooth: Sync {
     /// An [`InputError`] if there is no pose at that time.
     fn tangent(&self, time: f64) -> Result<Motion, InputError>;
 
-    /// Bounds the lengths of the accelerations from a time to a later one.
+    /// Returns bounds of the lengths of the accelerations from a time to a later one.
     fn accelerations(&self, from: f64, to: f64) -> Accelerations;
 
-    /// Returns the tangent at a time with the acceleration of its centre, and a bound of how fast that changes from a
-    /// time to a later one; none where it is not known, or has no bound.
+    /// Returns the tangent at a time with the acceleration of its centre, and a bound of the rate of change of that
+    /// acceleration from a time to a later one; `None` if it is unknown or unbounded.
     ///
     /// # Errors
-    /// That of the motion.
+    /// The errors of the motion.
     fn osculating(
         &self,
         time: f64,
@@ -239,8 +239,8 @@ pub trait Smooth: Sync {
         Ok((self.tangent(time)?, None))
     }
 
-    /// Bounds the errors of the poses of tangents from a time to a later one, if they are off by more than
-    /// about 40 units in the last place, of their lengths and of a radian.
+    /// Returns bounds of the errors of the poses of tangents from a time to a later one, if these errors exceed about
+    /// 40 units in the last place, of lengths and of a radian.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let _ = (from, to);
         Stray::NONE
@@ -257,13 +257,13 @@ pub trait Smooth: Sync {
 /// Bounds of the lengths of accelerations, per unit of time squared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Accelerations {
-    /// Of the tangents' centre, in the scene's unit of length.
+    /// The acceleration of the tangents' centre, in the scene's unit of length.
     pub linear: f64,
-    /// Of the orientation, in radians: the length of the derivative of the angular velocity.
+    /// The angular acceleration, in radians: the length of the derivative of the angular velocity.
     pub angular: f64,
 }
 
-/// A linear acceleration, and how much it changes.
+/// A linear acceleration, and a bound of its change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Acceleration {
     /// The acceleration, in the scene's unit of length per unit of time squared.
@@ -273,7 +273,7 @@ pub struct Acceleration {
 }
 
 impl Acceleration {
-    /// Bounds what its changes add up to in a time, from the tangent on.
+    /// Returns a bound of the deviation that the changes of the acceleration cause in a time, from the tangent on.
     fn over(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = STRETCH_F64 * (time * (time * length(self.vector)));
@@ -282,7 +282,7 @@ impl Acceleration {
 }
 
 impl Accelerations {
-    /// Bounds what they add up to in a time, from a tangent on.
+    /// Returns a bound of the deviation that the accelerations cause in a time, from a tangent on.
     fn over(self, time: f64) -> Stray {
         // The time and the products are rounded.
         let square = 0.5 * time * time * (1.0 + STRETCH_F64);
@@ -295,7 +295,7 @@ impl Accelerations {
 
 impl<S: Smooth + ?Sized> Trajectory for S {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        // Times far from 0 have no middle: the halves differ.
+        // Times far from 0 have no exact middle: the halves differ.
         let middle = from + 0.5 * (to - from);
         let [before, after] = [middle - from, to - middle];
         let half = greater(before, after);

@@ -1,4 +1,4 @@
-//! Sine and cosine without a table: the same bits on every machine.
+//! The sine and the cosine without a table: the same bits on every machine.
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -30,20 +30,20 @@ const COSINE: [f64; 7] = [
     1.0 / 20_922_789_888_000.0,
 ];
 
-/// Computes sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
+/// Returns the sine and the cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
 ///
 /// # Guarantee
 /// Each is off by at most 2u, as [`distance_rounding`](crate::rounding::distance_rounding) counts.
 #[inline(always)]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
-    // Angles are not negative: cutting off is rounding down, and takes no call of a library.
+    // Angles are not negative: truncation rounds down, and needs no library call.
     let turns = (angle * FRAC_2_PI + 0.5) as i32;
     let quarter = f64::from(turns);
     // The first difference is exact, and the sum off by 2⁻⁶⁷ at most; the last step adds a relative 2⁻⁵³.
     let r = (angle - quarter * HALF_PI[0]) - (quarter * HALF_PI[1] + quarter * HALF_PI[2]);
     let square = r * r;
     let fourth = square * square;
-    // Few steps follow on each other: a visit waits for them.
+    // The sum has few dependent steps, since a visit waits for its result.
     let sum = |&[a, b, c, d, e, f, g]: &[f64; 7]| {
         let low = (a + b * square) + (c + d * square) * fourth;
         low + ((e + f * square) + g * fourth) * (fourth * fourth)

@@ -63,21 +63,21 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
         assert_eq!(refusal(Motion::still(pose(beyond))), "position");
         assert!(good(about(Pose::IDENTITY, most * DVec3::X)));
         assert_eq!(refusal(about(Pose::IDENTITY, beyond * DVec3::X)), "centre");
-        // Also where the two of them cancel.
+        // The coordinates are also out of range if they cancel.
         let cancelled = about(pose(beyond), -beyond * DVec3::Z);
         assert_eq!(refusal(cancelled), "position");
         let between = |end| Motion::between(pose(0.0), pose(end), DVec3::ZERO, 1.0).unwrap();
         assert!(good(between(most)));
         assert_eq!(refusal(between(beyond)), "travel");
     }
-    // Both in range, but too far apart.
+    // Both positions are in range, but too far apart.
     let body = Body::ball(1.0).unwrap();
     let still = |at: f64| Moving::from((&body, Motion::still(pose(at))));
     let apart =
         |at: f64| Problem::about(still(at), still(-at), 1.0, &config).map(|p| p.tolerance());
     assert!(apart(0.5 * MAX_COORDINATE).is_ok());
     assert_eq!(refused(apart(0.6 * MAX_COORDINATE)), "travel");
-    // Side by side they are as exact as anywhere, wherever that is.
+    // Bodies side by side are as exact as anywhere, whatever their position.
     let side_by_side = Problem::about(still(1e12), still(1e12 - 4.0), 1.0, &config).unwrap();
     assert_eq!(side_by_side.tolerance(), config.tolerance);
     for large in [MAX_COORDINATE, 1e13] {

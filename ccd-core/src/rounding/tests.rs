@@ -1,4 +1,4 @@
-//! The f64 allowances against double-double arithmetic.
+//! The f64 allowances, compared with double-double arithmetic.
 
 mod derivations;
 mod distances;
@@ -23,13 +23,13 @@ use crate::tests::worst::share;
 use crate::{Body, Pose};
 use glam::DVec3;
 
-/// The largest errors found, as shares of the rounding that is allowed for.
+/// The largest errors found, as shares of the allowed rounding.
 #[derive(Debug, Default)]
 struct Worst {
     place: f64,
     gap: f64,
     distance: f64,
-    /// Problems at a million units from the body's or the world's origin, and with many turns.
+    /// The number of problems at a million units from the body's or the world's origin, and of those with many turns.
     far: usize,
     turns: usize,
 }
@@ -64,8 +64,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
     assert!(worst.distance < 1.0, "{worst:?}");
 }
 
-/// The allowance covers velocities derived from poses at both ends, against the motion between
-/// them.
+/// The allowance covers velocities derived from poses at both ends, compared with the motion between these poses.
 #[test]
 fn rounding_of_motions_between_poses_is_allowed_for() {
     let mut rng = rng(6);
@@ -124,7 +123,7 @@ fn motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Moti
     .unwrap()
 }
 
-/// Compares places, a support gap and a distance at one clock.
+/// Compares positions, a support gap and a distance at one clock with the exact ones.
 fn sample(
     rng: &mut Pcg64,
     problem: &Problem<'_>,
@@ -139,7 +138,7 @@ fn sample(
     worst.distance = greater(worst.distance, of.distance);
 }
 
-/// The errors of one look at two bodies, as shares of the rounding that is allowed for.
+/// The errors of one comparison of two bodies, as shares of the allowed rounding.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shares {
     place: f64,
@@ -147,7 +146,7 @@ struct Shares {
     distance: f64,
 }
 
-/// Compares places, a support gap and a distance at one clock.
+/// Returns the errors of positions, of a support gap and of a distance at one clock.
 fn shares_of_a_look(
     rng: &mut impl RngExt,
     problem: &Problem<'_>,
@@ -188,8 +187,7 @@ fn shares_of_a_look(
         b: Combination::point(j),
     };
     let checked = separation::check(&pair, &claim, problem.rounding);
-    // A bound holds along any axis: the axis of this one is the image of the claimed one in A's
-    // rounded frame.
+    // A bound holds along any axis: the axis of this bound is the image of the claimed one in A's rounded frame.
     let along = |column: DVec3, by: f64| Double3::from(column).scale(Double::from(by));
     let (turn, n) = (frames[0].rotation, checked.axis);
     let axis = along(turn.x_axis, n.x) + along(turn.y_axis, n.y) + along(turn.z_axis, n.z);

@@ -1,8 +1,8 @@
 //! Questions about bodies that move along trajectories, answered stretch by stretch.
 //!
-//! On a stretch each body follows a motion, with a constant acceleration of its centre, from which it strays by a
-//! known amount. The query about these motions takes both strays for a margin: bodies that keep them are apart. A
-//! contact within the strays proves nothing, and the stretch is cut.
+//! On a stretch of time each body follows a motion, with a constant acceleration of its centre, up to a known
+//! deviation. The query about these motions uses the sum of both deviations as a margin: if the motions keep this
+//! margin, the bodies are apart. A contact within the deviations proves nothing, and the stretch is cut.
 
 pub(super) mod any;
 pub(super) mod closest;

@@ -1,4 +1,4 @@
-//! Runs a search as the problem's policy for the start demands.
+//! Runs a search under the query's policy for contacts at the start.
 
 mod given;
 
@@ -13,11 +13,11 @@ use crate::settings::StartPolicy;
 use crate::touching_plane::TouchingPlane;
 pub(super) use given::{contact_of_given, of_given};
 
-/// Searches as the problem's policy for the start demands, in the order of time.
+/// Searches in order of time, under the query's policy for contacts at the start.
 ///
-/// Bodies that begin in contact and are to be let go are searched again at half the gap that they
-/// began with: pairs that part or slide keep more than that, pairs that approach do not. If there
-/// is no gap worth the name, the pairs that rest on each other are let go, each on its own.
+/// Bodies that begin in contact, under the policy `StartPolicy::Leave`, are searched again at half the gap that they
+/// began with. Pairs that part or slide keep more than that gap; pairs that approach do not. If there is no useful
+/// gap, each pair of pieces that rest on each other is let go by itself.
 ///
 /// A search adds its work to the meter, which lends it the memory.
 pub(crate) fn answer<O: DistanceOracle>(
@@ -30,8 +30,8 @@ pub(crate) fn answer<O: DistanceOracle>(
     answer_after(problem, oracle, scratch, as_found, search)
 }
 
-/// Like [`answer`] for a search in any order: it may pass over a contact at the start, for which bodies
-/// that are to be let go are examined first.
+/// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. Bodies that are to
+/// be let go are therefore examined first.
 pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -45,8 +45,8 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     answer_after(problem, oracle, scratch, at_start, search)
 }
 
-/// Searches as the policy demands; bodies that are to be let go have a `look` taken at them first, which may
-/// have the answer.
+/// Searches under the policy. For bodies that are to be let go, `look` examines the start first, and may return the
+/// answer.
 fn answer_after<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -77,7 +77,7 @@ fn answer_after<O: DistanceOracle>(
     .answer()
 }
 
-/// Returns the problem of bodies that touch at the start and are to be let go; none of others.
+/// Returns the problem of bodies that touch at the start and are to be let go; `None` for other bodies.
 pub(super) fn let_go<'a, O: DistanceOracle>(
     problem: &Problem<'a>,
     start: StartPolicy,
@@ -88,7 +88,7 @@ pub(super) fn let_go<'a, O: DistanceOracle>(
     match (start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let (within, at_start) = (problem.contact_distance(), problem.time(0.0));
-            // The normal is needed, and that of two pieces alone may be any.
+            // The normal is needed here. That of two pieces alone may be arbitrary.
             let contact = contact_of_given(problem, oracle, meter, *contact, within, at_start);
             let gap = contact.separation.lower - problem.margin;
             Some(problem.leaving(gap, TouchingPlane::of(problem, &contact)))
@@ -97,7 +97,7 @@ pub(super) fn let_go<'a, O: DistanceOracle>(
     }
 }
 
-/// Something that was searched for, with its tolerance and the cost.
+/// The result of a search, with its tolerance and the cost.
 pub(super) struct Searched<T> {
     pub(super) found: T,
     pub(super) tolerance: f64,
@@ -114,7 +114,7 @@ impl Searched<Outcome> {
     }
 }
 
-/// Adds up the work on a search, which returns what it found and the tolerance.
+/// Runs a search, and adds its work to the meter. The search returns its result and the tolerance.
 pub(super) fn metered<O: DistanceOracle, T>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -136,9 +136,9 @@ pub(super) fn metered<O: DistanceOracle, T>(
     }
 }
 
-/// Returns the tolerance that the outcome of bodies let go shows. Pieces that rest on each other are in
-/// contact again once they cannot be proven apart, even if their distance is known less exactly than the
-/// least tolerance asks.
+/// Returns the tolerance that an outcome under `StartPolicy::Leave` achieves. Pieces that rest on each other count as
+/// in contact again once they cannot be proven apart, even if their distance is known less exactly than the least
+/// tolerance.
 pub(super) fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     match outcome {
         Outcome::Contact { contact, .. } => {

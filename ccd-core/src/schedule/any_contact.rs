@@ -1,4 +1,4 @@
-//! Do two bodies touch at all? Any contact will do: the search need not go in the order of time.
+//! Decides whether two bodies touch at all. The search need not go in order of time.
 
 use super::answer::answer_in_any_order;
 use super::depth_first::DepthFirst;
@@ -24,7 +24,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// regard to those that may touch before.
     ///
     /// # Guarantee
-    /// That of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// The guarantee of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
     /// [deadline](crate::Settings::deadline) ends it.
     ///
     /// # Errors
@@ -36,7 +36,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Answers the same about two motions.
+    /// Answers the same question about two motions.
     pub(super) fn any_contact_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer =
@@ -65,7 +65,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         };
         let mut any = Any::default();
         match search.run(problem, &mut any) {
-            // Pairs that still wait keep apart until their clocks only.
+            // Waiting pairs are proven apart only until their clocks.
             Outcome::Unresolved(known) => Outcome::unresolved(
                 lesser(known.safe_until, problem.time(self.stack.least_clock())),
                 known.limit,
@@ -84,7 +84,7 @@ pub(super) fn any(answer: Answer) -> Answer {
     Answer { outcome, ..answer }
 }
 
-/// Do they touch at all?
+/// The question whether the bodies touch at all.
 #[derive(Default)]
 struct Any {
     proven: Proven,
@@ -93,7 +93,7 @@ struct Any {
 }
 
 impl Any {
-    /// Leaves a pair alone that cannot be proven further: another one may be in contact.
+    /// Abandons a pair that cannot be proven further: another pair may be in contact.
     fn leave(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
         if self.stuck.is_none_or(|(first, _)| s < first) {
             self.stuck = Some((s, limit));
@@ -120,7 +120,7 @@ impl<O: DistanceOracle> Question<O> for Any {
         let Advance { clock: s, step, .. } = advance;
         ControlFlow::Break(match step {
             Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
-            // A pair that keeps its distance bounds none of the others.
+            // A pair that keeps its distance gives no bound for the other pairs.
             Step::Contact(contact) => Outcome::Contact {
                 time: problem.time(s),
                 contact: contact.no_nearer_than(0.0),

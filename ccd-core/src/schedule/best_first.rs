@@ -1,4 +1,4 @@
-//! Every pair has its own clock; the pair whose proof expires first is examined next.
+//! Best-first search: the pair whose proof expires first is examined next.
 
 use super::answer::answer;
 use super::meter::Meter;
@@ -15,13 +15,12 @@ use std::ops::ControlFlow;
 
 /// Best-first search by time, the default.
 ///
-/// A pair of nodes carries the time until which it is proven apart. The pair of least clock is
-/// split at the pose of that time, and its children are proven apart further, eight at once. The
-/// first pair of pieces found within the tolerance is the answer: every other pair is certified
-/// beyond its time. There is never a pass over all pairs, and distances are computed between pieces
-/// only.
+/// A pair of nodes carries the clock until which it is proven apart. The pair of least clock is split at the pose of
+/// that clock, and its children are proven apart further, eight at once. The first pair of pieces found within the
+/// tolerance is the answer: every other pair is certified beyond its time. No step visits all pairs, and distances
+/// are computed between pieces only.
 ///
-/// Keep it between queries: it owns the queue's memory.
+/// Keep the value between queries: it owns the queue's memory.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
@@ -98,7 +97,7 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 }
 
-/// When do they first touch? All pairs are proven apart until the clock of the next one.
+/// The question of the first contact. All pairs are proven apart until the clock of the next one.
 impl<O: DistanceOracle> Question<O> for Proven {
     type Found = Outcome;
 

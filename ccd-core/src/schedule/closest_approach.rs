@@ -1,4 +1,4 @@
-//! How close do two bodies come, and when?
+//! Brackets the least distance of two bodies over a query, and its time.
 
 mod follow;
 pub(super) mod guess;
@@ -37,7 +37,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// The margin and the [policy](crate::StartPolicy) for the start play no role.
     ///
     /// # Guarantee
-    /// That of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// The guarantee of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
     /// [deadline](crate::Settings::deadline) ends it.
     ///
     /// # Errors
@@ -53,7 +53,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Answers the same about two motions.
+    /// Answers the same question about two motions.
     pub(super) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
             Some(distance) => self.keeps(problem, distance, oracle),
@@ -93,8 +93,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         answer.unwrap_or_else(|never| match never {})
     }
 
-    /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`; where they meet, it does
-    /// not tell whether they overlap at the start.
+    /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`. If they meet, the answer
+    /// does not say whether they overlap at the start.
     pub(super) fn approach_below(
         &mut self,
         problem: &Problem<'_>,
@@ -104,7 +104,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         self.measured(problem, beyond, oracle, |_, _, _, found| found)
     }
 
-    /// Searches for distances below `beyond`, and takes a last look at what it finds.
+    /// Searches for distances below `beyond`; `last_look` completes the outcome.
     fn measured(
         &mut self,
         problem: &Problem<'_>,
@@ -127,7 +127,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 told(&problem, oracle, meter, found)
             });
             let width = told.as_ref().map_or(0.0, Outcome::width);
-            // Distances may not be known to the tolerance that is requested.
+            // Distances may not be known to the requested tolerance.
             (told, greater(problem.tolerance, width))
         });
         self.scratch = scratch;
@@ -178,7 +178,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         if search.open(problem).is_err() {
             return Ok(nearing.unresolved(problem, Limit::Budget));
         }
-        // Pairs that keep apart by more than the least distance do so by more than a lesser one.
+        // Pairs that keep the least distance also keep any smaller one.
         loop {
             let upper = nearing.upper();
             let below = problem.below(upper);
@@ -206,7 +206,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-/// Returns what is found in a period that stands for the whole time as an answer for all of it.
+/// Converts the result for a sample period to an answer for the whole time.
 fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<Outcome, Beyond> {
     let found = found.map_err(|Beyond { lower }| Beyond {
         lower: sample.lower(lower),
@@ -259,14 +259,14 @@ fn at_one_pose<O: DistanceOracle>(
     })
 }
 
-/// The bodies are at least as far apart as is of interest.
+/// The result for bodies whose distance is at least as large as is of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Beyond {
     /// A lower bound of the distance at all times.
     pub(super) lower: f64,
 }
 
-/// Begins with what balls about the bodies prove.
+/// Returns the ladder with the lower bound that bounding balls of the bodies prove.
 fn ladder(problem: &Problem<'_>) -> Ladder {
     let ladder = Ladder::new(least_distance(problem), problem.budget);
     if problem.deadline.is_some() || problem.stop.is_some() {
@@ -284,7 +284,7 @@ fn unresolved(lower: f64, limit: Limit) -> Outcome {
     Outcome::Unresolved(Unresolved::least(lower, None, limit))
 }
 
-/// Returns true if the bodies come to no distance after the start.
+/// Returns true if the bodies meet, within the tolerance, only after the start.
 pub(super) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
     match *found {
         Outcome::Measured {
@@ -295,7 +295,7 @@ pub(super) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
     }
 }
 
-/// Returns the answer for the given bodies, if surfaces replaced them.
+/// Translates the answer to the given bodies, if surfaces replaced them in the search.
 fn told<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -308,11 +308,11 @@ fn told<O: DistanceOracle>(
     })
 }
 
-/// Two pieces at the clock at which they are the nearest so far.
+/// The nearest two pieces so far, at their clock.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Best {
     clock: f64,
-    /// The pieces, as the problem numbers them.
+    /// The indices of the pieces in the problem.
     pieces: [u32; 2],
     pub(super) contact: Contact,
 }

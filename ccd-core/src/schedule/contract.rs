@@ -7,9 +7,9 @@ use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
 use crate::query::Query;
 
-/// An order in which to advance the pairs of two bodies until the first contact is certain.
+/// An order in which a solver advances the pairs of two bodies until the first contact is certain.
 ///
-/// A schedule owns its working memory: keep it, and the oracle, between queries.
+/// A schedule owns its working memory. Keep the schedule and the oracle between queries.
 ///
 /// ```
 /// use ccd_core::{schedule::{BestFirst, Naive, Schedule}, *};
@@ -39,7 +39,8 @@ pub trait Schedule<O: DistanceOracle> {
     /// [deadline](crate::Settings::deadline) ends it.
     ///
     /// # Errors
-    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range. There is none for two motions.
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range. Queries about two motions
+    /// have no errors.
     fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError>;
 }
 

@@ -1,4 +1,4 @@
-//! The newest pair is examined next, whatever its clock: for questions that do not ask for the first
+//! Depth-first search: the newest pair is examined next, whatever its clock. It serves questions other than the first
 //! contact.
 
 use super::scratch::Scratch;
@@ -9,10 +9,10 @@ use crate::distance::oracle::DistanceOracle;
 /// Depth-first search, for [any contact](DepthFirst::any_contact) and for the [closest
 /// approach](DepthFirst::closest_approach).
 ///
-/// Pairs are split and followed like those of [`BestFirst`](super::BestFirst), but the newest is
-/// examined next. A search comes to pieces at once, and few pairs wait.
+/// Pairs are split and followed like those of [`BestFirst`](super::BestFirst), but the newest is examined next. A
+/// search reaches pieces at once, and few pairs wait.
 ///
-/// Keep it between queries: it owns the memory.
+/// Keep the value between queries: it owns the memory.
 #[derive(Debug)]
 pub struct DepthFirst<O: DistanceOracle> {
     pub(super) stack: Stack<Item<O::Cache>>,

@@ -1,4 +1,4 @@
-//! The paper's schedule: one common step, over the front of the bounding volume traversal tree.
+//! The paper's schedule: one common time step for all pairs of the front of the bounding volume traversal tree.
 
 mod descent;
 mod front;
@@ -25,26 +25,24 @@ use std::ops::ControlFlow;
 /// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published
 /// `[FAST06 Alg. 2]`.
 ///
-/// A descent through pairs of nodes computes the distance of the bodies `[FAST06 Alg. 3]`. The
-/// pairs at which it stops, the *front*, cover all pairs of pieces. Each keeps apart for its
-/// distance divided by a [bound](Bound) of its rate of approach. All are advanced by the least of
-/// these times, and the distance is computed again, until it is within the tolerance. The next
-/// descent starts from the front of the last one `[SWIFT01]`: it contains the pieces that were
-/// nearest, so that the distance is bounded before anything is split, and the nearest pair is
-/// always split first. Pairs that have become far are joined again.
+/// A descent through pairs of nodes computes the distance of the bodies `[FAST06 Alg. 3]`. The pairs at which it
+/// stops, the *front*, cover all pairs of pieces. Each pair stays apart for its distance divided by a [bound](Bound)
+/// of its rate of approach. All pairs are advanced by the least of these times, and the distance is computed again,
+/// until it is within the tolerance. The next descent starts from the front of the last one `[SWIFT01]`. That front
+/// contains the pieces that were nearest, so that the distance is bounded before anything is split, and the nearest
+/// pair is always split first. Pairs that have become far are joined again.
 ///
-/// The paper measures the distance of the bodies whatever their motion. Here a pair that the bound keeps
-/// apart to the end of the duration is neither split nor visited again. Large nodes that reach far into
-/// each other are split unmeasured.
+/// The paper measures the distance of the bodies whatever their motion. Here a pair that the bound keeps apart to the
+/// end of the duration is neither split nor visited again. Large nodes that overlap deeply are split unmeasured.
 ///
-/// For comparison: [`BestFirst`] needs no common step.
+/// This schedule is for comparison: [`BestFirst`] needs no common step.
 ///
 /// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree),
 /// [`BestFirst`] answers the query.
 ///
 /// # Guarantee
-/// That of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
-/// contacts missed.
+/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with
+/// [`Bound::Published`] times may be late and contacts missed.
 ///
 /// The bodies come nearer by a share of their distance in every step. Grazing passes and fast
 /// turning therefore cost many steps. Bodies that are [let go](crate::StartPolicy::Leave) from
@@ -59,7 +57,7 @@ pub struct Fast<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// Creates a schedule that divides distances by a bound.
+    /// Creates a schedule that divides distances by this bound.
     pub fn new(bound: Bound) -> Self {
         Fast {
             bound,
@@ -103,8 +101,7 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// Alg. 2: repeatedly computes the distance, and advances both bodies by the time that it
-    /// allows.
+    /// Runs Alg. 2: repeatedly computes the distance, and advances both bodies by the time that it allows.
     fn advance(
         &mut self,
         problem: &Problem<'_>,

@@ -1,4 +1,4 @@
-//! The first contact, asked in steps: a search that stops at a time, and goes on later.
+//! A search for the first contact in steps: it stops at a time, and continues later.
 
 use super::BestFirst;
 use super::along::first::first_contact;
@@ -16,10 +16,10 @@ use crate::query::Query;
 use crate::settings::StartPolicy;
 use std::ops::ControlFlow;
 
-/// A search for the first contact that goes as far in time as it is asked to.
+/// A search for the first contact that advances to a requested time.
 ///
-/// Where many pairs of bodies are asked for the first contact of all, none is proven further than the
-/// answer needs: the pair that is proven least far goes on next.
+/// It serves queries for the first contact among many pairs of bodies. No pair is proven further than the answer
+/// needs: the pair that is proven least far continues next.
 ///
 /// ```
 /// use ccd_core::{schedule::{BestFirst, FirstContact, Progress}, *};
@@ -45,9 +45,9 @@ pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
 
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum Kind<'a, O: DistanceOracle> {
-    /// About motions.
+    /// A search about motions.
     InSteps(Steps<'a, O>),
-    /// Along trajectories, which are searched as a whole.
+    /// A search along trajectories, which are searched as a whole.
     AtOnce {
         query: Query<'a>,
         memory: BestFirst<O>,
@@ -58,27 +58,27 @@ enum Kind<'a, O: DistanceOracle> {
 /// A search about two motions.
 struct Steps<'a, O: DistanceOracle> {
     problem: Problem<'a>,
-    /// What is searched now: the problem with a contact at the start as an answer, or bodies let go.
+    /// The problem that is searched now: it ends at a contact at the start, or lets the bodies go.
     current: Problem<'a>,
-    /// If it repeats itself: its rounds, and the part of it that is searched.
+    /// For a problem that repeats itself: its rounds, and the part that is searched.
     part: Option<(Rounds<'a>, Problem<'a>)>,
-    /// What is still to be done about a contact at the start.
+    /// The policy for a contact at the start, as far as it is still to be applied.
     start: StartPolicy,
     memory: BestFirst<O>,
     meter: Meter,
-    /// None before the first step.
+    /// The state of the search; `None` before the first step.
     begun: Option<Begun>,
     answer: Option<Answer>,
 }
 
-/// What a search knows besides the pairs that wait.
+/// The state of a search besides the waiting pairs.
 #[derive(Debug)]
 struct Begun {
     look: CloserLook,
     proven: Proven,
 }
 
-/// How far a search for the first contact is.
+/// The progress of a search for the first contact.
 #[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
@@ -89,7 +89,8 @@ pub enum Progress {
 }
 
 impl<'a, O: DistanceOracle> FirstContact<'a, O> {
-    /// Takes up a query, with the memory of a schedule. A [deadline](crate::Settings::deadline) counts from now.
+    /// Creates the search for a query, with the memory of a schedule. A [deadline](crate::Settings::deadline) counts
+    /// from now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContact(match query.problem.take() {
             Some(problem) => Kind::InSteps(Steps::new(problem, memory)),
@@ -109,12 +110,12 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         }
     }
 
-    /// Goes on until the bodies are proven apart until a time, or later, or there is an answer. Along trajectories other
-    /// than [motions](crate::Motion), it goes on to the answer.
+    /// Continues until the bodies are proven apart up to a time, or later, or there is an answer. Along trajectories
+    /// other than [motions](crate::Motion), the search continues to the answer.
     ///
     /// # Guarantee
-    /// [Never late](crate#guarantee); ends on every input. The answer is the same bits as that of [`BestFirst`], in
-    /// whatever steps it is asked for, unless a deadline ends the search.
+    /// [Never late](crate#guarantee); ends on every input. The answer has the same bits as that of [`BestFirst`],
+    /// whatever the steps, unless a deadline ends the search.
     ///
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
@@ -188,7 +189,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         }
     }
 
-    /// Searches to the end of a time, and returns the time that is reached, or the outcome with its tolerance.
+    /// Searches up to a time. Returns the time that is reached, or the outcome with its tolerance.
     fn search(&mut self, oracle: &mut O, until: f64) -> ControlFlow<(Outcome, f64), f64> {
         loop {
             let outcome = match self.run(oracle, until) {
@@ -228,9 +229,9 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         }
     }
 
-    /// Searches until a time, and returns the time that is reached, or the outcome.
+    /// Searches until a time. Returns the time that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
-        // The time of the clock that is reached is rounded down, but not to before the time asked for.
+        // The time of the clock that is reached is rounded down, but not to before the requested time.
         let (problem, until) = match &self.part {
             Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
             None => (&self.current, until.next_up()),

@@ -1,4 +1,4 @@
-//! The limits of a query's work, the work done, and the memory for it.
+//! The limits of a query's work, the work done, and the scratch memory.
 
 use super::scratch::{Memory, Scratch};
 use crate::answer::{Limit, Stats};
@@ -12,14 +12,14 @@ use std::time::Instant;
 pub(crate) struct Meter {
     pub(crate) stats: Stats,
     pub(crate) scratch: Scratch,
-    /// None if there is no deadline; then no clock is read.
+    /// The time of the deadline; `None` if there is none. No clock is read then.
     end: Option<Instant>,
-    /// The work at which clock and flag are read next; never if there are none.
+    /// The work at which the clock and the stop flag are read next; never if there are none.
     next_look: u64,
 }
 
 impl Meter {
-    /// Starts the meter now.
+    /// Starts the meter at the present time.
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         // A deadline that no clock can represent counts as none.
         let end = |deadline| Instant::now().checked_add(deadline);
@@ -59,7 +59,7 @@ impl Meter {
     #[cold]
     fn look(&mut self, problem: &Problem<'_>, work: u64) -> Result<(), Limit> {
         self.next_look = work.saturating_add(WORK_BETWEEN_LOOKS);
-        // What the other thread did before is no matter of this one.
+        // The work of the other thread before the flag was set does not matter to this one.
         if problem
             .stop
             .is_some_and(|stop| stop.load(Ordering::Relaxed))

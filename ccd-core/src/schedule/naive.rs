@@ -1,4 +1,4 @@
-//! All pairs of pieces, one common clock: Alg. 1 of the paper, a slow and obvious reference.
+//! All pairs of pieces on one common clock: Alg. 1 of the paper, a slow and obvious reference.
 
 use super::answer::answer;
 use super::capacity::empty;
@@ -18,12 +18,13 @@ use std::ops::ControlFlow;
 /// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`: the
 /// distance of each pair, divided by a [bound](Bound) of its rate of approach.
 ///
-/// Every step costs one distance for each pair of pieces. Grazing passes, fast turning and bodies
-/// that are let go from flush contact cost many steps. It suits only bodies of few pieces, and
-/// checks of the other schedules.
+/// Every step costs one distance for each pair of pieces. Grazing passes, fast turning and bodies that are let go
+/// from flush contact cost many steps. This schedule suits only bodies of few pieces, and checks of the other
+/// schedules.
 ///
 /// # Guarantee
-/// That of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with [`Bound::Published`] times may be late.
+/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with
+/// [`Bound::Published`] times may be late.
 #[derive(Debug)]
 pub struct Naive<O: DistanceOracle> {
     bound: Bound,
@@ -32,7 +33,7 @@ pub struct Naive<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Naive<O> {
-    /// Creates a schedule that divides distances by a bound.
+    /// Creates a schedule that divides distances by this bound.
     pub fn new(bound: Bound) -> Self {
         Naive {
             bound,
@@ -110,7 +111,7 @@ impl<O: DistanceOracle> Naive<O> {
     }
 }
 
-/// Returns the reach of each piece from its body's axis of rotation.
+/// Returns the greatest distance of each piece's points from its body's axis of rotation.
 fn reaches(side: &Side<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
     pieces.map(|piece| side.path.reach(piece.points)).collect()

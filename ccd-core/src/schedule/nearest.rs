@@ -1,4 +1,4 @@
-//! The distance of two bodies at one clock: nearest pairs first.
+//! The distance of two bodies at one clock, by a search of the nearest pairs first.
 
 pub(super) mod lists;
 
@@ -18,11 +18,10 @@ use crate::rounding::NEAREST_SHARE;
 use lists::Lists;
 use std::ops::ControlFlow;
 
-/// Splits the pair of nodes that may contain the nearest pieces, until no waiting pair can contain
-/// any that are nearer than those found.
+/// A search for the nearest pieces. It splits the pair of nodes that may contain them, until no waiting pair can
+/// contain any that are nearer than those found.
 ///
-/// Pairs that may intersect have no lower bound of their distance, and therefore come before all
-/// others.
+/// Pairs that may intersect have no lower bound of their distance, and therefore come first.
 pub(super) struct Nearest<'p> {
     problem: &'p Problem<'p>,
     common: Common<'p>,
@@ -30,15 +29,15 @@ pub(super) struct Nearest<'p> {
     lists: &'p mut Lists,
     /// Pairs at least this far apart are of no interest.
     beyond: f64,
-    /// The pieces of least upper bound, as the problem numbers them.
+    /// The two pieces with the least upper bound, by their indices in the problem, and their contact.
     nearest: Option<([u32; 2], Contact)>,
-    /// Bounds the distance of all pieces that were measured or given up.
+    /// A lower bound of the distance of all pieces that were measured or given up.
     lower: f64,
-    /// True if some pair could not be shown to intersect or not.
+    /// True if for some pair it is undecided whether the pieces intersect.
     pub(super) undecided: bool,
 }
 
-/// The reason for which a search ends before it knows the distance.
+/// The reason why a search ends before it has the distance.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Stop {
     /// These pieces intersect.
@@ -62,15 +61,15 @@ impl<'p> Nearest<'p> {
         }
     }
 
-    /// Seeks only pieces that are nearer than this to each other.
+    /// Returns the search for only those pieces that are nearer than `beyond` to each other.
     pub(super) fn nearer_than(self, beyond: f64) -> Self {
         Nearest { beyond, ..self }
     }
 
-    /// Finds the nearest pieces, unless something ends the search before.
+    /// Searches for the nearest pieces, unless an overlap or a limit ends the search.
     ///
     /// # Complexity
-    /// One distance of the bodies, and a look at every pair of pieces that may intersect.
+    /// One distance of the bodies, and one visit for every pair of pieces that may intersect.
     pub(super) fn search<O: DistanceOracle>(
         &mut self,
         oracle: &mut O,
@@ -108,8 +107,7 @@ impl<'p> Nearest<'p> {
         }
     }
 
-    /// Returns the pair that may be the nearest; none when no pair can be nearer than the one
-    /// found.
+    /// Returns the pair that may be the nearest; `None` when no pair can be nearer than the one found.
     fn next(&mut self) -> Option<Next> {
         let (upper, near_enough) = (self.upper(), self.near_enough());
         let (distance, siblings) = self.lists.waiting.next()?;
@@ -157,13 +155,13 @@ impl<'p> Nearest<'p> {
         ControlFlow::Continue(())
     }
 
-    /// Bounds the distances of interest from above.
+    /// Returns an upper bound of the distances of interest.
     fn upper(&self) -> f64 {
         let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
         self.nearest.map_or(self.beyond, upper)
     }
 
-    /// Pairs at least this far apart are not examined.
+    /// Returns the distance at and beyond which pairs are not examined.
     fn near_enough(&self) -> f64 {
         let upper = self.upper();
         if upper <= self.problem.contact_distance() {
@@ -173,20 +171,19 @@ impl<'p> Nearest<'p> {
         }
     }
 
-    /// Returns the nearest pieces, with a lower bound that holds for all; none if there are none of
-    /// interest.
+    /// Returns the nearest pieces, with a lower bound that holds for all; `None` if no pieces are of interest.
     pub(super) fn nearest(&self) -> Option<Contact> {
         self.pieces().map(|(_, contact)| contact)
     }
 
-    /// Like [`Nearest::nearest`], with the pieces as the problem numbers them.
+    /// Like [`Nearest::nearest`], with the indices of the pieces in the problem.
     pub(super) fn pieces(&self) -> Option<([u32; 2], Contact)> {
         self.nearest
             .map(|(pieces, contact)| (pieces, contact.no_nearer_than(self.lower)))
     }
 
-    /// Returns the nearest pieces, with a lower bound that holds for all; those `seen` in contact if a
-    /// later claim of an oracle contradicts an earlier one.
+    /// Returns the nearest pieces, with a lower bound that holds for all. If a later claim of an oracle contradicts
+    /// an earlier one, these are the pieces `seen` in contact.
     pub(super) fn contact(&self, seen: Contact) -> Contact {
         let within = self.problem.contact_distance();
         let nearest = self

@@ -1,7 +1,7 @@
 //! Pairs of nodes, eight at once, in f32.
 //!
-//! `expand.rs` splits a node, `bounds.rs` bounds its children against the other node, and the pairs wait
-//! together in `siblings.rs`. Where f32 or fixed planes prove little, `closer_look.rs` looks in f64.
+//! `expand.rs` splits a node, `bounds.rs` bounds its children against the other node, and the pairs wait together in
+//! `siblings.rs`. If f32 or fixed planes prove little, `closer_look.rs` computes tighter bounds in f64.
 
 mod approach;
 mod axis;

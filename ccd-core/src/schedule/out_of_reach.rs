@@ -1,34 +1,34 @@
-//! Bodies that are far from each other all the time: two balls on straight paths tell.
+//! A test for bodies that are far from each other all the time, by two balls on straight paths.
 //!
-//! A path with a constant acceleration is within an eighth of it from the straight one between its ends.
+//! A path with a constant acceleration is within an eighth of that acceleration from the straight path between its
+//! ends.
 
 use crate::math::vector::length;
 use crate::problem::{Problem, Side};
 use crate::rounding::RATE_F64;
 use glam::DVec3;
 
-/// Returns whether the bodies stay farther apart than a contact is, by more than rounding, because
-/// balls around them do.
+/// Returns whether bounding balls keep the bodies farther apart than the contact distance, by more than rounding.
 ///
-/// Most pairs of a simulation or of a plan are told apart here, in a few tens of nanoseconds.
+/// Most pairs of a simulation or of a plan are proven apart by this test, in a few tens of nanoseconds.
 ///
 /// # Guarantee
-/// Only bodies that are never in contact, up to the tolerance, are out of reach.
+/// The result is true only for bodies that are never in contact, up to the tolerance.
 pub(super) fn out_of_reach(problem: &Problem<'_>) -> bool {
     // Written so that NaN is within reach.
     least_distance(problem) > problem.contact_distance()
 }
 
-/// Returns a lower bound of the distance of the bodies at all times, by the balls; negative where they meet.
+/// Returns a lower bound of the distance of the bodies at all times, by the balls; negative where the balls meet.
 pub(super) fn least_distance(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
     let distance = least_length(b.centre - a.centre, b.velocity - a.velocity) - bow(problem);
-    // The rounding of a distance of bodies is more than that of the places of their balls; twice
-    // of it is more than that of this distance, too.
+    // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
+    // the rounding of this distance, too.
     distance - a.radius - b.radius - 2.0 * problem.rounding
 }
 
-/// Bounds how far the way from ball to ball is from its straight change, rounded up.
+/// Bounds how far the offset from ball to ball is from its straight change, rounded up.
 fn bow(problem: &Problem<'_>) -> f64 {
     0.125 * length(problem.b.path.acceleration - problem.a.path.acceleration) * (1.0 + RATE_F64)
 }
@@ -41,7 +41,7 @@ pub(super) fn nearest_clock(problem: &Problem<'_>) -> f64 {
 
 /// A ball that moves straight and contains a body all the time.
 struct Ball {
-    /// At the start.
+    /// The centre at the start.
     centre: DVec3,
     velocity: DVec3,
     radius: f64,
@@ -51,7 +51,7 @@ impl Ball {
     fn of(side: &Side<'_>) -> Self {
         let (centre, radius) = side.body.tree().ball();
         let path = &side.path;
-        // The body's turning moves the centre along an arc: at most its length, and the diameter.
+        // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.
         let turned = match path.rate {
             rate if rate < 2.0 => rate,
             _ => 2.0,

@@ -1,4 +1,4 @@
-//! Facts that are proven of two bodies on the way to an answer.
+//! The facts proven about two bodies in the course of a search.
 
 use super::meter::Meter;
 use super::nodes::roots::keep_apart;
@@ -11,7 +11,7 @@ use crate::problem::Problem;
 use crate::settings::StartPolicy;
 use std::ops::ControlFlow;
 
-/// Returns the outcome if balls around the bodies, or boxes, tell them apart for good.
+/// Returns the outcome if bounding balls or boxes prove the bodies apart for good.
 pub(super) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
     (out_of_reach(problem) || keep_apart(problem)).then(|| Outcome::Free {
         proven_gap: problem.proven_gap(),
@@ -26,8 +26,8 @@ pub(crate) struct Proven {
 }
 
 impl Proven {
-    /// Concludes from the advance of a pair of pieces at clock `s`: returns the clock to wait for,
-    /// or the answer.
+    /// Draws the conclusion from the advance of a pair of pieces at clock `s`: returns the clock to wait for, or the
+    /// answer.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
     pub(crate) fn conclude<O: DistanceOracle>(
@@ -49,8 +49,8 @@ impl Proven {
         })
     }
 
-    /// Returns the outcome for a pair in contact at clock `s`. Other pairs may be nearer: they keep
-    /// only what their clocks prove.
+    /// Returns the outcome for a pair in contact at clock `s`. Other pairs may be nearer: only their clocks bound
+    /// their distances.
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
             time: problem.time(s),

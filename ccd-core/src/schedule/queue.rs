@@ -1,4 +1,4 @@
-//! Pairs that wait for their clocks, least clock first.
+//! A priority queue of pairs, least clock first.
 
 use super::capacity::empty;
 use super::waiting::{Full, Rank, Waiting};
@@ -12,20 +12,20 @@ pub(crate) struct Queue<T> {
     vacant: Vec<u32>,
     /// The least of all keys.
     least: Key,
-    /// A tournament: the keys of the items, then the least of every four keys of the level before, up
-    /// to a single four. Its steps are the same for every change, so that no branch is unforeseen; a
-    /// heap's sink has one at each turn.
+    /// A tournament: the keys of the items, then the least of every four keys of the level before, up to a single
+    /// four. The steps are the same for every change, so that no branch is mispredicted. In a heap, each step down
+    /// has an unpredictable branch.
     levels: Vec<Vec<[Key; 4]>>,
     /// The number of levels in use.
     depth: usize,
     serial: u32,
 }
 
-/// 64 bits of clock (clocks are not negative, so their bits order as the numbers do), 1 bit of
-/// rank, 31 bits of age, 32 bits of index.
+/// A key has 64 bits of clock (clocks are not negative, so their bits have the order of the numbers), 1 bit of rank,
+/// 31 bits of age, 32 bits of index.
 type Key = u128;
 
-/// The key of a place without an item, later than all others.
+/// The key of an empty place, later than all others.
 const VACANT: Key = Key::MAX;
 
 /// The most items that can wait at once.
@@ -70,7 +70,7 @@ impl<T> Queue<T> {
         key(clock, rank, self.serial, place)
     }
 
-    /// Sets the key of a place, and plays its games.
+    /// Sets the key of a place, and updates the least keys on all levels above it.
     #[inline]
     fn set(&mut self, place: u32, key: Key) {
         let (mut at, mut least) = (place as usize, key);
@@ -83,7 +83,7 @@ impl<T> Queue<T> {
         self.least = least;
     }
 
-    /// Makes room for the key of the last item.
+    /// Adds room for the key of the last item.
     #[inline]
     fn grow(&mut self) {
         let mut last = self.items.len() - 1;
@@ -187,7 +187,7 @@ fn place(key: Key) -> u32 {
 fn key(clock: f64, rank: Rank, serial: u32, place: u32) -> Key {
     let age = u64::from(!serial & (u32::MAX >> 1));
     let low = (rank as u64) << 63 | age << 32 | u64::from(place);
-    // `max` also turns a negative zero into a zero, whose bits order first.
+    // `max` also turns a negative zero into a zero, whose bits come first in the order.
     u128::from(greater(0.0, clock).to_bits()) << 64 | u128::from(low)
 }
 

@@ -1,10 +1,10 @@
-//! Bodies that turn many times: a period is searched for all that repeat it.
+//! Rounds: for bodies that turn many times, one period is searched for all periods that repeat it.
 //!
-//! A *round* is a number of periods. No distance differs from the one in the first of them by more than a known
-//! change, see `motion/period.rs`. Bodies that keep that change beyond the margin in the first period keep the margin in
-//! all of them. If they come nearer, but are not in contact, the next round has fewer periods. Where even two differ by
-//! too much, some are searched as they are, ever more of them in a row. So the work depends on how much changes, and
-//! not on the number of turns.
+//! A *round* is a number of periods. The distances in each of them differ from those in the first by at most a known
+//! change, see `motion/period.rs`. Bodies that keep that change beyond the margin in the first period keep the margin
+//! in all of them. If they come nearer, but are not in contact, the next round has fewer periods. If even two periods
+//! differ by too much, some are searched in full, ever more of them in a row. The work therefore depends on how much
+//! the distances change, and not on the number of turns.
 
 use super::meter::Meter;
 use super::proven::free_at_once;
@@ -19,7 +19,7 @@ use crate::tuning::{LEAST_GAIN, REPEATED, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-/// Searches a problem round by round, if it repeats itself; as it is otherwise.
+/// Searches a problem round by round if it repeats itself, and as a whole otherwise.
 #[inline]
 pub(super) fn in_rounds(
     problem: &Problem<'_>,
@@ -43,28 +43,28 @@ pub(super) fn in_rounds(
 pub(super) struct Rounds<'a> {
     whole: Problem<'a>,
     period: Period,
-    /// The error of distances in a part of the time, in addition to that in the whole.
+    /// The error of distances in a part of the time, in addition to the error in the whole.
     rounding: f64,
     /// The clock until which the bodies are proven apart.
     from: f64,
     round: Round,
-    /// The number of periods to be searched in a row where they differ by too much.
+    /// The number of periods to search in a row while they differ by too much.
     patience: f64,
-    /// A lower bound of the distance until then.
+    /// A lower bound of the distance up to `from`.
     gap: f64,
 }
 
-/// A number of periods.
+/// The periods of a round, by their number.
 #[derive(Clone, Copy, Debug)]
 enum Round {
-    /// The first is searched for all of them.
+    /// The first period is searched for all of them.
     Repeated(f64),
-    /// All are searched.
+    /// All periods are searched.
     Each(f64),
 }
 
 impl<'a> Rounds<'a> {
-    /// Returns the rounds of a problem that repeats itself often enough for a gain; none for others.
+    /// Returns the rounds of a problem that repeats itself often enough for a gain; `None` for others.
     #[inline]
     pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
         if turns_often(problem) && free_at_once(problem).is_none() {
@@ -111,8 +111,8 @@ impl<'a> Rounds<'a> {
     /// Returns the problem to be searched in this round.
     pub(super) fn part(&self) -> Problem<'a> {
         let tolerance = self.whole.tolerance;
-        // Both tolerances have the same middle, the gap that is proven: either side of it loses what distances differ
-        // by twice.
+        // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
+        // distances is lost.
         let room = (tolerance - 2.0 * self.change()) - 4.0 * self.rounding;
         let left = greater(room, REPEATED * tolerance);
         let to = match self.round {
@@ -126,7 +126,7 @@ impl<'a> Rounds<'a> {
         )
     }
 
-    /// Concludes from the outcome of a round: there is another one, or the answer.
+    /// Draws the conclusion from the outcome of a round: another round, or the answer.
     pub(super) fn conclude(
         &mut self,
         outcome: &Outcome,
@@ -143,12 +143,12 @@ impl<'a> Rounds<'a> {
                 unreachable!("no outcome of a search for contacts")
             }
             Outcome::Overlapping { .. } if self.from == 0.0 => return ControlFlow::Break(*outcome),
-            // They were apart until then: an oracle contradicts itself.
+            // The bodies were proven apart until then, so an oracle contradicts itself.
             Outcome::Overlapping { .. } => {
                 return ControlFlow::Break(unresolved(self, Limit::Undecided));
             }
         }
-        // A round costs something, even if balls tell the bodies apart at once.
+        // A round counts as a visit, even if bounding balls prove the bodies apart at once.
         match meter.visit(&self.whole) {
             Ok(()) => ControlFlow::Continue(()),
             Err(limit) => ControlFlow::Break(unresolved(self, limit)),
@@ -183,7 +183,7 @@ impl<'a> Rounds<'a> {
         let Separation { upper, .. } = contact.separation;
         match self.round {
             Round::Repeated(count) if !(upper <= within) => {
-                // More periods than that would see the same.
+                // More periods than this would give the same contact.
                 let fewer = (upper - within) / self.period.change;
                 match lesser(0.5 * count, fewer).floor() {
                     fewer if fewer >= 2.0 => self.plan(fewer),
@@ -208,11 +208,11 @@ impl<'a> Rounds<'a> {
         };
     }
 
-    /// The clock at which the round ends.
+    /// Returns the clock at which the round ends.
     fn end(&self) -> f64 {
         let (Round::Repeated(count) | Round::Each(count)) = self.round;
         let end = self.from + count * self.period.length;
-        // What rounding leaves of the time is covered, too.
+        // A rest of the time that is only rounding is covered, too.
         if end + 0.5 * TURNS_F64 * self.period.length < 1.0 {
             end
         } else {
@@ -220,7 +220,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Bounds by how much distances in a round differ from those that are searched.
+    /// Bounds the difference between the distances in a round and those that are searched.
     fn change(&self) -> f64 {
         match self.round {
             Round::Repeated(count) => count * self.period.change,
@@ -228,7 +228,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// What is to be kept beyond the margin.
+    /// Returns the distance to be kept beyond the margin.
     fn raised(&self) -> f64 {
         self.change() + self.rounding
     }
@@ -240,19 +240,19 @@ fn turns_often(problem: &Problem<'_>) -> bool {
     turns(&problem.a) || turns(&problem.b)
 }
 
-/// A period that stands for the whole time, for questions that ask for distances.
+/// A period that represents the whole time, for questions about distances.
 #[derive(Debug)]
 pub(super) struct Sample<'a> {
     /// The problem in that period, with a tolerance that leaves room for the change.
     pub(super) part: Problem<'a>,
-    /// Bounds by how much the distances of all other periods differ.
+    /// A bound of the difference between the distances of all other periods and those of this one.
     pub(super) change: f64,
-    /// The error of distances, in addition to that in the whole problem.
+    /// The error of distances, in addition to that of the whole problem.
     pub(super) rounding: f64,
 }
 
 impl<'a> Sample<'a> {
-    /// Returns the first period of a problem that repeats itself, up to a part of the tolerance; none for others.
+    /// Returns the first period of a problem that repeats itself, up to a part of the tolerance; `None` for others.
     #[inline]
     pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
         if turns_often(problem) {
@@ -275,7 +275,7 @@ impl<'a> Sample<'a> {
         })
     }
 
-    /// Returns what a lower bound of the distance in the period says of the whole time.
+    /// Returns the lower bound for the whole time that a lower bound of the distance in the period implies.
     pub(super) fn lower(&self, distance: f64) -> f64 {
         greater(0.0, (distance - (self.change + self.rounding)).next_down())
     }
@@ -307,8 +307,8 @@ fn reaching<'p>(side: &'p Side<'_>) -> Reaching<'p> {
     }
 }
 
-/// Returns the period for which the least time is searched if a round ends once distances have changed by that much;
-/// none without a gain.
+/// Returns the period with the least time to search, for rounds that end once distances have changed by `change`;
+/// `None` without a gain.
 fn cheapest(bodies: [Reaching<'_>; 2], change: f64) -> Option<Period> {
     let searched = |period: &Period| {
         let rounds = greater(1.0, period.change / (period.length * change));

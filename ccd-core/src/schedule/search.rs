@@ -1,4 +1,4 @@
-//! The steps of every search: the next pair that waits is proven apart for longer, or split.
+//! The steps of every search: the next waiting pair is proven apart for longer, or split.
 
 use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
@@ -12,7 +12,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
 use std::ops::ControlFlow;
 
-/// The pairs that wait.
+/// A waiting item: siblings of nodes, or a pair of pieces.
 #[derive(Debug)]
 pub(super) enum Item<C> {
     Siblings(Siblings),
@@ -28,18 +28,18 @@ impl<C> Item<C> {
     }
 }
 
-/// What a search is for: it draws the conclusions from the steps.
+/// The question of a search, which draws the conclusions from the steps.
 pub(super) trait Question<O: DistanceOracle> {
-    /// The answer.
+    /// The type of the answer.
     type Found;
 
-    /// Concludes from the clock of the pair to be looked at next, if there is anything to conclude.
+    /// Draws a conclusion from the clock of the next pair, if there is one.
     #[inline]
     fn arrive(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
         ControlFlow::Continue(())
     }
 
-    /// Concludes from the advance of a pair of pieces: returns the clock to wait for, or the answer.
+    /// Draws the conclusion from the advance of a pair of pieces: returns the clock to wait for, or the answer.
     fn conclude(
         &mut self,
         problem: &Problem<'_>,
@@ -57,15 +57,15 @@ pub(super) trait Question<O: DistanceOracle> {
 
 /// The advance of a pair of pieces.
 pub(super) struct Advance {
-    /// The pieces, as the problem numbers them.
+    /// The indices of the pieces in the problem.
     pub(super) pieces: [u32; 2],
     /// The clock at which they were examined.
     pub(super) clock: f64,
-    /// What came of it.
+    /// The result of the advance.
     pub(super) step: Step,
 }
 
-/// A search, with what it works with.
+/// A search, with the oracle, the waiting pairs and the meter.
 pub(super) struct Search<'s, O, W> {
     pub(super) waiting: &'s mut W,
     pub(super) oracle: &'s mut O,
@@ -73,7 +73,7 @@ pub(super) struct Search<'s, O, W> {
 }
 
 impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
-    /// Searches from the pair of both roots on.
+    /// Searches, beginning with the pair of both roots.
     pub(super) fn run<Q: Question<O>>(
         &mut self,
         problem: &Problem<'_>,
@@ -91,7 +91,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         }
     }
 
-    /// Searches on until all pairs are proven apart to a clock, and returns the clock of the next one.
+    /// Continues until all pairs are proven apart up to a clock, and returns the clock of the next one.
     pub(super) fn until<Q: Question<O>>(
         &mut self,
         problem: &Problem<'_>,
@@ -109,7 +109,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         }
     }
 
-    /// Lets the pair of both roots wait.
+    /// Adds the pair of both roots to the waiting pairs.
     pub(super) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
         let item = match Next::roots(problem) {
             Next::Ask(a, b) => Item::Pieces(Pair::new(a, b)),
@@ -154,7 +154,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
                     let waits = self.wait(rest, (clock, Item::Siblings(alone)));
                     return unless_full(waits, problem, question, s);
                 }
-                // The rest of the siblings wait for their own clocks.
+                // The remaining siblings wait for their own clocks.
                 (siblings.take_least(problem, s), siblings.clock())
             }
         };
@@ -176,8 +176,8 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         unless_full(waits, problem, question, s)
     }
 
-    /// Lets the siblings of the next pair, and what became of it, wait for their clocks, if these are
-    /// before the end.
+    /// Returns the siblings of the next pair, and the new item from that pair, to the waiting items, if their clocks
+    /// are before the end.
     #[inline(always)]
     fn wait(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
         // Written so that NaN is not the end.

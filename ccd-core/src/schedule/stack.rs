@@ -1,10 +1,10 @@
-//! Pairs that wait for their clocks, the newest first.
+//! A stack of waiting pairs, the newest first.
 
 use super::capacity::empty;
 use super::waiting::{Full, Rank, Waiting};
 use crate::math::order::lesser;
 
-/// Items in the order in which they came; the last one is next, whatever its clock.
+/// Items in order of arrival; the last one is next, whatever its clock.
 #[derive(Debug)]
 pub(crate) struct Stack<T> {
     items: Vec<(f64, T)>,

@@ -9,16 +9,15 @@ use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
 use containment::Containment;
 
-/// Returns the answer for bodies with two pieces seen in contact at the start: the distance of the
-/// bodies, or that they overlap.
+/// Returns the answer for bodies of which two pieces are in contact at the start: the distance of the bodies, or that
+/// they overlap.
 ///
 /// # Guarantee
-/// Touching bodies are at least the contact's lower bound apart, and its pieces show the upper one.
-/// If the oracle is honest, the answer does not depend on which pieces were `seen`.
+/// Touching bodies are at least the contact's lower bound apart, and its pieces prove the upper one. If the oracle is
+/// honest, the answer does not depend on which pieces were `seen`.
 ///
 /// # Complexity
-/// One distance of the bodies, for any margin, and a look at every pair of pieces that may
-/// intersect.
+/// One distance of the bodies, for any margin, and one visit for every pair of pieces that may intersect.
 pub(super) fn touching<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -30,8 +29,8 @@ pub(super) fn touching<O: DistanceOracle>(
     outcome.unwrap_or(Outcome::Touching { contact: seen })
 }
 
-/// Returns the answer for bodies that begin nearer to each other than `beyond`, which then count as
-/// touching, or one inside the other; none for others.
+/// Returns the answer for bodies that begin nearer to each other than `beyond`, which then count as touching, or with
+/// one inside the other; `None` for others.
 pub(super) fn at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
@@ -41,8 +40,8 @@ pub(super) fn at_start<O: DistanceOracle>(
     measured(problem, beyond, oracle, meter, |nearest| nearest.nearest())
 }
 
-/// Measures the bodies at the start, and returns the answer if they overlap, or are in `contact`. Pieces
-/// at least as far apart as `beyond` are not measured.
+/// Measures the bodies at the start, and returns the answer if they overlap, or are in `contact`. Pieces at least as
+/// far apart as `beyond` are not measured.
 fn measured<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
@@ -67,8 +66,8 @@ fn measured<O: DistanceOracle>(
     outcome
 }
 
-/// Returns the answer if one body is inside the other, or if that is undecided. No two pieces
-/// intersect; `touching` are those without a separating axis, and `pieces` is a list for use within.
+/// Returns the answer if one body is inside the other, or if that is undecided. No two pieces intersect; `touching`
+/// are the pairs without a separating axis, and `pieces` is a list of scratch memory.
 pub(super) fn contained(
     problem: &Problem<'_>,
     touching: &[[u32; 2]],

@@ -1,6 +1,6 @@
-//! Pairs that wait for their clocks.
+//! The interface of collections of waiting pairs.
 
-/// A collection from which a search takes one item after another.
+/// A collection of waiting items, from which a search takes one after another.
 pub(crate) trait Waiting<T> {
     /// Adds an item that waits for its clock, which is not negative.
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full>;
@@ -26,7 +26,7 @@ pub(crate) trait Waiting<T> {
     /// When no item waits.
     fn replace(&mut self, clock: f64, rank: Rank, item: T);
 
-    /// Takes out the next item, if there is one.
+    /// Removes the next item, if there is one.
     fn remove(&mut self);
 }
 

@@ -1,4 +1,5 @@
-//! Boxes hold sampled points, bodies whose boxes are apart are free, and boxes are not much larger than they must be.
+//! Tests that boxes contain sampled points, that bodies with separate boxes are free, and that boxes are not much
+//! larger than necessary.
 
 use super::*;
 use crate::schedule::BestFirst;
@@ -39,11 +40,11 @@ fn points_stay_in_their_box() {
             let size = high - low;
             let excess = (swept.max - swept.min - size).max_element() / size.max_element();
             tightest = lesser(tightest, excess);
-            // At worst it is about a ball.
+            // In the worst case the box is about a ball.
             let whole = scene.bodies[k].tree().whole();
             let ball = distance(whole.centre, path.centre) + whole.radius;
             let worst = path.velocity.abs() + 2.0 * (ball + room_of(&scene, k));
-            // Coordinates round where they are.
+            // Coordinates are rounded at their position.
             let rounding = 4.0 * f64::EPSILON * (swept.max.abs() + swept.min.abs());
             assert!(
                 (swept.max - swept.min)
@@ -78,7 +79,7 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
         let excess = (swept.max - swept.min - (high - low)).max_element() / (span + 1.0);
         widest = greater(widest, excess);
     }
-    // Swings of up to three units, whose accelerations are known.
+    // The swings extend up to three units, and their accelerations are known.
     assert!(widest < 4.0, "{widest}");
 }
 
@@ -91,7 +92,7 @@ fn room_of(scene: &Scene, k: usize) -> f64 {
     room(&side, &scene.config.terms())
 }
 
-/// Bodies move apart by what lies between their boxes, and a little less.
+/// Two bodies move apart by the gap between their boxes, and by a little less.
 #[test]
 fn bodies_whose_boxes_are_apart_are_free() {
     let mut rng = rng(2);
@@ -104,7 +105,7 @@ fn bodies_whose_boxes_are_apart_are_free() {
             _ => 0.0,
         };
         let [a, b] = boxes(&scene);
-        // The way along an axis that parts the boxes.
+        // The displacement is along an axis that separates the boxes.
         let axis = rng.random_range(0..3);
         let overlap = a.max[axis] - b.min[axis];
         let share = [1.0 + 1e-12, 1.0, 0.999, 0.2, 0.0][rng.random_range(0..5)];

@@ -1,14 +1,14 @@
-//! Double-double arithmetic: the reference for samples of the allowances for rounding. A number is
-//! the unevaluated sum of two f64, with a relative error of about 1e-31.
+//! Double-double arithmetic: the reference for samples of the allowances for rounding. A number is the unevaluated
+//! sum of two f64, with a relative error of about 1e-31.
 //!
-//! A crate of tests cannot lend its own: it depends on this crate, which would be built twice.
+//! A separate crate of tests could not provide it: that crate would depend on this one, which would be built twice.
 
 use crate::math::order::greater;
 use crate::motion::Motion;
 use glam::{DQuat, DVec3};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `high + low`, with `|low|` at most half a unit in the last place of `high`.
+/// The sum `high + low`, with `|low|` at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Double {
     high: f64,
@@ -54,8 +54,7 @@ impl Double {
         angle + (self * cos - cosine * sin) / (self * sin + cosine * cos)
     }
 
-    /// Computes sine and cosine: Taylor's series of a small fraction of the angle, doubled
-    /// repeatedly.
+    /// Returns sine and cosine, by Taylor's series of a small fraction of the angle, which is doubled repeatedly.
     pub(crate) fn sin_cos(self) -> (Double, Double) {
         let mut halvings = 0;
         let mut angle = self;
@@ -73,7 +72,7 @@ impl Double {
             cos_minus_one = cos_minus_one + even;
             sin = sin + odd;
         }
-        // Doubled as cos − 1, which does not cancel while the angle is small.
+        // The value cos − 1 is doubled, which does not cancel while the angle is small.
         for _ in 0..halvings {
             let two = Double::from(2.0);
             (sin, cos_minus_one) = (
@@ -91,7 +90,7 @@ impl From<f64> for Double {
     }
 }
 
-/// The exact sum of two f64.
+/// Returns the exact sum of two f64.
 fn two_sum(a: f64, b: f64) -> Double {
     let high = a + b;
     let part = high - a;
@@ -183,7 +182,7 @@ impl Double3 {
         Double3(self.0.map(|x| x / length))
     }
 
-    /// Turned by the rotation of a quaternion of any length.
+    /// Returns the vector rotated by a quaternion of any length.
     fn rotated(self, q: DQuat) -> Double3 {
         let v = Double3::from(q.xyz());
         let w = Double::from(q.w);
@@ -193,7 +192,7 @@ impl Double3 {
         self + Double3(moved.0.map(|x| x / square))
     }
 
-    /// Turned about a unit axis.
+    /// Returns the vector rotated about a unit axis.
     pub(crate) fn turned(self, axis: Double3, angle: Double) -> Double3 {
         let (sin, cos) = angle.sin_cos();
         let along = axis.scale(axis.dot(self));
@@ -226,7 +225,7 @@ pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Dou
     start + Double3::from(motion.velocity()).scale(time) + arm
 }
 
-/// Returns a vector of the body, turned into the world.
+/// Returns a vector of the body, rotated into the world.
 fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
     let vector = vector.rotated(motion.start().rotation());
@@ -237,12 +236,12 @@ fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     vector.turned(spin.unit(), spin.length() * time)
 }
 
-/// Poses at both ends of a motion as given, with quaternions of any length.
+/// The given poses at both ends of a motion, with quaternions of any length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub(crate) places: [DVec3; 2],
     pub(crate) turned: [DQuat; 2],
-    /// Moves on a straight line, in the body's frame.
+    /// The centre, in the body's frame, which moves on a straight line.
     pub(crate) centre: DVec3,
 }
 
@@ -264,7 +263,7 @@ impl Ends {
         start + (end - start).scale(share) + arm
     }
 
-    /// The quaternion from the first to the second, of any length, with a non-negative real part.
+    /// Returns the quaternion from the first orientation to the second, of any length, with a non-negative real part.
     fn turn(&self) -> ([Double; 3], Double) {
         let [from, to] = self.turned;
         let [v, u] = [from.xyz(), to.xyz()].map(Double3::from);
@@ -287,7 +286,7 @@ fn has_twice_the_digits() {
     assert!((one - Double::from(1.0)).get().abs() < 1e-31);
     let root = Double::from(2.0).sqrt();
     assert!((root * root - Double::from(2.0)).get().abs() < 1e-31);
-    // sin² + cos² = 1, and the double angle by another formula, also after many turns.
+    // Here sin² + cos² = 1, and the double angle agrees with another formula, also after many turns.
     for angle in [1e-9, 0.3, 2.0, -7.5, 1e3, 1e6] {
         let (sin, cos) = Double::from(angle).sin_cos();
         let scale = 1e-30 * greater(1.0, angle.abs());

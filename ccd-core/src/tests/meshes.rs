@@ -3,7 +3,7 @@
 use super::nearest::Triangle;
 use glam::{DVec2, DVec3};
 
-/// A cube from −half to half, outward normals, each face cut into `n × n` squares.
+/// Returns a cube from −half to half, with outward normals, each face cut into `n × n` squares.
 pub(crate) fn cube(half: f64, n: usize) -> Vec<Triangle> {
     let mut out = Vec::new();
     for axis in 0..3 {
@@ -31,7 +31,7 @@ pub(crate) fn cube(half: f64, n: usize) -> Vec<Triangle> {
     out
 }
 
-/// A torus about the z axis of radii 1 and 0.3, of `2 n m` triangles, outward normals.
+/// Returns a torus about the z axis of radii 1 and 0.3, of `2 n m` triangles, with outward normals.
 pub(crate) fn torus(n: usize, m: usize) -> Vec<Triangle> {
     let at = |i: usize, j: usize| {
         let (around, about) = (turn(i, n), turn(j, m));
@@ -46,12 +46,12 @@ pub(crate) fn torus(n: usize, m: usize) -> Vec<Triangle> {
     squares.flat_map(|(i, j)| square(i, j)).collect()
 }
 
-/// The `k`th of `n` points of the unit circle.
+/// Returns the `k`th of `n` points of the unit circle.
 fn turn(k: usize, n: usize) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * (k % n) as f64 / n as f64)
 }
 
-/// The same surface with opposite normals.
+/// Returns the same surface with opposite normals.
 pub(crate) fn inside_out(triangles: &[Triangle]) -> Vec<Triangle> {
     triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
 }

@@ -1,14 +1,14 @@
 //! The nearest points of two triangles by brute force: every edge with every edge, every corner
 //! with the other's plane, and whether an edge pierces the other triangle.
 //!
-//! A crate of tests cannot lend its own: it depends on this crate, which would be built twice.
+//! A separate crate of tests could not provide it: that crate would depend on this one, which would be built twice.
 
 use crate::math::order::lesser;
 use glam::DVec3;
 
 pub(crate) type Triangle = [DVec3; 3];
 
-/// A pair of points as weights of the corners, and their distance.
+/// A pair of points as weights of the corners, and the distance of the points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) a: [f64; 3],
@@ -16,7 +16,7 @@ pub(crate) struct Nearest {
     pub(crate) distance: f64,
 }
 
-/// The nearest pair of points; also for triangles that are segments or points.
+/// Returns the nearest pair of points; also for triangles that are segments or points.
 ///
 /// Every candidate is a pair of points of the two triangles, so that rounding can only make the
 /// distance too large.
@@ -58,7 +58,7 @@ pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
 }
 
 pub(crate) fn point(t: &Triangle, weights: [f64; 3]) -> DVec3 {
-    // Relative to a corner: rounding stays that of the triangle's size.
+    // The point is relative to a corner, so that rounding stays that of the triangle's size.
     t[0] + weights[1] * (t[1] - t[0]) + weights[2] * (t[2] - t[0])
 }
 
@@ -73,7 +73,7 @@ fn on_edge(k: usize, t: f64) -> [f64; 3] {
     weights
 }
 
-/// Parameters of the nearest points of two segments.
+/// Returns the parameters of the nearest points of two segments.
 fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     let (d, e, r) = (p_end - p, q_end - q, p - q);
     let (dd, ee, de) = (d.dot(d), e.dot(e), d.dot(e));
@@ -89,7 +89,7 @@ fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     (s, t)
 }
 
-/// The weights of a point's foot in the plane of a triangle, if it is within the triangle.
+/// Returns the weights of a point's foot in the plane of a triangle, if the foot is within the triangle.
 fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     let (u, v) = (t[1] - t[0], t[2] - t[0]);
     let normal = u.cross(v);

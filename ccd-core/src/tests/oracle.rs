@@ -6,7 +6,7 @@ use crate::distance::oracle::{Claim, DistanceOracle, GiveUp, PiecePair};
 use crate::distance::separation::support_gap;
 use glam::DVec3;
 
-/// Compares every feature with every other one; balls and capsules are their cores.
+/// A slow oracle that compares every feature with every other one. Balls and capsules are represented by their cores.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Exhaustive;
 
@@ -28,8 +28,8 @@ impl DistanceOracle for Exhaustive {
     }
 }
 
-/// Returns the axis of widest gap among the vector between the witnesses, its parts across an edge,
-/// the normals and the products of edges.
+/// Returns the axis of widest gap among these: the vector between the witnesses, its components across an edge, the
+/// normals, and the products of edges.
 fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let normal = |t: &Triangle| (t[1] - t[0]).cross(t[2] - t[0]);
@@ -37,7 +37,7 @@ fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3
     for e in edges(a) {
         axes.extend(edges(b).map(|f| e.cross(f)));
     }
-    // The way of corners that are very near is rounded: tilted towards a long edge it has no gap.
+    // The vector between corners that are very near is rounded: tilted towards a long edge it has no gap.
     axes.extend(
         [edges(a), edges(b)]
             .as_flattened()
@@ -52,7 +52,7 @@ fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3
         .unwrap_or(DVec3::X)
 }
 
-/// Up to three points as a triangle, the last one repeated.
+/// Returns up to three points as a triangle, with the last one repeated.
 fn corners(points: &[DVec3]) -> Option<Triangle> {
     let last = points.len().checked_sub(1)?;
     (points.len() <= 3).then(|| std::array::from_fn(|k| points[k.min(last)]))
@@ -66,7 +66,7 @@ fn combination(weights: [f64; 3], points: usize) -> Combination {
     out
 }
 
-/// Always claims the same.
+/// An oracle that always returns the same claim.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Always(pub(crate) Result<Claim, GiveUp>);
 

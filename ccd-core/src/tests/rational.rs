@@ -8,12 +8,12 @@ use dashu_ratio::Relaxed;
 #[derive(Clone, Debug)]
 pub(crate) struct Exact3(pub(crate) [Relaxed; 3]);
 
-/// Converts a finite number.
+/// Converts a finite number to a fraction.
 pub(crate) fn exact(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite number")
 }
 
-/// Returns how far a number is from an exact one.
+/// Returns the difference of a number from an exact one.
 pub(crate) fn error_of(x: f64, truth: &Relaxed) -> f64 {
     (exact(x) - truth).to_f64().value().abs()
 }

@@ -22,13 +22,13 @@ use std::convert::Infallible;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Look {
     Plump,
-    /// Each 1e-7 times as wide as long.
+    /// Each triangle is 1e-7 times as wide as long.
     Needles,
-    /// All in one plane, up to 1e-7 of their size.
+    /// All triangles are in one plane, up to 1e-7 of their size.
     Flat,
-    /// All along one line, up to 1e-7 of their size.
+    /// All triangles are along one line, up to 1e-7 of their size.
     Stretched,
-    /// Sizes over six orders of magnitude.
+    /// The sizes extend over six orders of magnitude.
     Mixed,
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
 
-/// What draws random scenes draws those of a search, too.
+/// The functions that draw random scenes also draw those of a search.
 impl TryRng for Tape {
     type Error = Infallible;
 
@@ -66,12 +66,12 @@ impl TryRng for Tape {
     }
 }
 
-/// A power of ten.
+/// Returns a power of ten with a random exponent.
 pub(crate) fn magnitude(rng: &mut impl RngExt, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..=high))
 }
 
-/// A unit vector.
+/// Returns a unit vector.
 pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
     let mut cube = || DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
     let inside = (0..64)
@@ -80,7 +80,7 @@ pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
     inside.unwrap_or(DVec3::X).normalize()
 }
 
-/// A point within the ball of a radius.
+/// Returns a point within the ball of a radius.
 pub(crate) fn within(rng: &mut impl RngExt, radius: f64) -> DVec3 {
     direction(rng) * radius * rng.random_range(0.0..1.0f64).cbrt()
 }
@@ -89,7 +89,7 @@ pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
     DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
 }
 
-/// The corners of a box of half a length of 1: long, flat, or any.
+/// Returns the corners of a box with half lengths of up to 1: long, flat, or any.
 pub(crate) fn long_box(tape: &mut Tape) -> Vec<DVec3> {
     let frame = glam::DMat3::from_quat(rotation(tape));
     let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
@@ -100,7 +100,7 @@ pub(crate) fn long_box(tape: &mut Tape) -> Vec<DVec3> {
     (0..8).map(corner).collect()
 }
 
-/// Triangles about the origin, none reaching much beyond `size`.
+/// Returns triangles about the origin, none of which extends much beyond `size`.
 pub(crate) fn soup(rng: &mut impl RngExt, look: Look, count: usize, size: f64) -> Vec<Triangle> {
     let frame = rotation(rng);
     (0..count)
@@ -125,7 +125,7 @@ pub(crate) fn soup(rng: &mut impl RngExt, look: Look, count: usize, size: f64) -
         .collect()
 }
 
-/// Two triangles of any look, or two plump ones that often cross.
+/// Returns two triangles of any look, or two plump ones that often cross.
 pub(crate) fn couple(rng: &mut Pcg64) -> [Triangle; 2] {
     if rng.random_bool(0.5) {
         return [(); 2].map(|()| [(); 3].map(|()| within(rng, 1.0)));
@@ -172,22 +172,22 @@ impl Passage {
         Motion::about(pose, self.velocity, self.spin, self.centre).unwrap()
     }
 
-    /// The velocity of the body's middle at the clock.
+    /// Returns the velocity of the body's middle at the clock.
     fn velocity_of_middle(&self) -> DVec3 {
         self.velocity + self.spin.cross(self.rotation * (self.middle - self.centre))
     }
 }
 
-/// Two bodies that come near each other, duration 1.
+/// Two bodies that come near each other within a duration of 1.
 #[derive(Debug)]
 pub(crate) struct Scene {
     pub(crate) bodies: [Body; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) accelerations: [DVec3; 2],
     pub(crate) config: Settings,
-    /// The clock at which they are near each other.
+    /// The clock at which the bodies are near each other.
     pub(crate) clock: f64,
-    /// The approximate time for which they are.
+    /// The approximate time for which the bodies are near each other.
     pub(crate) window: f64,
 }
 
@@ -198,7 +198,7 @@ impl Scene {
         Problem::accelerated(bodies, self.accelerations, 1.0, &self.config.terms()).unwrap()
     }
 
-    /// Lets the bodies of every third scene accelerate.
+    /// Returns the scene, in every third case with accelerations of the bodies.
     pub(crate) fn at_times_accelerating(self, rng: &mut Pcg64) -> Self {
         match rng.random_range(0..3) {
             0 => self.accelerating(rng),
@@ -206,8 +206,8 @@ impl Scene {
         }
     }
 
-    /// Lets the bodies accelerate, in the scene's sizes or in those of their ways: they have the same poses and
-    /// velocities at the clock.
+    /// Returns the scene with accelerations of the bodies, of the order of the scene's size or of the bodies'
+    /// displacements. The bodies have the same poses and velocities at the clock.
     pub(crate) fn accelerating(mut self, rng: &mut Pcg64) -> Self {
         let clock = self.clock;
         let size = self.bodies[0].tree().span() + self.bodies[1].tree().span();
@@ -228,7 +228,7 @@ impl Scene {
     }
 }
 
-/// The least distance of any two triangles at a clock.
+/// Returns the least distance of any two triangles at a clock.
 pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     let [a, b] = [&problem.a, &problem.b].map(|side| {
         let frame = side.path.frame(s);
@@ -245,17 +245,17 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
 /// The behaviour of two bodies near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// Anything: still, translating, turning, one or both, about any centre.
+    /// Any behaviour: still, translating, turning, one or both, about any centre.
     Any,
-    /// Overlapping, and moving apart without turning.
+    /// The bodies overlap, and move apart without turning.
     Receding,
-    /// Sliding past each other at a thousand sizes per duration, without turning.
+    /// The bodies slide past each other at a thousand sizes per duration, without turning.
     Sliding,
-    /// A big turning body and a tiny one near it.
+    /// A big body turns, and a tiny one is near it.
     Rim,
 }
 
-/// A scene of up to `most` triangles per body.
+/// Returns a scene of up to `most` triangles per body.
 pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let size = magnitude(rng, -6.0, 6.0);
     let ratio = match kind {
@@ -271,7 +271,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let clock = rng.random_range(0.0..1.0);
     let world = direction(rng) * offset(rng, size);
     let way = direction(rng);
-    // The distance of the middles when they are near: overlapping to well apart.
+    // The distance of the middles at that clock is from overlapping to well apart.
     let near = match kind {
         Kind::Receding => rng.random_range(0.0..0.3),
         _ => rng.random_range(0.0..1.4),
@@ -312,7 +312,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     }
 }
 
-/// None, some, or up to a million sizes; never beyond 1e6 for small bodies.
+/// Returns no offset, some, or up to a million sizes; never beyond 1e6 for small bodies.
 fn offset(rng: &mut Pcg64, size: f64) -> f64 {
     match rng.random_range(0..4) {
         0 | 1 => 0.0,

@@ -1,5 +1,4 @@
-//! Needles whose widths have no square in f64: bodies that approach along their normals keep the
-//! margin.
+//! Needles whose widths have no square in f64: bodies that approach along their normals keep the margin.
 
 use super::nearest::nearest;
 use super::oracle::Exhaustive;
@@ -17,13 +16,13 @@ use crate::schedule::solve::Solve;
 use crate::settings::Settings;
 use glam::DVec3;
 
-/// A vector of small integers.
+/// Returns a vector of small integers.
 fn whole(rng: &mut Pcg64) -> DVec3 {
     let v = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-2..3))));
     if v == DVec3::ZERO { DVec3::X } else { v }
 }
 
-/// Needles that share a corner, and the normal of the first one.
+/// Returns needles that share a corner, and the normal of the first one.
 fn needles(rng: &mut Pcg64) -> (Vec<[DVec3; 3]>, DVec3) {
     let width = magnitude(rng, -162.0, -161.0);
     let count = rng.random_range(1..4);
@@ -86,7 +85,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
                 misses += 1;
                 (1.0, proven_gap)
             }
-            // The slow oracle squares tiny numbers, and claims poor axes.
+            // The slow oracle squares tiny numbers, and returns poor axes.
             Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 open += 1;
                 (safe_until, problem.margin)

@@ -7,8 +7,8 @@ use crate::motion::trajectory::{Acceleration, Accelerations, Smooth};
 use crate::tests::scene::{Pcg64, RngExt, direction, rotation, within};
 use glam::{DQuat, DVec3};
 
-/// Swings about a place and about an axis: `centre + drift t + Σ along sin(rate t + phase)`, turned by
-/// `turn sin(rate t + phase)` about a fixed axis.
+/// A swing about a place and about an axis: `centre + drift t + Σ along sin(rate t + phase)`, turned by `turn
+/// sin(rate t + phase)` about a fixed axis.
 #[derive(Clone, Debug)]
 pub(crate) struct Swing {
     pub(crate) place: DVec3,
@@ -20,12 +20,12 @@ pub(crate) struct Swing {
     turn: f64,
     start: DQuat,
     centre: DVec3,
-    /// Whether it tells its acceleration.
+    /// True if the swing provides its acceleration.
     tells: bool,
 }
 
 impl Swing {
-    /// Draws a swing of a size.
+    /// Draws a swing of this size.
     pub(crate) fn draw(rng: &mut Pcg64, size: f64) -> Self {
         Swing {
             place: within(rng, size),

@@ -1,18 +1,18 @@
-//! A search for the cases in which an allowance for rounding is used up most.
+//! A search for the cases in which an error takes the largest share of an allowance for rounding.
 //!
-//! Random cases come nowhere near a bound that adds up the worst of every operation. Here each case is a
-//! tape of words, which become numbers when it is read. The search changes the words of the worst case so
-//! far, keeps what is no better, and starts anew when nothing is worse for long. The seed is fixed: the same
-//! test judges the same cases.
+//! Random cases come nowhere near a bound that adds up the worst of every operation. Here each case is a tape of
+//! words, which become numbers when it is read. The search changes the words of the worst case so far, and keeps each
+//! change after which it is at least as bad. It starts again when no worse case is found for long. The seed is fixed:
+//! the same test examines the same cases.
 //!
 //! `CCD_TEST_CASES` in the environment multiplies the number of cases. `docs/allowances.md` has the results,
 //! and the commands that print them.
 //!
-//! Other crates of the workspace include this file by its path: it uses the standard library alone.
+//! Other crates of the workspace include this file by its path. It uses the standard library alone.
 
 use std::ops::RangeInclusive;
 
-/// A case, as words that are made up as far as it is read.
+/// A case, as words that are drawn as far as the case is read.
 pub(crate) struct Tape {
     words: Vec<u64>,
     read: usize,
@@ -25,23 +25,23 @@ pub(crate) struct Worst {
     cases: f64,
 }
 
-/// The worst case that a search came upon.
+/// The worst case that a search found.
 pub(crate) struct Found {
     name: &'static str,
     /// The largest share of the allowance that an error took.
     share: f64,
-    /// Whether the search was not cut short.
+    /// True if the search was not cut short.
     whole: bool,
 }
 
-/// The number of cases without a worse one after which a search starts anew, and that for each word.
+/// The number of cases without a worse one after which a search starts again, and the number added for each word.
 const PATIENCE: [u64; 2] = [200, 10];
 
-/// The number of random cases that the next climb starts from the worst of.
+/// The number of random cases at the start of a climb, which continues from the worst of them.
 const DRAWN: u64 = 24;
 
 impl Worst {
-    /// Creates a search of so many cases, times `CCD_TEST_CASES`.
+    /// Creates a search of this many cases, times `CCD_TEST_CASES`.
     pub(crate) fn of(name: &'static str, cases: u32) -> Self {
         let given = std::env::var("CCD_TEST_CASES").ok();
         let times: f64 = given.and_then(|text| text.parse().ok()).unwrap_or(1.0);
@@ -51,11 +51,11 @@ impl Worst {
         }
     }
 
-    /// Searches for the case with the largest share; `judge` returns that of a case, or none if it is
-    /// not one that the allowance is for.
+    /// Searches for the case with the largest share; `judge` returns the share of a case, or `None` if the allowance
+    /// is not for such a case.
     ///
     /// # Panics
-    /// If a share is no number, or if most cases are none.
+    /// If a share is NaN, or if most cases give `None`.
     #[allow(clippy::print_stdout)]
     pub(crate) fn search(self, mut judge: impl FnMut(&mut Tape) -> Option<f64>) -> Found {
         let count = self.cases.ceil() as u64;
@@ -83,7 +83,7 @@ impl Worst {
             assert!(!share.is_nan(), "{}: {:?}", self.name, tape.words);
             judged += 1;
             stale += 1;
-            // As bad a case is taken as well: it may lead on where the last one does not.
+            // A case that is equally bad is taken as well: it may lead on where the last one does not.
             if share >= here.0 {
                 stale = if share > here.0 { 0 } else { stale };
                 here = (share, tape.words);
@@ -92,7 +92,7 @@ impl Worst {
                 (worst, number) = (here.clone(), case);
             }
             if stale > PATIENCE[0] + PATIENCE[1] * here.1.len() as u64 {
-                // Every other climb goes on from the worst case of all.
+                // Every other climb continues from the worst case of all.
                 let anew = dice.next() & 1 == 0;
                 here = if anew { nothing() } else { worst.clone() };
                 (drawn, stale) = (if anew { 0 } else { DRAWN }, 0);
@@ -116,22 +116,22 @@ impl Worst {
 }
 
 impl Found {
-    /// Asserts that no error exceeded the allowance, and that one came as near to it as this factor.
+    /// Asserts that no error exceeded the allowance, and that one came within this factor of it.
     pub(crate) fn is_within(&self, looseness: f64) {
         let (name, ratio) = (self.name, 1.0 / self.share);
         assert!(self.share <= 1.0, "{name}: only {ratio:e} of an error");
-        // A search that looks at nothing would prove nothing.
+        // A search that examines nothing would prove nothing.
         let near = self.share > 0.0 && ratio <= looseness;
         assert!(near || !self.whole, "{name}: {ratio:e} times all errors");
     }
 }
 
-/// Returns the share of an allowance that an error takes. Any error takes infinitely much of none.
+/// Returns the share of an allowance that an error takes. If the allowance is 0, any error takes an infinite share.
 pub(crate) fn share(error: f64, allowance: f64) -> f64 {
     match allowance > 0.0 {
         true => error / allowance,
         false if error > 0.0 => f64::INFINITY,
-        // No error, by so much. Written so that NaN stays.
+        // There is no error, by this much. Written so that NaN stays.
         false => error,
     }
 }
@@ -157,7 +157,7 @@ impl Tape {
         let exponent = least + field as i32 % (most - least + 1);
         let size = f64::from_bits(ONE | mantissa);
         let signed = if word >> 63 == 1 { -size } else { size };
-        // Two steps, as 2⁻¹⁰⁷⁴ is no power that can be made in one.
+        // The power is computed in two steps, as 2⁻¹⁰⁷⁴ cannot be computed in one.
         let half = exponent / 2;
         signed * 2f64.powi(half) * 2f64.powi(exponent - half)
     }
@@ -167,7 +167,7 @@ impl Tape {
         [(); 3].map(|()| self.any(exponents.clone()))
     }
 
-    /// Returns a number that is positive.
+    /// Returns a positive number.
     pub(crate) fn size(&mut self, exponents: RangeInclusive<i32>) -> f64 {
         let least = 2f64.powi(*exponents.start());
         match self.any(exponents).abs() {
@@ -176,7 +176,7 @@ impl Tape {
         }
     }
 
-    /// Returns a number that differs from another one by anything from nothing to as much as it is.
+    /// Returns a number that differs from another one by anything from nothing to its own size.
     pub(crate) fn near(&mut self, x: f64) -> f64 {
         x + x * self.any(-54..=0)
     }
@@ -186,7 +186,7 @@ impl Tape {
         (self.word() >> 11) as f64 * 0.5f64.powi(53)
     }
 
-    /// Returns a number below another one.
+    /// Returns a whole number below another one.
     pub(crate) fn pick(&mut self, count: usize) -> usize {
         (self.word() % count as u64) as usize
     }
@@ -195,7 +195,7 @@ impl Tape {
 const MANTISSA: u64 = (1 << 52) - 1;
 const ONE: u64 = 1023 << 52;
 
-/// Splitmix: enough for a search.
+/// The Splitmix generator, which suffices for a search.
 struct Dice(u64);
 
 impl Dice {
@@ -208,7 +208,7 @@ impl Dice {
         (self.next() % count as u64) as usize
     }
 
-    /// Returns a case with one word changed, or a few.
+    /// Returns a case with one or a few words changed.
     fn changed(&mut self, words: &[u64]) -> Vec<u64> {
         let mut words = words.to_vec();
         if words.is_empty() {
@@ -225,7 +225,7 @@ impl Dice {
     /// Returns another word in the place of one.
     fn other(&mut self, word: u64, all: &[u64]) -> u64 {
         let digits = self.next() & MANTISSA;
-        // A few units in the last place, where the word is a number.
+        // The change is a few units in the last place if the word is a number.
         let few = digits % 16;
         match self.below(10) {
             0 => self.next(),
@@ -234,10 +234,10 @@ impl Dice {
             3 => word ^ 1 << self.below(52),
             4 => word.wrapping_add(few),
             5 => word.wrapping_sub(few),
-            // Just above a power of two, and just below one.
+            // The number is just above a power of two, or just below one.
             6 => word & !MANTISSA | few,
             7 => word | MANTISSA ^ few,
-            // Equal to another number or opposite, up to a few last digits: sums of such cancel.
+            // The number is equal or opposite to another one, up to a few last digits: sums of such numbers cancel.
             8 => {
                 let sign = (self.next() & 1) << 63;
                 let digits = if self.next() & 1 == 0 { few } else { 0 };

@@ -23,7 +23,7 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
         let about = round.unwrap().enclosed(1e-3).unwrap();
         let body = about.body().unwrap();
         assert!(body.excess() == about.excess() && body.excess() > 1e-4);
-        // Its triangles, which replace it, are about the same shape.
+        // The triangles that replace the body represent the same shape.
         let ball = Body::ball(1.0).unwrap();
         assert_eq!(Excess::of(&body, &ball), Excess::of(&ball, &body));
     }

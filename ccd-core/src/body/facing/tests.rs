@@ -1,4 +1,4 @@
-//! The outward side is found face by face, for any winding of the shells.
+//! Tests that the outward side is found face by face, for any winding of the shells.
 
 use super::Facing;
 use crate::body::{Body, Volume};
@@ -11,7 +11,7 @@ fn solid(triangles: &[Triangle]) -> Body {
     Body::new(&pieces(triangles), Volume::Solid).unwrap()
 }
 
-/// Checks the normal of every face against the outward direction from the middle of its shell.
+/// Compares the normal of every face with the outward direction from the middle of its shell.
 fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
     for piece in 0..body.pieces().len() as u32 {
         let out = out_of(body.middle(piece));
@@ -75,7 +75,7 @@ fn faces_back_to_back_and_surfaces_face_neither_way() {
     assert_eq!(surface.facing(0), Facing::Neither);
 }
 
-/// Two lobes of one shell with opposite windings: the cross section is an eight.
+/// Two lobes of one shell have opposite windings: the cross section is an eight.
 #[test]
 fn a_face_on_which_the_sides_change_is_unclear() {
     let eight = [(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)];

@@ -1,11 +1,11 @@
-//! Lookups by the facets of a corner against a scan of all facets.
+//! The lookup by the facets of a corner, compared with a scan of all facets.
 
 use super::*;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, Polytope};
 use crate::tests::scene::{RngExt, rng};
 
-/// A prism of 60 sides; every third side is virtual.
+/// A prism of 60 sides, of which every third one is virtual.
 fn prism() -> Pieces {
     let count = 60;
     let rim = |height: f64| {
@@ -39,7 +39,7 @@ fn prism() -> Pieces {
 fn names_agree_with_a_scan_of_all_facets() {
     let pieces = prism();
     let piece = pieces.get(0);
-    // A piece of no list, so that nothing is stored.
+    // The piece belongs to no list, so that nothing is stored.
     let bare = Piece {
         slot: None,
         ..piece

@@ -22,15 +22,15 @@ fn a_tree_over_all_pieces_is_taken() {
 
 #[test]
 fn invalid_nodes_are_refused_by_index() {
-    // No root, and no piece for it.
+    // There is no root, and no node for the piece.
     assert_eq!(refused(&[], 1), 0);
     assert_eq!(refused(&[], 0), 0);
     assert_eq!(refused(&[Leaf(0)], 0), 0);
-    // A piece missing, repeated, out of range.
+    // A piece is missing, repeated, or out of range.
     assert_eq!(refused(&[Leaf(0)], 2), 1);
     assert_eq!(refused(&[Inner(1, 2), Leaf(1), Leaf(1)], 2), 1);
     assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(9)], 2), 9);
-    // A node reached twice, from itself, never, or out of range.
+    // A node is reached twice, from itself, never, or is out of range.
     assert_eq!(refused(&[Inner(1, 1), Leaf(0)], 1), 1);
     assert_eq!(refused(&[Inner(0, 1), Leaf(0)], 1), 0);
     assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(1), Leaf(2)], 2), 3);

@@ -1,4 +1,4 @@
-//! Checks and assembles nodes, children before their parents.
+//! The check and the assembly of nodes, children before their parents.
 
 use super::bottom_up::bottom_up;
 use super::edges::check_facets;
@@ -28,8 +28,7 @@ impl HullTree {
     /// there.
     ///
     /// # Complexity
-    /// O(n log n) in all points and facets, if few of the points that a hull hides are near each of
-    /// its facets.
+    /// O(n log n) in all points and facets, if few of the points hidden by a hull are near each of its facets.
     pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
         let hierarchy = hierarchy(pieces, nodes)?;
         let done = bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
@@ -101,7 +100,7 @@ fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
     for Node { points, loops, .. } in nodes {
         let start = ends.len();
         let first = meeting.len() as u32;
-        // First counts, then the next free positions, finally the ends.
+        // The entries are first counts, then the next free positions, and finally the ends.
         ends.resize(start + points.len(), 0);
         let next = &mut ends[start..];
         let corners = loops.corners().iter();
@@ -170,7 +169,7 @@ fn inner<'a>(
     })
 }
 
-/// Checks that the hull holds all points of its children.
+/// Checks that the hull contains all points of its children.
 fn check_inside(
     hull: &Hull,
     identity: &Identity,

@@ -1,4 +1,4 @@
-//! Builds nodes children first, with parallel subtrees on all cores.
+//! A parallel traversal of nodes, children first, with subtrees on all cores.
 
 use super::error::HullTreeError;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
@@ -7,20 +7,20 @@ use std::num::NonZero;
 use std::ops::Range;
 use std::thread::available_parallelism;
 
-/// Makes a value for every node from the values of its children. Leaves get two arbitrary ones.
+/// Computes a value for every node from the values of its children. Leaves get two arbitrary ones.
 ///
 /// # Guarantee
-/// The result does not depend on the number of cores. Of several errors it is the one of the node
-/// that comes first in sequential order.
+/// The result does not depend on the number of cores. Of several errors, that of the first node in sequential order
+/// is returned.
 ///
 /// # Errors
-/// Those of the function that makes a node.
+/// The errors of the function that computes a node's value.
 pub(super) fn bottom_up<T: Default + Send>(
     hierarchy: &Hierarchy,
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
     let cores = available_parallelism().map_or(1, NonZero::get);
-    // Several parts for each of many cores, as their sizes differ.
+    // Each of many cores gets several parts, as the sizes of the parts differ.
     let parts = if cores > 1 { 4 * cores } else { 1 };
     bottom_up_in(parts, hierarchy, make)
 }
@@ -62,9 +62,8 @@ struct Row<'a, F> {
 }
 
 impl<F> Row<'_, F> {
-    /// Makes a range of the row that is one subtree, in at most `parts` parts. The parts are
-    /// divided by size, and either side gets fewer, so that the depth of recursion is at most their
-    /// number.
+    /// Computes a range of the row that is one subtree, in at most `parts` parts. The parts are divided by size, and
+    /// either side gets fewer, so that the depth of recursion is at most their number.
     fn fill<T: Default + Send>(
         &self,
         range: Range<usize>,
@@ -90,7 +89,7 @@ impl<F> Row<'_, F> {
         }
     }
 
-    /// Makes two subtrees, in parallel if both are worth it and a thread is free.
+    /// Computes two subtrees, in parallel if both are worth it and a thread is free.
     fn fill_both<T: Default + Send>(
         &self,
         [one, other]: [Range<usize>; 2],
@@ -108,7 +107,7 @@ impl<F> Row<'_, F> {
         first.and(second)
     }
 
-    /// Makes a node of the row after its children; the made values start at a position of the row.
+    /// Computes a node of the row after its children; `done` has the values from the position `start` of the row on.
     fn fill_one<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,

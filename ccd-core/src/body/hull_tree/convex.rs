@@ -1,4 +1,4 @@
-//! Decides whether facets are those of a convex polytope, exactly.
+//! An exact decision whether facets are those of a convex polytope.
 
 use super::edges::edges_of;
 use crate::body::piece::Piece;
@@ -7,8 +7,8 @@ use crate::math::exact::{side, too_fine};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Prepares the search for extremal points of a hull of many points. Edges are climbed if they are
-/// proven to be those of the hull. Otherwise a tree is searched, which relies on no facets.
+/// Prepares the search for extremal points of a hull of many points. Edges are climbed if they are proven to be those
+/// of the hull. Otherwise a tree is searched, which uses no facets.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     if is_convex(hull) {
         Support::new(hull.points, hull.facets)
@@ -20,12 +20,12 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
 /// Returns whether the facets close a convex polytope that has all points as corners.
 ///
 /// # Guarantee
-/// A positive answer is exact. The facets are treated as fans of triangles, no two of which have a
-/// side in the same direction. From a point behind all of them, their surface covers all directions
-/// equally often; once, if a single direction is. Such a surface is that of a convex polytope when
-/// it bends inward at no edge `[MEHLHORN96]`. If the triangles of each facet are coplanar and its
-/// outline turns one way only, the facet is a convex part of a face. From every corner of the facet
-/// an edge then leads up along any direction that goes up from there in that face.
+/// A positive answer is exact. The facets are treated as fans of triangles, no two of which have a side in the same
+/// direction. From a point behind all of them, their surface covers all directions equally often, and exactly once if
+/// a single direction is covered once. Such a surface is that of a convex polytope if it bends inward at no edge
+/// `[MEHLHORN96]`. If the triangles of each facet are coplanar and its outline turns one way only, the facet is a
+/// convex part of a face. From every corner of the facet an edge then leads up along any direction that goes up from
+/// there in that face.
 fn is_convex(hull: &Piece<'_>) -> bool {
     if hull.facets.is_empty() || too_fine(hull.points).is_some() {
         return false;
@@ -63,7 +63,7 @@ fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
     (0..corners.len()).all(|k| side(fan(k), middle).is_le())
 }
 
-/// Returns whether no triangle has a neighbour across an edge in front of its plane.
+/// Returns whether each triangle's neighbours across its edges are not in front of its plane.
 fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
     let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
         .iter()
@@ -85,7 +85,7 @@ fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]
     once && sides.iter().all(bends)
 }
 
-/// Returns whether a direction from the middle that avoids all edges meets exactly one triangle.
+/// Returns whether a ray from the middle that avoids all edges meets exactly one triangle.
 fn covers_once(
     triangles: &[[u32; 3]],
     place: impl Fn(&[u32; 3]) -> [DVec3; 3],
@@ -103,7 +103,7 @@ fn covers_once(
         if past.into_iter().all(Ordering::is_lt) {
             met += 1;
         } else if !past.into_iter().any(Ordering::is_gt) {
-            // The direction passes through an edge: the count is unknown.
+            // The ray passes through an edge, and the count is unknown.
             return false;
         }
     }

@@ -1,4 +1,4 @@
-//! Edges of loops of corners, and a lookup of them without hashing.
+//! The edges of loops of corners, and a lookup of them without hashing.
 
 use super::error::HullFault;
 use super::hull::Hull;
@@ -10,7 +10,7 @@ pub(super) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Cl
     corners.iter().copied().zip(next.copied())
 }
 
-/// Checks that the facets are loops of corners that close a surface. O(n log n).
+/// Checks that the facets are loops of corners that close a surface. The check takes O(n log n).
 pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     if is_closed(hull) {
         Ok(())
@@ -29,7 +29,7 @@ fn is_closed(hull: &Hull) -> bool {
         }
         edges.extend(edges_of(corners).map(|(from, to)| {
             let (low, high) = (from.min(to), from.max(to));
-            // The last bit is the direction: the highest corner leaves no other bit.
+            // The lowest bit is the direction, since the highest corner leaves no other bit.
             u64::from(low) << 33 | u64::from(high) << 1 | u64::from(from > to)
         }));
     }
@@ -68,17 +68,17 @@ fn find_fault(hull: &Hull) -> Result<(), HullFault> {
 
 /// Values by directed edge, between points numbered from 0.
 pub(super) struct EdgeMap {
-    /// The start of each point's edges, and at last the end of those of the last point.
+    /// The start of each point's edges, and finally the end of those of the last point.
     starts: Vec<u32>,
-    /// Each edge's end point, and its value; in ascending order if there are many.
+    /// The end point of each edge, and its value; in ascending order if there are many.
     edges: Vec<(u32, u32)>,
 }
 
-/// Edges from one point are sorted if there are more than this.
+/// Edges from one point are sorted if there are more of them than this.
 const MANY: usize = 8;
 
 impl EdgeMap {
-    /// Creates the map. The last of repeated edges counts. O(n log n).
+    /// Creates the map. The last of repeated edges counts. This takes O(n log n).
     pub(super) fn new(
         points: usize,
         edges: impl Iterator<Item = ((u32, u32), u32)> + Clone,

@@ -1,9 +1,9 @@
-//! The reasons why nodes are no hull tree.
+//! The reasons why nodes do not make a hull tree.
 
 use crate::error::InputError;
 use std::fmt;
 
-/// The reason why there is no hull tree, with the offending node.
+/// The reason why there is no hull tree, with the invalid node.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HullTreeError {
@@ -11,7 +11,7 @@ pub enum HullTreeError {
     Input(InputError),
     /// A node is invalid.
     Node {
-        /// Its index.
+        /// The index of the node.
         node: u32,
         /// The fault.
         fault: HullFault,
@@ -24,29 +24,29 @@ pub enum HullTreeError {
 pub enum HullFault {
     /// A corner of the hull is not one of its children's points.
     ForeignPoint {
-        /// The corner's index.
+        /// The index of the corner.
         point: u32,
     },
     /// A facet has fewer than three corners, or names one that the hull does not have.
     BadFacet {
-        /// The facet's index.
+        /// The index of the facet.
         facet: u32,
     },
     /// An edge of a facet does not occur exactly once in reverse in another facet.
     Open {
-        /// The facet's index.
+        /// The index of the facet.
         facet: u32,
     },
-    /// A point of a child is outside of the hull, or the hull's facets do not show that it is inside.
+    /// A point of a child is outside of the hull, or the hull's facets do not prove that it is inside.
     ChildOutside {
-        /// The child, by its node's index.
+        /// The index of the child's node.
         child: u32,
-        /// The point's index in the child's hull.
+        /// The index of the point in the child's hull.
         point: u32,
     },
     /// A point has a coordinate too close to 0 for exact predicates.
     TooFine {
-        /// The point's index.
+        /// The index of the point.
         point: u32,
     },
     /// The leaf is not one of the body's pieces, or another leaf is already that piece.

@@ -1,4 +1,4 @@
-//! Identifies points of two children and of their parent's hull that are at the same place.
+//! The identification of points of two children and of their parent's hull that are at the same place.
 
 use super::error::HullFault;
 use super::hull::Hull;
@@ -7,18 +7,18 @@ use glam::DVec3;
 
 /// The identified points of the children and of the hull.
 ///
-/// Numbers below the hull's count of points name those; the others name hidden points.
+/// Numbers below the hull's count of points name the hull's points. The others name hidden points.
 pub(super) struct Identity {
     pub(super) of_left: Vec<u32>,
     pub(super) of_right: Vec<u32>,
-    /// The position of each.
+    /// The position of each identified point.
     pub(super) places: Vec<DVec3>,
     /// The numbers of the hull's points in the mesh.
     pub(super) vertex_ids: Vec<u32>,
 }
 
 impl Identity {
-    /// Runs in O(n log n).
+    /// Identifies the points, in O(n log n).
     pub(super) fn new(hull: &Hull, [left, right]: [&Node<'_>; 2]) -> Result<Self, HullFault> {
         let own = hull.points.len();
         let all = [&hull.points[..], &left.points, &right.points];
@@ -57,8 +57,8 @@ impl Identity {
     }
 }
 
-/// Returns the representative of each point of some concatenated lists: the last point at its place
-/// among the first `own` points, or else the first one there.
+/// Returns the representative of each point of some concatenated lists: the last of the first `own` points that is at
+/// the same place, or otherwise the first point there.
 fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
     // Adding zero turns −0 into 0.
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());

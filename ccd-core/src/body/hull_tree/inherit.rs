@@ -1,7 +1,7 @@
 //! The facets that an inner hull inherits from its children.
 //!
-//! A child's hull meets the plane of a facet of its parent in at most one facet of its own. A facet
-//! of the parent is therefore a child's, or is tiled by one of either child, or is a bridge.
+//! A child's hull meets the plane of a facet of its parent in at most one facet of the child. A facet of the parent
+//! is therefore a facet of a child, or is tiled by one facet of each child, or is a bridge.
 
 use super::edges::{EdgeMap, edges_of};
 use super::hull::{FacetClass, Hull};
@@ -59,11 +59,11 @@ impl FacetData {
     }
 }
 
-/// A child with its points numbered together with those of its parent, which come first.
+/// A child whose points are numbered together with those of its parent, which come first.
 #[derive(Clone, Copy)]
 pub(super) struct Child<'a> {
     node: &'a Node<'a>,
-    /// The numbers of its points.
+    /// The common numbers of the child's points.
     ids: &'a [u32],
 }
 
@@ -93,13 +93,13 @@ pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -
 /// A facet of a child.
 struct Part<'a> {
     child: Child<'a>,
-    /// The corners by the child's numbers.
+    /// The corners, by the child's numbers.
     corners: &'a [u32],
     facet: &'a FacetData,
 }
 
 impl Part<'_> {
-    /// Returns its corners by the common numbers.
+    /// Returns the part's corners, by the common numbers.
     fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
         self.corners.iter().map(|&v| self.child.ids[v as usize])
     }
@@ -126,12 +126,12 @@ impl Part<'_> {
     }
 }
 
-/// A child's facets.
+/// The facets of a child.
 struct Side<'a> {
     child: Child<'a>,
-    /// The data of either side of a child that is a single triangle.
+    /// The data of each side of a child that is a single triangle.
     lone: Option<&'a FacetData>,
-    /// The part of each edge.
+    /// The index of the part at each edge.
     by_edge: EdgeMap,
 }
 
@@ -177,7 +177,7 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns the data of front and back of a single triangle, which lists no facets.
+/// Returns the data of the front and back of a single triangle, which lists no facets.
 fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
@@ -201,7 +201,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Returns whether two loops are the same up to their first corner.
+/// Returns whether two loops are the same up to the choice of their first corner.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
@@ -214,8 +214,8 @@ fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     part.ids().eq(begin.iter().chain(end).copied())
 }
 
-/// Returns whether two convex polygons together are a facet of the hull: without the edges that run
-/// both ways, the rest of their edges is the facet's loop, except for corners within its edges.
+/// Returns whether two convex polygons together are a facet of the hull. Edges that run both ways are dropped. The
+/// remaining edges have to be the facet's loop, except for corners within its edges.
 ///
 /// A part has at most the facet's corners and the two ends of the cut. A part of many more is
 /// skipped, as it may share an edge with each of many facets.
@@ -228,7 +228,7 @@ fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
     edges.sort_unstable();
     let border = |&(from, to): &(u32, u32)| edges.binary_search(&(to, from)).is_err();
     let next: Vec<(u32, u32)> = edges.iter().copied().filter(border).collect();
-    // Common edges, and corners where the parts only touch, are no border.
+    // Common edges, and corners at which the parts only touch, are not on the border.
     let twice = edges.windows(2).any(|e| e[0] == e[1]);
     if twice || next.windows(2).any(|e| e[0].0 == e[1].0) {
         return false;

@@ -1,4 +1,4 @@
-//! Decides whether a point is in a hull, exactly `[SHE97]`.
+//! An exact test whether a point is in a hull `[SHE97]`.
 
 use super::loops::Loops;
 use crate::math::exact::{is_degenerate, side, turn_along};
@@ -6,17 +6,17 @@ use crate::math::point_tree::PointTree;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A hull for containment tests of points.
+/// A hull, prepared for tests whether it contains points.
 pub(super) struct Container<'a> {
     points: &'a [DVec3],
     /// The facets as fans of triangles.
     fans: Vec<[DVec3; 3]>,
-    /// The first facet's corners.
+    /// The corners of the first facet.
     first: Vec<DVec3>,
 }
 
 impl<'a> Container<'a> {
-    /// Every edge of the facets must occur exactly once in reverse in another facet.
+    /// Creates the container. Every edge of the facets must occur exactly once in reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
         let at = |&v: &u32| points[v as usize];
         let fan = |corners: &[u32]| {
@@ -33,14 +33,12 @@ impl<'a> Container<'a> {
         }
     }
 
-    /// Returns the first of some points that is not certainly in the hull of the container's
-    /// points.
+    /// Returns the index of the first point that is not certainly in the hull of the container's points.
     ///
     /// # Guarantee
-    /// The test is exact, and sound for any facets. A closed surface with its corners in the hull
-    /// winds 0 times about a point outside of the hull. If no facet has the point in front, the
-    /// solid angles of all facets at the point have one sign. They must then all be 0: no facet has
-    /// the point behind.
+    /// The test is exact, and sound for any facets. A closed surface with its corners in the hull winds 0 times about
+    /// a point outside of the hull. If the point is in front of no facet, the solid angles of all facets at the point
+    /// have one sign. They must then all be 0, and the point is behind no facet.
     ///
     /// # Complexity
     /// O(n log n) for n points and facets in all, if few points are near each facet.
@@ -53,7 +51,7 @@ impl<'a> Container<'a> {
         }
         let tree = PointTree::new(places);
         let mut outside = vec![false; places.len()];
-        // The facets whose planes contain the point; it is behind all others.
+        // The facets whose planes contain the point, which is behind all others.
         let mut level = vec![0; places.len()];
         for &triangle in &self.fans {
             tree.for_each_not_behind(triangle, |k| match side(triangle, places[k as usize]) {
@@ -69,7 +67,7 @@ impl<'a> Container<'a> {
     }
 }
 
-/// Returns whether a point is one of up to three, between two, or in their triangle.
+/// Returns whether a point is one of up to three points, between two of them, or in their triangle.
 fn in_simplex(points: &[DVec3], point: DVec3) -> bool {
     match *points {
         [a] => a == point,
@@ -102,8 +100,8 @@ pub(super) fn spanning(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
     plane(polygon).map(|(corners, _)| corners)
 }
 
-/// Returns three corners of a polygon that are not on one line, not even when seen along a
-/// coordinate axis; and that axis.
+/// Returns three corners of a polygon that are not on one line, even when seen along a coordinate axis, and the index
+/// of that axis.
 fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     (1..polygon.len().saturating_sub(1)).find_map(|k| {
         let fan = [0, k, k + 1].map(|k| polygon[k]);
@@ -113,8 +111,8 @@ fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     })
 }
 
-/// Returns whether a point is in the plane of a polygon and in the hull of its corners: on no
-/// edge's outer side and on the inner side of one, by the same count of windings.
+/// Returns whether a point is in the plane of a polygon and in the hull of its corners: on the outer side of no edge
+/// and on the inner side of one, by the same count of windings.
 fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
     let Some((fan, axis)) = plane(corners) else {
         return false;

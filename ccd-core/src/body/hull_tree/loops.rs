@@ -19,7 +19,7 @@ pub struct Loops {
 }
 
 impl Loops {
-    /// Creates an empty list with capacity for a number of loops, and of corners in all.
+    /// Creates an empty list with capacity for this many loops, with this many corners in all.
     pub fn with_capacity(loops: usize, corners: usize) -> Self {
         Loops {
             corners: Vec::with_capacity(corners),
@@ -33,17 +33,17 @@ impl Loops {
         self.ends.push(self.corners.len());
     }
 
-    /// The number of loops.
+    /// Returns the number of loops.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// Returns whether there is none.
+    /// Returns whether there are no loops.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// One loop.
+    /// Returns one loop.
     pub fn get(&self, k: usize) -> Option<&[u32]> {
         let end = *self.ends.get(k)?;
         let start = if k == 0 { 0 } else { self.ends[k - 1] };
@@ -55,12 +55,12 @@ impl Loops {
         (0..self.len()).map(|k| self.get(k).unwrap_or_default())
     }
 
-    /// The corners of all loops in order.
+    /// Returns the corners of all loops in order.
     pub fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// The corners of all loops, to be renumbered.
+    /// Returns the corners of all loops, to be renumbered.
     pub fn corners_mut(&mut self) -> &mut [u32] {
         &mut self.corners
     }

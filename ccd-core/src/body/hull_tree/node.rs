@@ -10,10 +10,10 @@ use std::borrow::Cow;
 #[derive(Debug, Default)]
 pub(super) struct Node<'a> {
     pub(super) points: Cow<'a, [DVec3]>,
-    /// The numbers of its points in the mesh.
+    /// The numbers of the node's points in the mesh.
     pub(super) vertex_ids: Vec<u32>,
     pub(super) loops: Cow<'a, Loops>,
-    /// The data of its facets.
+    /// The data of the node's facets.
     pub(super) facet_data: Vec<FacetData>,
     /// The mesh's faces on a leaf; the faces of an inner node are those of its facets.
     pub(super) own_faces: Option<Vec<Face>>,
@@ -32,7 +32,7 @@ pub(super) struct FacetData {
 }
 
 impl Node<'_> {
-    /// The mesh's faces on its surface.
+    /// Returns the mesh's faces on the node's surface.
     pub(super) fn faces(&self) -> impl Iterator<Item = &Face> {
         let of_skins = self.facet_data.iter().flat_map(|facet| &facet.faces);
         let (own, of_skins) = match &self.own_faces {

@@ -1,4 +1,4 @@
-//! Finds leaves again in another list of the same pieces.
+//! The renumbering of leaves for another list of the same pieces.
 
 use super::HullTree;
 use super::error::{HullFault, HullTreeError};
@@ -17,8 +17,8 @@ impl HullTree {
     }
 }
 
-/// Returns the tree's hierarchy, with leaves that name the bitwise equal pieces of a list. Among
-/// equal pieces, the first leaf names the first.
+/// Returns the tree's hierarchy, with leaves that name the pieces of a list that are equal to the bit. Among equal
+/// pieces, the first leaf names the first.
 fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
     let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
@@ -33,7 +33,7 @@ fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError
     let mut found = Vec::with_capacity(leaves.len());
     for at in leaves {
         let to_leaf = |&k: &usize| order([pieces, hulls], [k, at]);
-        // A piece less than this leaf is no leaf.
+        // A piece that is less than this leaf is not a leaf.
         while known.next_if(|k| to_leaf(k) == Ordering::Less).is_some() {}
         let same = known.next_if(|k| to_leaf(k) == Ordering::Equal);
         found.push((at, same));
@@ -43,7 +43,7 @@ fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError
         let piece = same.ok_or(HullFault::NotAPiece.at(at))?;
         renamed[at] = HierarchyNode::Leaf(piece as u32);
     }
-    // This also fails if a piece of the list is no leaf.
+    // This also fails if a piece of the list is not a leaf.
     Ok(Hierarchy::new(renamed, pieces.len())?)
 }
 

@@ -1,4 +1,4 @@
-//! Small trees, made by hand: inherited data, and refused nodes.
+//! Small trees made by hand: inherited data, and refused nodes.
 
 use super::*;
 use crate::body::feature::Feature;
@@ -25,7 +25,7 @@ fn corners(lo: DVec3, hi: DVec3) -> Vec<DVec3> {
         .collect()
 }
 
-/// A box from one x to another, 1 high and 1 wide; its faces are numbered from `first` on.
+/// A box from one x to another, 1 high and 1 wide. Its faces are numbered from `first` on.
 fn block(from: f64, to: f64, first: u32) -> Polytope {
     let facet = |(k, corners): (usize, &[u32; 4])| Facet {
         origin: Origin::Face(first + k as u32),
@@ -71,7 +71,7 @@ fn fault(pieces: &[Polytope], hull: Hull) -> HullFault {
 #[test]
 fn facets_are_a_childs_or_tiled_or_bridges() {
     use FacetClass::{Free, Original};
-    // End to end: the sides are tiled, though the corners between are hidden.
+    // The boxes are end to end: the sides are tiled, though the corners between them are hidden.
     let whole = tree(&[block(0.0, 1.0, 0), block(1.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
     assert_eq!(whole.facet_classes(0), [Original; 6]);
     let root = whole.hulls().get(0);
@@ -87,7 +87,7 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
         whole.hulls().feature(0, &Combination::point(7)),
         Feature::Vertex(67)
     );
-    // Apart: the sides are bridges.
+    // The boxes are apart: the sides are bridges.
     let gap = tree(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
     assert_eq!(
         gap.facet_classes(0),
@@ -117,14 +117,14 @@ fn features_take_the_best_class_of_their_facets() {
     use FacetClass::{Contained, Free, Original};
     assert_eq!(class(0, &[]), Free);
     assert_eq!(class(0, &[5]), Original);
-    // Along the end, across the end, along the bridge, across the inside.
+    // The points are along the end, across the end, along the bridge, and across the inside.
     assert_eq!(class(0, &[0, 2]), Original);
     assert_eq!(class(0, &[0, 6]), Original);
     assert_eq!(class(0, &[0, 4, 6]), Original);
     assert_eq!(class(0, &[4, 5]), Free);
     assert_eq!(class(0, &[4, 5, 7]), Free);
     assert_eq!(class(0, &[0, 7]), Free);
-    // The inside of a piece is the piece's.
+    // A point inside a piece belongs to the piece.
     assert_eq!(class(1, &[0, 7]), Contained);
 }
 
@@ -223,7 +223,7 @@ fn flat_hulls_contain_only_points_in_their_plane_and_outline() {
 
 #[test]
 fn containment_is_exact() {
-    // A slanted facet that no coordinate plane shows: x + 2 y + 3 z = 6.
+    // The slanted facet x + 2 y + 3 z = 6 is parallel to no coordinate axis.
     let tetrahedron = [6.0 * DVec3::X, 3.0 * DVec3::Y, 2.0 * DVec3::Z, DVec3::ZERO];
     let hull = Hull {
         points: tetrahedron.to_vec(),
@@ -275,7 +275,7 @@ fn invalid_hulls_are_refused() {
         refused(&|facets| facets.push(BOX[0].to_vec())),
         HullFault::Open { facet: 6 }
     );
-    // Inside out, too small, or without facets.
+    // The hulls are inside out, too small, or without facets.
     let outside = |child, point| HullFault::ChildOutside { child, point };
     assert_eq!(
         refused(&|facets| facets.iter_mut().for_each(|f| f.reverse())),
@@ -353,7 +353,7 @@ fn values_are_made_ahead_for_pieces_and_hulls_once() {
     for list in [body.pieces(), body.hull_tree().unwrap().hulls()] {
         assert!(list.iter().all(|p| p.kept(never).unwrap().0 == 8));
     }
-    // A copy has pieces of its own, and shares the hulls.
+    // A copy has its own pieces, and shares the hulls.
     body.clone().keep(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3 + 2);
 }

@@ -1,4 +1,4 @@
-//! Builds a list of pieces one by one.
+//! A builder of a list of pieces, one by one.
 
 use super::{Pieces, Radii, Shape, Surfaces};
 use crate::body::polytope::{Face, Origin, Polytope};
@@ -10,7 +10,7 @@ use glam::DVec3;
 pub(crate) struct PolytopeParts<'a, A, B> {
     pub(crate) points: &'a [DVec3],
     pub(crate) vertex_ids: &'a [u32],
-    /// Corners and origin of each facet.
+    /// The corners and the origin of each facet.
     pub(crate) facets: A,
     pub(crate) faces: B,
     pub(crate) radius: f64,
@@ -25,7 +25,7 @@ pub(crate) struct PiecesBuilder {
     surfaces: Surfaces,
 }
 
-/// The counts of everything.
+/// The numbers of elements in each list of the pieces.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Capacity {
     pub(crate) pieces: usize,
@@ -40,8 +40,8 @@ impl Pieces {
     /// Creates pieces from convex polytopes, including balls and capsules.
     ///
     /// # Guarantee
-    /// A piece is the hull of its points. Facets only serve to name features and to confirm
-    /// overlaps, so a wrong facet list cannot make a query late.
+    /// A piece is the hull of its points. Facets only name features and confirm overlaps, so a wrong facet list
+    /// cannot make a query late.
     ///
     /// # Errors
     /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
@@ -133,7 +133,7 @@ impl PiecesBuilder {
     /// Returns all pieces.
     ///
     /// # Errors
-    /// Those of [`Pieces::polytopes`].
+    /// The errors of [`Pieces::polytopes`].
     pub(crate) fn into_pieces(self) -> Result<Pieces, InputError> {
         Pieces {
             points: self.points,

@@ -45,7 +45,7 @@ impl TryFrom<Stored> for Pieces {
             } => (corners, vertex_ids, face_ids),
         };
         let triangles = face_ids.len();
-        // Three corners each, with a number for every corner.
+        // Each triangle has three corners, and every corner has a number.
         if points.len() % 3 != 0 || points.len() / 3 != triangles {
             return Err(InputError::FaceIds {
                 faces: points.len() / 3,

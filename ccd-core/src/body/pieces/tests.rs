@@ -30,7 +30,7 @@ fn invalid_triangles_are_refused() {
         vertices: 4,
     };
     assert_eq!(made(&[[0, 1, 2], [0, 4, 1]]), Err(missing));
-    // Zero area is no reason to refuse.
+    // A triangle of zero area is accepted.
     assert_eq!(made(&[[1, 1, 1], [0, 1, 1]]), Ok(2));
 }
 
@@ -53,7 +53,7 @@ fn invalid_points_are_refused_by_piece_and_point() {
             assert_eq!(made.err(), Some(expected), "{bad}");
         }
     }
-    // A vertex that no face uses may be anything.
+    // A vertex that no face uses may have any coordinates.
     let mut points = CORNERS;
     points[3].x = f64::NAN;
     assert!(Pieces::triangles(&points, &[[0, 1, 2]], &[0]).is_ok());
@@ -114,14 +114,14 @@ fn boxes_name_corners_edges_and_facets() {
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let pieces = body.pieces();
     assert_eq!(pieces.feature(0, &mean(&[5])), Feature::Vertex(5));
-    // Corners 0 and 1 differ in x alone: an edge.
+    // Corners 0 and 1 differ in x alone: they span an edge.
     assert_eq!(pieces.feature(0, &mean(&[1, 0])), Feature::Edge(0, 1));
-    // 0 and 3 are opposite in the face towards −z; 0 and 7 in the box.
+    // Corners 0 and 3 are opposite in the face towards −z; corners 0 and 7 in the box.
     assert_eq!(pieces.feature(0, &mean(&[0, 3])), Feature::Face(4));
     assert_eq!(pieces.feature(0, &mean(&[0, 7])), Feature::Piece(0));
     assert_eq!(pieces.feature(0, &mean(&[1, 3, 7])), Feature::Face(1));
     assert_eq!(pieces.feature(0, &mean(&[0, 3, 5])), Feature::Piece(0));
-    // Faces look outwards, as said.
+    // The faces are counterclockwise seen from outside, as documented.
     let piece = pieces.get(0);
     for (face, corners) in piece.facets.iter().enumerate() {
         let at = |k: usize| piece.points[corners[k] as usize];
@@ -176,7 +176,7 @@ proptest! {
     }
 }
 
-/// The mean of some corners.
+/// Returns the mean of some corners.
 fn mean(corners: &[u32]) -> Combination {
     let mut mean = Combination::EMPTY;
     corners.iter().for_each(|&corner| mean.push(corner, 1.0));
@@ -228,7 +228,7 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
     assert_eq!(weighted(&[(0, 0.5), (7, 0.5)]), Feature::Piece(0));
 }
 
-/// Its corners are no vertices of the mesh.
+/// The polytope's corners are not vertices of the mesh.
 #[test]
 fn a_polytope_of_virtual_facets_has_no_names() {
     let loops = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];

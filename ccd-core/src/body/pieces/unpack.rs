@@ -1,4 +1,4 @@
-//! Converts pieces back to polytopes.
+//! The conversion of pieces back to polytopes.
 
 use super::{Pieces, Shape};
 use crate::body::polytope::{Face, Facet, Polytope};
@@ -31,12 +31,12 @@ impl Pieces {
         }
     }
 
-    /// The numbers of all points in the mesh.
+    /// Returns the numbers of all points in the mesh.
     pub(crate) fn all_vertex_ids(&self) -> &[u32] {
         &self.vertex_ids
     }
 
-    /// The numbers of a piece's points in the mesh.
+    /// Returns the numbers of a piece's points in the mesh.
     pub(crate) fn vertex_ids(&self, index: usize) -> &[u32] {
         &self.vertex_ids[self.point_range(index)]
     }

@@ -10,7 +10,7 @@ fn both(radius: f64, half_height: f64) -> [Round; 2] {
     ]
 }
 
-/// Checks that a polygon winds once about the origin, and that no edge crosses the disc: exactly.
+/// Checks exactly that a polygon winds once about the origin, and that no edge crosses the disc.
 fn assert_about_the_disc(corners: &[DVec3], radius: f64) {
     let squared = |x: f64| exact(x) * exact(x);
     let corners: Vec<[Relaxed; 2]> = corners
@@ -22,7 +22,7 @@ fn assert_about_the_disc(corners: &[DVec3], radius: f64) {
         let cross = ax * by - ay * bx;
         let [dx, dy] = [bx - ax, by - ay];
         assert!(cross > exact(0.0), "corner {k} goes the wrong way");
-        // The distance of the edge's line is the cross product over the edge's length.
+        // The distance of the edge's line from the origin is the cross product divided by the edge's length.
         let square = &cross * &cross;
         let length = &dx * &dx + &dy * &dy;
         assert!(
@@ -37,7 +37,7 @@ fn assert_about_the_disc(corners: &[DVec3], radius: f64) {
 fn enclosures_hold_their_shapes_exactly() {
     let mut counts = Vec::new();
     for k in 0..40 {
-        // From four corners to two thousand, and radii of all sizes.
+        // The polygons have from four corners to two thousand, and radii of all sizes.
         let share = 2.0 * 0.7f64.powi(k);
         let radius = [1.0, 0.1, 3.7e5, 1e-90, 6.3e11, 1e-310][k as usize % 6];
         let half_height = 0.3 * f64::from(k % 5);
@@ -76,7 +76,7 @@ fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
                 let most = exact(radius) + exact(about.excess());
                 let most = &most * &most;
                 assert!(about.polytope().points.iter().all(|p| reach(p) <= most));
-                // What is stated is what there is.
+                // The stated excess is the actual one.
                 let widest = about.polytope().points[0].truncate().length() - radius;
                 assert!(
                     widest >= 0.99 * about.excess(),

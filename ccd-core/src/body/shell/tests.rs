@@ -1,4 +1,4 @@
-//! Parts are connected where they share a point, and only there.
+//! Tests that parts are connected if they share a point, and only then.
 
 use super::{Parts, Shell, shells};
 use crate::body::pieces::Pieces;
@@ -51,7 +51,7 @@ fn a_chain_of_many_is_one_part_in_any_order() {
     assert_eq!(shells(&pieces(&every_other)).len(), 1_000);
 }
 
-/// The same by comparing every point with every other one.
+/// Finds the shells by comparing every point with every other one, as a reference.
 fn slowly(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
     let mut parts = Parts((0..points.len() as u32).collect());
@@ -94,7 +94,7 @@ fn numbers_of_any_kind_give_the_same_parts() {
         let ids: Vec<u32> = (0..count).collect();
         let pieces = Pieces::triangles(&vertices, &faces, &ids).unwrap();
         assert_eq!(shells(&pieces), slowly(&pieces));
-        // One number for several places, and numbers far beyond the points.
+        // One number belongs to several places, and numbers are far above the count of points.
         for number in [&|k: u32| k % 2, &|k: u32| u32::MAX - k] as [&dyn Fn(u32) -> u32; 2] {
             let polytopes: Vec<_> = (0..pieces.len())
                 .map(|k| pieces.polytope(k))

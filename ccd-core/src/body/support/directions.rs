@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_8;
 /// The number of directions: both poles, and 16 on each of seven circles of latitude.
 pub const DIRECTIONS: usize = 2 + 7 * 16;
 
-/// The squared cosines of 11.25, 33.75, 56.25 and 78.75 degrees: half-way between circles.
+/// The squared cosines of 11.25, 33.75, 56.25 and 78.75 degrees, the angles halfway between circles.
 const COS_SQUARED: [f64; 4] = [
     0.961939766255643,
     0.691341716182545,
@@ -14,7 +14,7 @@ const COS_SQUARED: [f64; 4] = [
     0.038060233744357,
 ];
 
-/// The tangents of the same angles: half-way between meridians.
+/// The tangents of the same angles, which are halfway between meridians.
 const TAN: [f64; 4] = [
     0.198912367379658,
     0.668178637919299,
@@ -36,8 +36,8 @@ pub(super) fn all() -> impl Iterator<Item = DVec3> {
     north.chain((1..8).flat_map(circle)).chain(south)
 }
 
-/// Returns the number of the direction with the nearest latitude and longitude, for a vector of any
-/// length; some number if it is not finite.
+/// Returns the number of the direction with the nearest latitude and longitude, for a vector of any length; an
+/// arbitrary number if it is not finite.
 #[inline]
 pub(super) fn nearest(v: DVec3) -> usize {
     let square = v.length_squared();

@@ -1,4 +1,4 @@
-//! Scans all points, several at once.
+//! A scan of all points, several at once.
 
 use crate::math::order::greater;
 use glam::DVec3;
@@ -15,7 +15,7 @@ pub struct SupportScan {
 }
 
 impl SupportScan {
-    /// Takes at least one point, and at most as many as an index can name.
+    /// Creates the scan of at least one point, and at most as many as an index can name.
     pub fn new(points: &[DVec3]) -> Self {
         let last = points.len().saturating_sub(1);
         let point = |k: usize| points.get(k.min(last)).copied().unwrap_or_default();
@@ -28,13 +28,13 @@ impl SupportScan {
         }
     }
 
-    /// Returns the index of a point that is farthest along a direction; of several, the first.
+    /// Returns the index of a point that is farthest along a direction, and of several the first.
     ///
     /// # Guarantee
-    /// Like [`Support::extremal`](crate::Support::extremal).
+    /// The guarantee of [`Support::extremal`](crate::Support::extremal).
     ///
     /// # Complexity
-    /// Linear in the points.
+    /// Linear in the number of points.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
         let (mut highest, mut of) = ([f64::NEG_INFINITY; LANES], [0u64; LANES]);

@@ -1,4 +1,4 @@
-//! A table of starts, and the edges to climb along.
+//! A table of starts for a climb along edges.
 
 use super::directions::{self, DIRECTIONS};
 use super::tree::ball_about;
@@ -26,15 +26,15 @@ pub struct SupportTable {
 }
 
 impl SupportTable {
-    /// Prepares points with the facets of their hull; none if no facets are known.
+    /// Prepares points with the facets of their hull; `None` if no facets are known.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Option<Self> {
         let first = *facets.iter().next()?.first()?;
         let edges = facets.iter().flat_map(|corners| {
             let next = corners.iter().cycle().skip(1);
             corners.iter().copied().zip(next.copied())
         });
-        // Each of the two facets that meet in an edge names one of its directions. Both directions
-        // are added, so that wrong facets lose neither.
+        // Each of the two facets that meet in an edge contains one of its directions. Both directions are added, so
+        // that neither is lost if the facets are wrong.
         let mut edges: Vec<(u32, u32)> = edges.flat_map(|(v, w)| [(v, w), (w, v)]).collect();
         edges.sort_unstable();
         edges.dedup();
@@ -59,15 +59,15 @@ impl SupportTable {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// Like [`Support::extremal`](crate::Support::extremal), provided that the facets are those of
+    /// The guarantee of [`Support::extremal`](crate::Support::extremal), provided that the facets are those of
     /// the hull.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
         self.climb(self.starts[directions::nearest(direction)], direction)
     }
 
-    /// Returns the same from a known corner, e.g. the last answer. If that corner is on no facet,
-    /// the table's start is taken.
+    /// Like `SupportTable::extremal`, from a known corner, e.g. the last answer. If that corner is on no facet, the
+    /// start is taken from the table.
     #[inline]
     pub fn extremal_from(&self, start: u32, direction: DVec3) -> u32 {
         match self.neighbours(start) {
@@ -76,7 +76,7 @@ impl SupportTable {
         }
     }
 
-    /// Returns the corners that share an edge with one; empty for a point that is on no facet.
+    /// Returns the corners that share an edge with a corner; empty for a point that is on no facet.
     #[inline]
     pub fn neighbours(&self, corner: u32) -> &[u32] {
         let at = corner as usize;
@@ -93,17 +93,16 @@ impl SupportTable {
         self.ball
     }
 
-    /// Moves to the highest neighbour repeatedly, until none is higher.
+    /// Moves to the highest neighbour repeatedly, until no neighbour is higher.
     ///
-    /// In exact arithmetic, edges lead upward from every corner to the highest one: a corner
-    /// without a higher neighbour is the highest. Heights are rounded: on such a path a corner may
-    /// seem lower than an earlier one, by at most twice the rounding. The search therefore visits
-    /// all corners connected by corners no lower than that. One of them is the highest, or higher
-    /// than the current one.
+    /// In exact arithmetic, edges lead upward from every corner to the highest one: a corner without a higher
+    /// neighbour is the highest. Heights are rounded: on such a path a corner may seem lower than an earlier one, by
+    /// at most twice the rounding. The search therefore visits all corners connected by corners no lower than that.
+    /// One of them is the highest, or higher than the current one.
     fn climb(&self, start: u32, direction: DVec3) -> u32 {
         let slack = 2.0 * HEIGHT_F64 * self.reach * direction.abs().element_sum();
         let (mut at, mut height) = (start, self.height(start, direction));
-        // Every round is higher than the last one.
+        // Each round ends higher than the last one.
         for _ in 0..self.points.len() {
             let (mut next, mut highest) = (at, f64::NEG_INFINITY);
             for &neighbour in self.neighbours(at) {
@@ -126,7 +125,7 @@ impl SupportTable {
         at
     }
 
-    /// Returns a corner that is higher, beyond corners that are level up to rounding.
+    /// Returns a corner that is higher, reached across corners that are level up to rounding.
     fn beyond_level(
         &self,
         at: u32,

@@ -1,5 +1,4 @@
-//! Polytopes with facets known by construction, with integer coordinates: climbing against a scan
-//! of every corner.
+//! Climbing on polytopes with known facets and integer coordinates, compared with a scan of every corner.
 
 mod tree;
 
@@ -24,7 +23,7 @@ fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
     Pieces::polytopes(&[polytope]).unwrap()
 }
 
-/// A square grid lifted to a paraboloid: squares below, four arches and a lid.
+/// A square grid lifted to a paraboloid, with squares below, four arches and a lid.
 fn bowl(side: u32) -> Pieces {
     let place = |k: u32| (f64::from(k % side), f64::from(k / side));
     let points = (0..side * side).map(|k| {
@@ -44,13 +43,13 @@ fn bowl(side: u32) -> Pieces {
         (0..side).map(|k| at(last, k)).collect(),
     ];
     let lid = vec![at(0, 0), at(last, 0), at(last, last), at(0, last)];
-    // Four points are level: a plate.
+    // Four level points make a plate without arches.
     let arches = arches.into_iter().filter(|arch: &Vec<u32>| arch.len() > 2);
     let facets = squares.chain(arches).chain([lid]);
     polytope(points.collect(), facets.collect())
 }
 
-/// The cyclic polytope: slivers that all meet in the first or the last point.
+/// The cyclic polytope: all of its slivers meet in the first or the last point.
 fn cyclic(count: u32) -> Pieces {
     let curve = |t: u32| f64::from(t) - 0.5 * f64::from(count);
     let point = |t: u32| DVec3::new(curve(t), curve(t).powi(2), curve(t).powi(3));
@@ -87,7 +86,7 @@ fn shapes() -> Vec<Pieces> {
     bowls.into_iter().chain(curves).chain(prisms).collect()
 }
 
-/// Directions that see corners level with each other among them.
+/// Directions, some of which make corners level with each other.
 fn looks(count: usize) -> Vec<DVec3> {
     let mut rng = rng(11);
     let mut whole = || DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-3..=3))));
@@ -163,7 +162,7 @@ fn directions_are_their_own_nearest_and_none_is_far() {
     for _ in 0..10_000 {
         let look = direction(&mut rng);
         let angle = look.angle_between(all[directions::nearest(look)]);
-        // Half a step of latitude, and half a step of longitude on the equator.
+        // The limit is half a step of latitude, and half a step of longitude on the equator.
         assert!(angle <= 16f64.to_radians(), "{}", angle.to_degrees());
     }
 }

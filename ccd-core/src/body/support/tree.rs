@@ -1,5 +1,4 @@
-//! A tree over the points of a piece. A search visits only the parts that may contain the farthest
-//! one.
+//! A tree over the points of a piece. A search visits only the parts that may contain the farthest point.
 
 use crate::math::order::{greater, lesser};
 use crate::math::principal::principal_axes;
@@ -10,9 +9,9 @@ use glam::{DMat3, DVec3, Vec3};
 /// The number of points in a block, and of children in a group.
 const LANES: usize = 8;
 
-/// The points of a piece in blocks of eight, and discs about the points of every block, of every
-/// eight blocks, and so on up to one group. On a curved surface, discs shrink with the square of
-/// their width, so that few of them reach farther than the farthest point.
+/// The points of a piece in blocks of eight. There are discs about the points of every block, of every eight blocks,
+/// and so on up to one group. On a curved surface, discs shrink with the square of their width, so that few of them
+/// extend beyond the farthest point.
 ///
 /// # Memory
 /// About 70 bytes for each point.
@@ -20,12 +19,12 @@ const LANES: usize = 8;
 pub struct SupportTree {
     blocks: Vec<Block>,
     groups: Vec<Discs>,
-    /// The start of each level's groups, those over blocks first; the last level is one group.
+    /// The start of each level's groups, those over blocks first. The last level is one group.
     levels: Vec<usize>,
     ball: (DVec3, f64),
 }
 
-/// Eight points minus the middle, in units of the piece's size; the last one is repeated.
+/// Eight points minus the middle, in units of the piece's size; the last point is repeated.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 struct Block {
@@ -34,8 +33,8 @@ struct Block {
     numbers: [u32; LANES],
 }
 
-/// Eight discs. Each contains the points below it: those at most `thickness` to either side along
-/// `normal` from `centre`, and at most `radius` across.
+/// Eight discs. Each contains the points below it: those at most `thickness` to either side of `centre` along
+/// `normal`, and at most `radius` across.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 struct Discs {
@@ -43,13 +42,12 @@ struct Discs {
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     thickness: [f32; LANES],
-    /// The allowance for rounding; in lanes without a disc it is low enough that the lane is never
-    /// visited.
+    /// The allowance for rounding. In lanes without a disc it is so low that the lane is never visited.
     rounding: [f32; LANES],
 }
 
 impl SupportTree {
-    /// Takes at least one point, all finite, and at most as many as an index can name.
+    /// Creates the tree of at least one point, all finite, and at most as many as an index can name.
     ///
     /// # Complexity
     /// O(n log n).
@@ -83,10 +81,10 @@ impl SupportTree {
     /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// Like [`Support::extremal`](crate::Support::extremal), for any points.
+    /// The guarantee of [`Support::extremal`](crate::Support::extremal), for any points.
     ///
     /// # Complexity
-    /// About logarithmic in the points of a curved surface; linear if all are equally far.
+    /// About logarithmic in the number of points of a curved surface; linear if all are equally far.
     pub fn extremal(&self, direction: DVec3) -> u32 {
         let mut look = Look::new(direction);
         self.descend(self.levels.len(), 0, &mut look);
@@ -119,7 +117,7 @@ impl SupportTree {
         let mut bounds = self.groups[self.levels[below] + at].bounds(look.unit);
         for _ in 0..LANES {
             let lane = highest(&bounds);
-            // Written so that NaN ends it.
+            // Written so that NaN ends the loop.
             if !(bounds[lane] > look.floor) {
                 return;
             }
@@ -129,14 +127,14 @@ impl SupportTree {
     }
 }
 
-/// A direction, and the farthest point so far.
+/// A search: its direction, and the farthest point so far.
 struct Look {
     direction: DVec3,
-    /// Scaled so that its largest component is 1.
+    /// The direction, scaled so that its largest component is 1.
     unit: Vec3,
     size: f64,
     highest: f64,
-    /// The height that a disc has to exceed to be visited.
+    /// The height above which a disc is visited.
     floor: f32,
     found: u32,
     #[cfg(test)]
@@ -209,7 +207,7 @@ impl Discs {
         discs
     }
 
-    /// Returns the largest reach of the discs, along a direction whose largest component is 1.
+    /// Returns the largest height of each disc along a direction whose largest component is 1.
     #[inline]
     fn bounds(&self, d: Vec3) -> [f32; LANES] {
         let square = d.length_squared() * (1.0 + DISC_TILT_F32);
@@ -227,7 +225,7 @@ impl Discs {
     }
 }
 
-/// A disc about some points, with its numbers as stored.
+/// A disc about some points, with the numbers as stored.
 struct Disc {
     centre: Vec3,
     normal: Vec3,
@@ -239,7 +237,7 @@ impl Disc {
     /// Creates a disc with the direction of least spread of the points as its normal.
     fn about(points: &[DVec3]) -> Self {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
-        // An axis that is not of unit length, due to rounding or underflow, makes no disc.
+        // An axis that is not of unit length, due to rounding or underflow, is not used.
         let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_F64;
         let frame = if [0, 1, 2].into_iter().all(|k| is_unit(frame.col(k))) {
             frame
@@ -258,7 +256,7 @@ impl Disc {
             thickness = greater(thickness, along.abs());
             square = greater(square, (way - along * normal.as_dvec3()).length_squared());
         }
-        // One step for rounding to f32, one for rounding in f64.
+        // One step is for rounding to f32, one for rounding in f64.
         let outward = |x: f64| (x as f32).next_up().next_up();
         Disc {
             centre,
@@ -269,7 +267,7 @@ impl Disc {
     }
 }
 
-/// Orders points so that each block, each eight blocks, and so on, are near each other.
+/// Orders points so that those of each block, of each eight blocks, and so on, are near each other.
 fn arrange(points: &[DVec3], order: &mut [u32]) {
     if order.len() <= LANES {
         return;

@@ -1,4 +1,4 @@
-//! The same results on any number of threads.
+//! Tests that results are the same on any number of threads.
 
 use super::{for_each_in, join};
 

@@ -1,4 +1,4 @@
-//! Builds the wide tree from a binary hierarchy.
+//! The construction of the wide tree from a binary hierarchy.
 
 use super::fit::{Cloud, Sample, fit};
 use super::group::longest;
@@ -32,7 +32,7 @@ fn span(pieces: &Pieces) -> f64 {
 /// The range of each node's pieces in a depth-first list.
 struct Ranges {
     order: Vec<u32>,
-    /// Start and end in `order`, by node of the hierarchy.
+    /// The start and the end in `order`, by node of the hierarchy.
     of: Vec<(u32, u32)>,
 }
 
@@ -41,7 +41,7 @@ impl Ranges {
         let nodes = hierarchy.nodes();
         let mut order = Vec::with_capacity(pieces);
         let mut of = vec![(0, 0); nodes.len()];
-        // Every node is met twice: on the way down, and after all pieces below it are listed.
+        // Every node is visited twice: on the way down, and after all pieces below it are listed.
         let mut stack = vec![(0u32, false)];
         while let Some((at, listed)) = stack.pop() {
             let range = &mut of[at as usize];
@@ -94,7 +94,7 @@ struct TrianglesBelow {
     end: u32,
 }
 
-/// A group of nodes is full with this many groups' worth of triangles, as hardly any of those is.
+/// A group of nodes counts as full with this many groups' worth of triangles, as hardly any of those is full.
 ///
 /// Unit: groups. Less: more memory, as most groups of nodes are at the bottom. More: nodes that
 /// just exceed it are split into two.
@@ -103,8 +103,8 @@ const FULL_LANES: u64 = 6;
 impl Layout {
     /// Lays out the tree, and sorts the pieces into its order.
     ///
-    /// A binary node opens its largest descendants until there are eight. The smallest clusters
-    /// have up to eight triangles, or one other piece.
+    /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
+    /// triangles, or one piece of another kind.
     pub(crate) fn of(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Self, Pieces), InputError> {
         let ranges = Ranges::new(hierarchy, pieces.len())?;
         let layout = Layout::over(hierarchy, &ranges, pieces.all_triangles());
@@ -116,7 +116,7 @@ impl Layout {
             hierarchy,
             ranges,
             whole: if triangles { LANES } else { 1 },
-            // Other pieces than triangles are no groups.
+            // Pieces other than triangles form no groups.
             layers: if triangles {
                 layers(ranges.order.len())
             } else {
@@ -155,13 +155,13 @@ impl Layout {
 
     fn push_node(&mut self, opener: &Opener<'_>, at: u32) {
         let (start, end) = opener.ranges.of[at as usize];
-        // Its group is made when the node's turn comes.
+        // The group is created when the node is visited.
         let below = Below::Piece(start);
         self.nodes.push(Slot { start, end, below });
     }
 
-    /// Fits the nodes to their pieces, and makes the groups. Each of them depends on its own pieces
-    /// alone, so that all can be made side by side.
+    /// Fits the nodes to their pieces, and creates the groups. Each of them depends on its own pieces alone, so that
+    /// all can be computed in parallel.
     pub(crate) fn fitted(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
@@ -177,7 +177,7 @@ impl Layout {
             let children = &nodes[first as usize..][..count as usize];
             *group = BoxGroup::new(children, first, nodes[parent as usize].centre);
         });
-        // Ids of triangles follow those of the nodes.
+        // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
         let mut triangles = vec![TriangleRow::EMPTY; self.triangles.len()];
         for_each(&mut triangles, &(), |(), k, group| {
@@ -221,7 +221,7 @@ impl Slot {
         fit(&self.cloud(pieces), self.below, sample)
     }
 
-    /// Returns what a box about the pieces has to hold.
+    /// Returns the points and radii that a box about the pieces has to contain.
     fn cloud<'p>(&self, pieces: &'p Pieces) -> Cloud<'p> {
         let range = self.start as usize..self.end as usize;
         let triangles = pieces.all_triangles();
@@ -244,19 +244,19 @@ struct Opener<'a> {
     ranges: &'a Ranges,
     /// Nodes of up to this many pieces are not opened.
     whole: usize,
-    /// The most pieces of a node by its layer, from the bottom.
+    /// The most pieces of a node, by its layer, from the bottom.
     layers: Vec<usize>,
 }
 
-/// Returns the most pieces of a node by its layer, from the bottom: full groups first, then by even
-/// ratios as many layers as it takes.
+/// Returns the most pieces of a node, by its layer, from the bottom: full groups first, then by even ratios as many
+/// layers as needed.
 fn layers(pieces: usize) -> Vec<usize> {
     let (full, pieces) = (LANES as u64 * FULL_LANES, pieces as u64);
     let mut count = 1;
     while full * (LANES as u64).pow(count) < pieces {
         count += 1;
     }
-    // In quarters, so that rounding has no part in it.
+    // The layers are computed in quarters, so that rounding plays no role.
     let layer = |ratio: u64, k: u32| full * ratio.pow(k) / 4u64.pow(k);
     let most = 4 * LANES as u64;
     let even = (4..most).find(|&ratio| layer(ratio, count) >= pieces);
@@ -265,16 +265,16 @@ fn layers(pieces: usize) -> Vec<usize> {
 }
 
 impl Opener<'_> {
-    /// Returns the most pieces of a node that fits into the layer below that of a node.
+    /// Returns the most pieces that fit into the layer below that of a node.
     fn layer_below(&self, pieces: usize) -> usize {
         let lower = self.layers.iter().rev().find(|&&layer| layer < pieces);
         lower.copied().unwrap_or(self.whole)
     }
 
-    /// Returns the descendants that become a node's children, and their number: repeatedly opens
-    /// the one with the most pieces, unless it fits into a lower layer of full groups.
+    /// Returns the descendants that become a node's children, and their number. The one with the most pieces is
+    /// opened repeatedly, unless it fits into a lower layer of full groups.
     ///
-    /// Groups are full at the bottom, where most of them are.
+    /// Groups are full at the bottom, where most of the groups are.
     fn open(&self, at: u32) -> ([u32; LANES], usize) {
         let (mut members, mut count) = ([at; LANES], 1);
         let whole = self.layer_below(self.ranges.len(at));

@@ -1,4 +1,4 @@
-//! Fits the box and the ball of a node.
+//! The fit of the box and the ball of a node.
 
 mod sample;
 
@@ -20,8 +20,8 @@ pub(crate) struct Cloud<'a> {
     pub(crate) triangles: bool,
 }
 
-/// The sine and cosine of the turns of the tried frames about the mean normal, which are even steps
-/// over a right angle.
+/// The sine and cosine of the rotations of the tried frames about the mean normal, which are even steps over a right
+/// angle.
 const TURNS: [(f64, f64); 6] = [
     (0.0, 1.0),
     (0.258_819_045_102_520_74, 0.965_925_826_289_068_3),
@@ -34,27 +34,26 @@ const TURNS: [(f64, f64); 6] = [
     (0.965_925_826_289_068_3, 0.258_819_045_102_520_74),
 ];
 
-/// Fits the node to all points: tries several frames on a sample of them, and takes the one whose
-/// box has the least surface.
+/// Fits the node to all points. Several frames are tried on a sample of them, and the one whose box has the least
+/// surface is taken.
 ///
 /// # Guarantee
-/// The box and the ball hold all points: the sample only chooses the frame.
+/// The box and the ball contain all points: the sample only chooses the frame.
 pub(crate) fn fit(cloud: &Cloud<'_>, below: Below, sample: &mut Sample) -> Node {
     sample.take(cloud);
     let frame = best_frame(sample, cloud.triangles);
     Fitted::along(frame, cloud.points).node(cloud, below)
 }
 
-/// Returns the frame whose box about the sample has the least surface: along the coordinates, along
-/// principal axes of the points, and, for triangles, along principal axes by area or about the mean
-/// normal.
+/// Returns the frame whose box about the sample has the least surface. The frames tried are along the coordinates,
+/// along principal axes of the points, and, for triangles, along principal axes by area or about the mean normal.
 pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     let mut best = DMat3::IDENTITY;
     let mut least = sample.surface(&best);
     let mut consider = |frame: DMat3| {
         let surface = sample.surface(&frame);
-        // A dropped frame only makes the box less tight; a frame that is not orthonormal would make
-        // it too small. Written so that a frame with NaN loses.
+        // A dropped frame only makes the box less tight. A frame that is not orthonormal would make it too small.
+        // Written so that a frame with NaN is dropped.
         if surface < least && is_frame(&frame) {
             (best, least) = (frame, surface);
         }
@@ -78,8 +77,7 @@ pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     best
 }
 
-/// Returns whether the columns are orthonormal up to rounding: otherwise the box may not contain
-/// its points.
+/// Returns whether the columns are orthonormal up to rounding. Otherwise the box may not contain its points.
 fn is_frame(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
     // Written so that NaN is rejected.
@@ -101,8 +99,7 @@ impl Fitted {
         Fitted { frame, low, high }
     }
 
-    /// Returns the node with the axes rounded to f32, longest first, and the sizes measured along
-    /// these.
+    /// Returns the node with the axes rounded to f32, longest first. The sizes are measured along the rounded axes.
     fn node(&self, cloud: &Cloud<'_>, below: Below) -> Node {
         let size = self.high - self.low;
         let mut order = [0, 1, 2];

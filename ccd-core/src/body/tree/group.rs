@@ -26,18 +26,18 @@ pub(crate) struct BoxGroup {
     pub(crate) leaves: u8,
 }
 
-/// What a tree keeps of a group of up to eight triangles. Their corners it has in the pieces.
+/// The stored data of a group of up to eight triangles. Their corners are in the pieces.
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleRow {
     pub(crate) members: Members,
-    /// See [`TriangleGroup`].
+    /// The radius of each triangle, as in [`TriangleGroup`].
     radius: [f32; LANES],
 }
 
-/// Up to eight triangles, relative to an origin; those of unused lanes are points there.
+/// Up to eight triangles, relative to an origin. The triangles of unused lanes are points at the origin.
 ///
-/// It is laid out when a node is split, which takes a tenth of the time of bounding it. Kept, the
-/// groups would be half of a body.
+/// The layout is computed when a node is split, which takes a tenth of the time of bounding it. If stored, the groups
+/// would take half of the memory of a body.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 pub(crate) struct TriangleGroup {
@@ -52,7 +52,7 @@ pub(crate) struct TriangleGroup {
 pub(crate) struct Members {
     /// The origin in the body's frame; rows are relative to it.
     pub(crate) origin: DVec3,
-    /// An upper bound of the children's reach from the origin.
+    /// An upper bound of the distances of the children's points from the origin.
     pub(crate) reach: f32,
     /// The id of the first child; the others follow.
     pub(crate) first: u32,
@@ -60,7 +60,7 @@ pub(crate) struct Members {
 }
 
 impl BoxGroup {
-    /// A place for a group.
+    /// An empty group, to be filled.
     pub(super) const EMPTY: BoxGroup = BoxGroup {
         centre: [[0.0; LANES]; 3],
         axes: [[[0.0; LANES]; 3]; 3],
@@ -86,7 +86,7 @@ impl BoxGroup {
             let node = &nodes[lane.min(nodes.len() - 1)];
             let way = node.centre - origin;
             let centre = way.as_vec3();
-            // The rounded centre is off by this much: box and ball grow by it.
+            // The rounded centre is off by this much: the box and the ball grow by it.
             let off = up(length(way - centre.as_dvec3()));
             set(&mut group.centre, lane, centre);
             for (rows, axis) in group.axes.iter_mut().zip(node.axes) {
@@ -118,7 +118,7 @@ impl Members {
 }
 
 impl TriangleRow {
-    /// A place for a row.
+    /// An empty row, to be filled.
     pub(super) const EMPTY: TriangleRow = TriangleRow {
         members: Members::NONE,
         radius: [0.0; LANES],
@@ -176,11 +176,11 @@ pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
     }
 }
 
-/// Returns the greatest length of some vectors, as accurate as [`length`].
+/// Returns the greatest length among some vectors, as accurate as [`length`].
 pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     let squares = vectors.clone().map(DVec3::length_squared);
     let square = squares.fold(0.0, greater);
-    // The square of a longer vector is no less, so that one root does for all.
+    // The square of a longer vector is not less, so that one root suffices for all.
     if SQUARES.contains(&square) {
         square.sqrt()
     } else {
@@ -188,7 +188,7 @@ pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     }
 }
 
-/// Returns the nearest f32 that is not below.
+/// Returns the nearest f32 that is not below a number.
 pub(crate) fn up(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) < x {

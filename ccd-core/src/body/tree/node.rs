@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) centre: DVec3,
-    /// Unit vectors; the last one is the box's thinnest direction.
+    /// The axes of the box, as unit vectors. The last one is the box's thinnest direction.
     pub(crate) axes: [Vec3; 3],
     pub(crate) half: [f32; 3],
     pub(crate) radius: f32,
@@ -29,7 +29,7 @@ pub(crate) enum Below {
 }
 
 impl Node {
-    /// A place for a node.
+    /// A node without a fit, to be filled.
     pub(super) const UNFITTED: Node = Node {
         centre: DVec3::ZERO,
         axes: [Vec3::ZERO; 3],
@@ -44,7 +44,7 @@ impl Node {
         self.half[2] <= THIN_F32 * self.radius
     }
 
-    /// Returns the reach of the box along one of its axes, widened because the axes are rounded.
+    /// Returns the extent of the box along one of its axes, widened because the axes are rounded.
     pub(super) fn reach_f64(&self, axis: usize) -> f64 {
         f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
     }

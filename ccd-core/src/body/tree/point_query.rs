@@ -7,7 +7,7 @@ use crate::rounding::SIGN_F64;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Returns the pieces that are no triangles and whose boxes contain a point, or nearly.
+/// Returns the pieces that are not triangles and whose boxes contain a point, or nearly.
 pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, 0.0).filter_map(|leaf| match leaf {
         Leaf::Piece(piece) => Some(piece),
@@ -15,7 +15,7 @@ pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> 
     })
 }
 
-/// Returns the pieces whose boxes are within about `reach` of a point; of triangles, all that share such a box.
+/// Returns the pieces whose boxes are within about `reach` of a point. Triangles in such a box are all returned.
 pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, reach).flat_map(|leaf| match leaf {
         Leaf::Piece(piece) => piece..piece + 1,
@@ -23,8 +23,8 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
     })
 }
 
-/// Returns whether a point is certainly farther than `reach` from the surface: from the triangles,
-/// or the mesh's faces on the pieces.
+/// Returns whether a point is certainly farther than `reach` from the surface: from the triangles, or from the mesh's
+/// faces on the pieces.
 pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     leaves_near(tree, point, reach).all(|leaf| match leaf {
         Leaf::Triangles(mut triangles) => {
@@ -37,7 +37,7 @@ pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -
     })
 }
 
-/// What is at the end of a way down the tree.
+/// The lowest level of a search in the tree: a piece or some triangles.
 enum Leaf {
     Piece(u32),
     /// Some triangles, by the indices of their pieces.
@@ -70,8 +70,8 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
     })
 }
 
-/// Returns whether an axis shows that a point is farther than `reach` from a triangle: the normal
-/// of its plane, or the direction from an edge or a corner.
+/// Returns whether an axis proves that a point is farther than `reach` from a triangle: the normal of its plane, or
+/// the direction from an edge or a corner.
 pub(crate) fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();

@@ -1,4 +1,4 @@
-//! Computes the winding number of a body's surface about a point, along a ray.
+//! The winding number of a body's surface about a point, along a ray.
 
 use super::waiting::Waiting;
 use super::{Below, Node, Tree};
@@ -9,12 +9,11 @@ use crate::tuning::RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The crossings of a ray with a surface, by the normals of its triangles: 1 where it leaves, −1
-/// where it enters.
+/// The crossings of a ray with a surface, by the normals of its triangles: 1 if the ray leaves, −1 if it enters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossings {
-    /// The crossings beyond the ray's start: the winding number of a closed surface about points
-    /// just ahead of it.
+    /// The crossings beyond the ray's start. For a closed surface this is the winding number about points just ahead
+    /// of the start.
     pub(crate) beyond: i32,
     /// The crossings at the start, up to rounding.
     pub(crate) at_start: i32,
@@ -24,13 +23,12 @@ pub(crate) struct Crossings {
     pub(crate) along: DVec3,
 }
 
-/// Counts along the first ray from a point that certainly passes all edges; none when there is no
-/// such ray. A triangle contains the point if it is no farther than `slack` from it.
+/// Counts the crossings along the first ray from a point that certainly passes all edges; `None` when there is no
+/// such ray. A triangle contains the point if it is at most `slack` from it.
 ///
 /// # Guarantee
-/// The count of crossings ahead of the point by more than rounding is that of exact arithmetic, and
-/// none behind the point is counted. The surface of pieces that are no triangles consists of the
-/// mesh's faces on them.
+/// The count of crossings ahead of the point by more than rounding is that of exact arithmetic, and no crossing
+/// behind the point is counted. The surface of pieces that are not triangles consists of the mesh's faces on them.
 pub(crate) fn crossings(
     tree: &Tree,
     pieces: &Pieces,
@@ -103,14 +101,14 @@ fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
         let half = node.reach_f64(k) + 32.0 * U64 * way.abs().element_sum();
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
-        // A ray parallel to a slab, within it, gives an infinity on either side; NaN counts as met.
+        // A ray parallel to a slab, within it, gives an infinity on either side. NaN counts as met.
         enter = greater(enter, lesser(near, far));
         leave = lesser(leave, greater(near, far));
     }
     !(enter > leave)
 }
 
-/// A sign, if it is certain.
+/// A sign that may be uncertain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sign {
     Negative,
@@ -121,8 +119,7 @@ enum Sign {
 impl Sign {
     /// Returns the sign of a number whose error is at most [`SIGN_F64`] of a size.
     fn of(number: f64, size: f64) -> Sign {
-        // Written so that NaN is unclear. Products that underflow are off by less than the added
-        // term.
+        // Written so that NaN is unclear. Products that underflow are off by less than the added term.
         let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
         match () {
             () if number > rounding => Sign::Positive,
@@ -133,7 +130,7 @@ impl Sign {
 }
 
 impl Crossings {
-    /// Adds the ray's crossing of a triangle; none when that is not certain.
+    /// Adds the ray's crossing of a triangle; `None` when the crossing is not certain.
     fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
         let along = self.along;
         let corners = triangle.map(|p| p - start.from);
@@ -143,7 +140,7 @@ impl Crossings {
             return Some(());
         }
         let [a, b, c] = corners;
-        // Volumes of the ray with each edge: all of one sign if the line passes inside.
+        // The volumes of the ray with each edge have one sign if the line passes inside.
         let sides = [(a, b), (b, c), (c, a)]
             .map(|(p, q)| Sign::of(along.dot(p.cross(q)), size(p) * size(q)));
         if sides.contains(&Sign::Positive) && sides.contains(&Sign::Negative) {
@@ -181,8 +178,8 @@ impl Crossings {
     }
 }
 
-/// Returns the sign of a triangle's height above the start, by its edges: they may be far shorter than the
-/// ways to its corners.
+/// Returns the sign of a triangle's height above the start, by its edges, which may be far shorter than the vectors
+/// to its corners.
 fn by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {

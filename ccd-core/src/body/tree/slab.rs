@@ -6,21 +6,21 @@ use crate::rounding::U64;
 use crate::tuning::FLAT;
 use glam::DVec3;
 
-/// The space between two parallel planes, the same distance from a node's centre. It contains all
-/// triangles of the node.
+/// The space between two parallel planes at the same distance from a node's centre. It contains all triangles of the
+/// node.
 ///
-/// The axes of a node's box are rounded to f32, and so the box of a flat node that is not parallel to
-/// the coordinates is thicker than the node by that rounding.
+/// The axes of a node's box are rounded to f32. The box of a flat node that is not parallel to the coordinates is
+/// therefore thicker than the node by that rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slab {
-    /// A unit vector.
+    /// The unit normal of the planes.
     pub(crate) normal: DVec3,
-    /// Half of the planes' distance.
+    /// Half the distance between the planes.
     pub(crate) half: f64,
 }
 
 impl Slab {
-    /// Returns none unless the triangles are in one plane up to rounding.
+    /// Returns the slab; `None` unless the triangles are in one plane up to rounding.
     pub(super) fn about(corners: &[DVec3], centre: DVec3) -> Option<Self> {
         let triangles = corners.as_chunks().0.iter();
         let normal = unit(triangles.map(|[a, b, c]| (b - a).cross(c - a)).sum())?;

@@ -1,4 +1,4 @@
-//! Properties of every tree, for bodies of every kind.
+//! Properties of every tree, for bodies of all kinds.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -10,10 +10,11 @@ use crate::tests::nearest::Triangle;
 use crate::tests::scene::{Look, Pcg64, RngExt, body, direction, magnitude, rng, soup, within};
 use glam::{DVec3, Vec3};
 
-/// Boxes and balls hold the points to within the rounding of the f64 arithmetic that checks it.
+/// The tolerance of the checks: boxes and balls contain the points up to the rounding of the f64 arithmetic that
+/// checks it.
 const CHECK: f64 = 1e-14;
 
-/// Checks the properties of any tree; returns its number of groups.
+/// Checks the properties of any tree, and returns its number of groups.
 fn check(body: &Body) -> usize {
     let (tree, pieces) = (body.tree(), body.pieces());
     let mut seen = vec![0; pieces.len()];
@@ -31,7 +32,7 @@ fn farthest(pieces: &Pieces) -> f64 {
     pieces.iter().map(reach).fold(0.0, greater)
 }
 
-/// Checks a node and all below it; returns the pieces below.
+/// Checks a node and all nodes below it, and returns the pieces below.
 fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
     let Named::Node(node) = tree.get(id) else {
         let piece = tree.piece(id).expect("a triangle");
@@ -78,7 +79,7 @@ fn members(members: &Members) -> std::ops::Range<NodeId> {
     members.first..members.first + members.count
 }
 
-/// The box and the ball hold all points, rounding radii included.
+/// Checks that the box and the ball contain all points, rounding radii included.
 fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
     assert!(node.half.iter().all(|h| h.is_finite()) && node.radius.is_finite());
     for axis in node.axes {
@@ -103,7 +104,7 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// The row of a group contains them too, about the centre that is rounded there.
+/// Checks that the row of a group contains the points too, about the rounded centre in it.
 fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     let at =
         |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
@@ -125,7 +126,8 @@ fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// Corners are rounded to f32 relative to the group's origin, and the ball contains the true ones.
+/// Checks a triangle of a group: the corners are rounded to f32 relative to the group's origin, and the ball contains
+/// the true ones.
 fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
     let mean = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     for (k, &corner) in triangle.iter().enumerate() {
@@ -156,7 +158,7 @@ fn soups_of_every_kind_and_count() {
     for count in (1..=80).chain([200, 511, 512, 513, 3_000]) {
         for _ in 0..3 {
             let groups = check(&body(&random_soup(&mut rng, count)));
-            // Eight lanes are used: the groups are not many more than the clusters of eight.
+            // Eight lanes are used: there are not many more groups than clusters of eight.
             assert!(groups <= 1 + count / 2, "{groups} for {count}");
         }
     }
@@ -189,7 +191,7 @@ fn coordinates_up_to_the_largest_and_down_to_the_least() {
     }
 }
 
-/// Below 1e-154 squares of components lose their digits, below 1e-162 they vanish.
+/// Squares of components below 1e-154 lose their digits, and vanish below 1e-162.
 #[test]
 fn components_whose_squares_are_no_numbers() {
     let mut rng = rng(4);
@@ -206,7 +208,7 @@ fn components_whose_squares_are_no_numbers() {
             .collect();
         check(&body(&triangles));
     }
-    // Frames computed from such normals: their lengths were off by up to a third.
+    // Frames computed from such normals had lengths off by up to a third.
     for k in 0..2_000 {
         let tiny = 1e-163 * 1.002f64.powi(k);
         let across = DVec3::new(-tiny, tiny, 0.3 * tiny);

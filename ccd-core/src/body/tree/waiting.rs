@@ -1,16 +1,16 @@
-//! Nodes that wait on the way down a tree.
+//! A stack of waiting nodes for descents of a tree.
 
 use super::NodeId;
 
-/// A stack of nodes. It takes no memory from the heap, unless the tree is deeper than any that is balanced.
+/// A stack of nodes. It allocates nothing, unless the tree is deeper than any balanced one.
 pub(super) struct Waiting {
     near: [NodeId; NEAR],
     count: usize,
-    /// Above the others.
+    /// The nodes above the others.
     far: Vec<NodeId>,
 }
 
-/// Each level leaves up to seven nodes: enough for nine levels of eight children, 10⁸ pieces.
+/// Each level leaves up to seven nodes: this is enough for nine levels of eight children, 10⁸ pieces.
 const NEAR: usize = 64;
 
 impl Waiting {
@@ -55,7 +55,7 @@ mod tests {
         let mut most = 0;
         for k in 0..20_000u32 {
             let count = rng.random_range(0..9);
-            // It grows for a while, and shrinks again.
+            // The stack grows for a while, and shrinks again.
             let pops = rng.random_range(0..9) + if k % 400 < 200 { 0 } else { 3 };
             waiting.extend(k..k + count);
             list.extend(k..k + count);

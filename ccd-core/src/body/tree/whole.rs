@@ -6,16 +6,16 @@ use crate::math::vector::length;
 use crate::rounding::U64;
 use glam::{DMat3, DVec3};
 
-/// The box about a body, as tight as f64 lets it be. The root's own box is rounded to f32: bodies that slide
-/// along each other closer than that would be taken for near each other everywhere.
+/// The box about a body, as tight as f64 allows. The root's own box is rounded to f32: with it, bodies that slide
+/// along each other closer than that would count as near each other everywhere.
 ///
 /// # Guarantee
-/// For a unit vector n, no point of the body is farther along n from the centre than the sum of `half` times
-/// the parts of n along the axes, and `slack`.
+/// For a unit vector n, no point of the body is farther along n from the centre than the sum of `half` times the
+/// components of n along the axes, and `slack`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Whole {
     pub(crate) centre: DVec3,
-    /// The columns are orthonormal, up to what `slack` covers.
+    /// The axes as columns, orthonormal up to an error that `slack` covers.
     pub(crate) axes: DMat3,
     pub(crate) half: DVec3,
     /// An upper bound of the distances of the pieces' points from the centre.
@@ -43,8 +43,9 @@ impl Whole {
             );
             radius = greater(radius, length(way));
         }
-        // A point's parts along the axes add up to it but for what the axes lack of an orthonormal frame: three
-        // times the largest entry. Differences, products and sums of parts are off by 8u of the radius each.
+        // A point's components along the axes add up to the point, except for the deviation of the axes from an
+        // orthonormal frame: three times the largest entry. Differences, products and sums of components are off by
+        // 8u of the radius each.
         let off = turned * axes - DMat3::IDENTITY;
         let largest = off
             .to_cols_array()
@@ -67,7 +68,7 @@ mod tests {
     use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation};
     use crate::tests::worst::{Worst, share};
 
-    /// The slack of a body without rounding radius, against all points' exact heights along a direction.
+    /// Compares the slack of a body without rounding radius with the exact heights of all points along a direction.
     #[test]
     fn worst_slack() {
         let mut sample = Sample::EMPTY;
@@ -118,7 +119,7 @@ mod tests {
             let size = magnitude(&mut rng, -9.0, 9.0);
             let turn = rotation(&mut rng);
             let count = rng.random_range(1..200);
-            // Points of a box's faces, which is turned and away from the origin.
+            // The points are on the faces of a box, which is rotated and away from the origin.
             let middle = 10.0 * size * direction(&mut rng);
             let points: Vec<DVec3> = (0..3 * count)
                 .map(|k| {

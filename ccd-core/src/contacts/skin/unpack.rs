@@ -1,4 +1,4 @@
-//! Unpacks a piece into named triangles.
+//! The triangles of a piece, with names.
 
 use super::{Corner, Face, PointBits, Skin};
 use crate::body::combination::Combination;
@@ -8,7 +8,7 @@ use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// A triangle's name and corners; corners have a number where the mesh has one.
+/// The name and the corners of a triangle. Corners have a number if the mesh has one.
 type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
 
 impl Skin<'_> {
@@ -26,8 +26,8 @@ impl Skin<'_> {
         }
     }
 
-    /// Returns the mesh's triangles on a piece. If there are none, returns those of its facets, or
-    /// its points: up to three as one triangle, more of them each alone.
+    /// Returns the mesh's triangles on a piece. If there are none, returns the triangles of its facets, or of its
+    /// points: up to three points as one triangle, more of them as one triangle each.
     fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
         let mesh: Vec<Unpacked> = self.on_the_mesh(index, piece);
         if !mesh.is_empty() {
@@ -35,8 +35,7 @@ impl Skin<'_> {
         }
         let whole = |corners: [u32; 3]| {
             let point = |k: u32| piece.points[k as usize];
-            // Facets that are not of the mesh have no name; finding that out takes a look at all of
-            // them.
+            // Facets that are not of the mesh have no name. Finding that out takes a visit to all of them.
             if !piece.facets.is_empty() {
                 let nameless = corners.map(|k| (point(k), None));
                 return (Feature::Piece(index), nameless);
@@ -73,7 +72,7 @@ impl Skin<'_> {
         let numbered = faces.flat_map(|face| face.corners.into_iter().zip(face.vertices.map(Some)));
         let points = (0..piece.points.len() as u32).rev();
         let own = points.map(|k| (piece.points[k as usize], self.number(index, k)));
-        // The first of several points at one place counts.
+        // If several points are at one place, the first counts.
         let numbers: HashMap<PointBits, Option<u32>> = numbered
             .chain(own)
             .map(|(point, number)| (place(point), number))
@@ -86,7 +85,7 @@ impl Skin<'_> {
         named.collect()
     }
 
-    /// Returns the number of a corner: its own piece's, or that of another piece there.
+    /// Returns the number of a corner: that of its own piece, or that of another piece at the same place.
     pub(super) fn number_of(&self, corner: u32) -> Option<u32> {
         let Corner {
             place: here, id, ..
@@ -124,7 +123,7 @@ impl Skin<'_> {
     }
 }
 
-/// Both zeros are the same place.
+/// Returns the bits of a place. Both zeros are the same place.
 fn place(point: DVec3) -> PointBits {
     point.to_array().map(|x| (x + 0.0).to_bits())
 }

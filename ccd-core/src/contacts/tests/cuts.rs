@@ -1,10 +1,10 @@
-//! The pairs of flat surfaces do not depend on the cut; pieces of many faces, or with shared
-//! corners.
+//! Tests that the pairs of flat surfaces do not depend on the cut into triangles. Also, pieces of many faces, or with
+//! shared corners.
 
 use super::*;
 use crate::body::pieces::Pieces;
 
-/// A slab's top and bottom of four triangles each, about a point in the middle that has no number.
+/// A slab whose top and bottom have four triangles each, about a point in the middle that has no number.
 fn hull_cut_about_its_middles(half: DVec3) -> Body {
     let mut points = Mesh::cuboid(half).points;
     points.extend([-half.z * DVec3::Z, half.z * DVec3::Z]);
@@ -26,7 +26,7 @@ fn hull_cut_about_its_middles(half: DVec3) -> Body {
     .unwrap()
 }
 
-/// The place of a point on a flat side is its foot, for any triangulation of the side.
+/// The contact on a flat side is the point's foot, for any triangulation of the side.
 #[test]
 fn only_the_foot_on_a_side_is_reported() {
     let rng = &mut rng(74);
@@ -57,7 +57,7 @@ fn only_the_foot_on_a_side_is_reported() {
     }
 }
 
-/// A ball of flat faces.
+/// A polyhedron of flat faces about a ball's centre.
 fn globe(rings: u32, sectors: u32) -> Mesh {
     let angle = |k: u32, of: u32| std::f64::consts::PI * f64::from(k) / f64::from(of);
     let point = |(i, j): (u32, u32)| {
@@ -86,8 +86,7 @@ fn globe(rings: u32, sectors: u32) -> Mesh {
     }
 }
 
-/// One piece that is near as many pieces as it has faces: the work is that of the near pairs of
-/// faces, not of all pairs.
+/// One piece is near as many pieces as it has faces. The work is that of the near pairs of faces, not of all pairs.
 #[test]
 fn a_piece_of_many_faces_is_sorted_once() {
     let ball = globe(32, 34);

@@ -1,4 +1,4 @@
-//! All pairs of features by brute force.
+//! All pairs of features by brute force, as a reference.
 
 use crate::body::feature::Feature;
 use crate::body::pieces::Pieces;
@@ -10,7 +10,7 @@ use crate::tests::scene::{Pcg64, RngExt};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Vertices, and triangles that share them.
+/// A mesh of vertices, and triangles that share them.
 pub(super) struct Mesh {
     pub(super) points: Vec<DVec3>,
     pub(super) faces: Vec<[u32; 3]>,
@@ -32,7 +32,7 @@ impl Mesh {
         }
     }
 
-    /// Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+    /// Creates a box. Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
     pub(super) fn cuboid(half: DVec3) -> Self {
         let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let quads = [
@@ -54,7 +54,7 @@ impl Mesh {
         }
     }
 
-    /// A square about the origin, `cells × cells`, its heights from −`rough` to 0.
+    /// Creates a square about the origin, `cells × cells`, with heights from −`rough` to 0.
     pub(super) fn terrain(rng: &mut Pcg64, cells: u32, half: f64, rough: f64) -> Self {
         let place = |k: u32| half * (2.0 * f64::from(k) / f64::from(cells) - 1.0);
         let vertex = |i: u32, j: u32| i * (cells + 1) + j;
@@ -99,7 +99,7 @@ impl Mesh {
         self.faces[face].map(|v| self.points[v as usize])
     }
 
-    /// Each edge once, and the two coplanar faces that it is between.
+    /// Returns each edge once, with the two coplanar faces on either side of it, if there are any.
     fn edges(&self, rounding: f64) -> Vec<([u32; 2], Option<[u32; 2]>)> {
         let mut sides: BTreeMap<[u32; 2], Vec<(u32, u32)>> = BTreeMap::new();
         for (k, face) in (0u32..).zip(&self.faces) {
@@ -140,10 +140,10 @@ impl Mesh {
     }
 }
 
-/// Two features, by name.
+/// A pair of features, by name.
 type Key = [Feature; 2];
 
-/// The pairs of two meshes within reach.
+/// Returns the pairs of features of two meshes within reach.
 pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expected {
     let mut offers = Offers {
         reach,
@@ -182,7 +182,7 @@ struct Offers {
 }
 
 impl Offers {
-    /// Adds a pair at a distance, if it is in reach up to rounding.
+    /// Adds a pair at a distance, if it is within reach up to rounding.
     fn offer(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
@@ -193,7 +193,7 @@ impl Offers {
         }
     }
 
-    /// A vertex, and the part of a face that is nearest to it: clear where no smaller part is as near.
+    /// Adds a vertex and the part of a face that is nearest to it. The pair is clear if no smaller part is as near.
     fn corner(&mut self, v: DVec3, mesh: &Mesh, face: usize, pair: impl Fn(Feature) -> Key) {
         let (triangle, ids) = (mesh.triangle(face), mesh.faces[face]);
         let distance = nearest(&[v; 3], &triangle).distance;
@@ -210,7 +210,7 @@ impl Offers {
             (None, Some(k)) => edge_name(k),
             (None, None) => Feature::Face(face as u32),
         };
-        // As near, not merely up to rounding.
+        // This tests for equal distances, not merely equal up to rounding.
         let exact = |corners: Triangle| {
             nearest(&[v; 3], &corners).distance <= distance + 0.25 * self.rounding
         };
@@ -231,7 +231,7 @@ impl Offers {
         }
     }
 
-    /// Two edges that cross: clear where both are nearer inside than at any end.
+    /// Adds two edges that cross. The pair is clear if both are nearer inside than at any end.
     fn edges(&mut self, e: [DVec3; 2], f: [DVec3; 2], names: Key) {
         let (d, along, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
         let across = d.cross(along);

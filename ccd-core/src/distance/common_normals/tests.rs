@@ -14,7 +14,7 @@ fn common(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
     normals
 }
 
-/// The ways from a corner of a cube, which has its other corners on that side of it.
+/// The offsets from a corner of a cube, whose other corners are on this side of it.
 fn corner(side: DVec3) -> Vec<DVec3> {
     vec![side.x * DVec3::X, side.y * DVec3::Y, side.z * DVec3::Z]
 }
@@ -23,7 +23,7 @@ fn turned(turn: DQuat, ways: &[DVec3]) -> Vec<DVec3> {
     ways.iter().map(|&way| turn * way).collect()
 }
 
-/// The ways from a point within a side.
+/// The offsets from a point within a side of a cube.
 fn level() -> Vec<DVec3> {
     vec![DVec3::X, -DVec3::X, 0.1 * DVec3::Y, -3.0 * DVec3::Y]
 }
@@ -38,7 +38,7 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
         let normals = common(&above, &below);
         let expected = -(turn * DVec3::Z);
         for towards in [direction(rng), expected, direction(rng)] {
-            // A direction away from it is turned, unless there is none but the opposite.
+            // A direction away from the cone is turned towards it, unless there is none but the opposite.
             let found = normals.near(towards).unwrap();
             assert!(found.distance(expected) < 1e-14, "{found} {expected}");
         }
@@ -47,14 +47,14 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
     }
 }
 
-/// Some ways within a cone about an axis, so that normals of both are the opposite.
+/// Some offsets within a cone about an axis. The normals of both bundles are opposite.
 fn bundle(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
     let count = rng.random_range(1..12);
     let ways = (0..count).map(|_| (about + within(rng, 1.5)) * rng.random_range(0.01..10.0));
     ways.collect()
 }
 
-/// The projection on a cone is the best of those on its sides and on the lines between them.
+/// The projection on a cone is the best of the projections on its sides and on the lines between them.
 #[test]
 fn the_nearest_normal_is_the_best_of_all_candidates() {
     let rng = &mut rng(82);

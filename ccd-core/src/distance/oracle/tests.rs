@@ -1,4 +1,4 @@
-//! Combinations, and oracles that are asked in turn.
+//! Combinations, and oracles that are called in turn.
 
 use super::*;
 use crate::tests::oracle::Always;
@@ -15,7 +15,7 @@ fn terms_are_merged_dropped_and_capped() {
     for (index, weight) in [(4, 1.0), (7, 2.0), (4, 3.0), (0, 1.0), (1, 1.0), (9, 1.0)] {
         out.push(index, weight);
     }
-    // The fifth distinct index found no place.
+    // The fifth distinct index was dropped.
     assert_eq!(out.support(), [4, 7, 0, 1]);
     assert_eq!(Combination::point(3).support(), [3]);
     assert_eq!(Combination::segment([3, 5], 0.0).support(), [3]);
@@ -78,7 +78,7 @@ fn the_second_oracle_is_asked_where_the_first_gives_up() {
     assert_eq!(unsure.fallbacks(), 2);
     let mut hopeless = Always(Err(GiveUp::Cycle)).or_else(Always(Err(GiveUp::StepCap)));
     assert_eq!(ask(&mut hopeless), Err(GiveUp::StepCap));
-    // A chain of three.
+    // This is a chain of three oracles.
     let mut chain = Always(Err(GiveUp::Cycle))
         .or_else(Always(Err(GiveUp::StepCap)))
         .or_else(Always(Ok(first)));

@@ -1,4 +1,4 @@
-//! Distinguishes intersecting pieces from touching ones.
+//! Tests that intersecting pieces are distinguished from touching ones.
 
 use super::{Inner, Intersection, intersects};
 use crate::body::Body;
@@ -16,7 +16,7 @@ use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
 
-/// The decision, which must not be open.
+/// Returns the decision, and asserts that there is one.
 fn decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
     match intersects(pair, &checked, ROUNDING, &mut Inner::default()) {
@@ -57,14 +57,14 @@ fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
     assert!(triangles(&flat, &spike(-1e-6)));
     assert!(!triangles(&flat, &spike(0.0)), "a corner on a face");
     assert!(!triangles(&flat, &spike(0.1)));
-    // A shared edge, a shared corner, the same triangle.
+    // The triangles share an edge, a corner, or are the same.
     assert!(!triangles(&flat, &[DVec3::ZERO, 2.0 * DVec3::X, DVec3::Z]));
     assert!(!triangles(
         &flat,
         &[DVec3::ZERO, -DVec3::X, DVec3::new(-1.0, -1.0, 1.0)]
     ));
     assert!(!triangles(&flat, &flat));
-    // Edges that meet within, at a right angle.
+    // The edges meet within, at a right angle.
     let above = [
         DVec3::new(1.0, -1.0, 0.0),
         DVec3::new(1.0, 1.0, 0.0),
@@ -78,7 +78,8 @@ fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
     assert!(!triangles(&flat, &beside));
 }
 
-/// Random triangles, needles among them, with any claim of an honest oracle.
+/// The decision agrees with the separating axis theorem for random triangles, needles among them, with any claim of
+/// an honest oracle.
 #[test]
 fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     let mut rng = rng(1);
@@ -96,7 +97,7 @@ fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     assert!(counts[0] > 10_000 && counts[1] > 200, "{counts:?}");
 }
 
-/// A claim that the witnesses are at one point, with an arbitrary axis.
+/// Decides about two boxes, with a claim that the witnesses are at one point, and an arbitrary axis.
 fn boxes(b_to_a: Frame) -> bool {
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let piece = body.pieces().get(0);
@@ -105,10 +106,10 @@ fn boxes(b_to_a: Frame) -> bool {
         b: piece,
         b_to_a,
     };
-    // The middle of the boxes' intersection, as a point of either.
+    // The middle of the boxes' intersection is a point of each box.
     let middle = 0.5 * b_to_a.translation;
     let named = |p: DVec3| -> Combination {
-        // Four corners about the point: trilinear weights along the box's diagonal directions.
+        // The point is a combination of four corners, with trilinear weights along the box's diagonal directions.
         let mut out = Combination::EMPTY;
         for (corner, weight) in tetrahedron(p) {
             out.push(corner, weight);
@@ -123,7 +124,7 @@ fn boxes(b_to_a: Frame) -> bool {
     decided(&pair, &claim)
 }
 
-/// Weights of corners 0, 1, 3, 7 of a unit box, which name any point with x ≥ y ≥ z.
+/// Returns weights of corners 0, 1, 3, 7 of a unit box, which represent any point with x ≥ y ≥ z.
 fn tetrahedron(p: DVec3) -> [(u32, f64); 4] {
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| p[j].total_cmp(&p[i]));
@@ -146,14 +147,14 @@ fn boxes_overlap_by_more_than_rounding_or_not() {
             assert!(!boxes(at((2.0 + gap) * way)), "{gap} {way}");
         }
     }
-    // Edge to edge: no face normal separates the two.
+    // The boxes meet edge to edge: no face normal separates the two.
     let turned = |axis: DVec3| glam::DQuat::from_axis_angle(axis, std::f64::consts::FRAC_PI_4);
     let crossed = |gap: f64| {
         let pose = Pose::new(
             (2.0 * 2f64.sqrt() + gap) * DVec3::Z,
             turned(DVec3::X).inverse() * turned(DVec3::Y),
         );
-        // Seen from A, which is turned about x itself.
+        // The pair is seen from A, which is turned about x itself.
         let a = Frame::from(Pose::new(DVec3::ZERO, turned(DVec3::X)).unwrap());
         let b = Frame::from(Pose::new(pose.unwrap().translation(), turned(DVec3::Y)).unwrap());
         boxes(a.from_frame(&b))
@@ -211,7 +212,7 @@ fn false_claims_do_not_change_the_decision() {
     assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
 }
 
-/// Clouds that are long, flat or both: each corner is about as far off as the differences allow.
+/// The clouds are long, flat or both: each corner is about as far off as the differences allow.
 #[test]
 fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
     let mut rng = rng(4);
@@ -237,10 +238,10 @@ fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
         if a.distance(b) < a.distance(c) {
             (b, c) = (c, b);
         }
-        // Among the extremes along the axes.
+        // The point is among the extremes along the axes.
         let far = |p: DVec3| p.distance(a);
         assert!(far(b) >= 0.28 * most(&far), "{pair:?}");
-        // Among the extremes along two directions across the line.
+        // The point is among the extremes along two directions across the line.
         let line = (b - a).normalize();
         let off_line = |p: DVec3| (p - a).cross(line).length();
         assert!(off_line(c) >= 0.7 * most(&off_line), "{pair:?}");
@@ -287,7 +288,7 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
     assert!(inner.corners.is_empty());
 }
 
-/// Exactly representable, so that the distance of the cores is exactly the sum of the radii.
+/// The coordinates are exactly representable, so that the distance of the cores is exactly the sum of the radii.
 #[test]
 fn balls_that_touch_exactly_do_not_intersect() {
     let ball = Body::ball(0.5).unwrap();
@@ -302,9 +303,9 @@ fn balls_that_touch_exactly_do_not_intersect() {
     assert_eq!(decision, Intersection::None);
 }
 
-/// A slow reference in double-double arithmetic: no axis of the separating-axis theorem separates
-/// the pieces. The axes are the normals of both and the cross products of their edges; for flat
-/// pieces also the normals of their edges within either plane.
+/// A slow reference in double-double arithmetic: returns whether no axis of the separating axis theorem separates the
+/// pieces. The axes are the normals of both pieces and the cross products of their edges; for flat pieces also the
+/// normals of their edges within either plane.
 fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
     let a = Directions::of(&pair.a, |p| p);
     let b = Directions::of(&pair.b, |p| pair.b_to_a.point(p));

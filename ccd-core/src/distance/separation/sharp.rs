@@ -1,4 +1,4 @@
-//! Better axes than the claimed one: those of the features that contain the nearest points.
+//! Axes better than the claimed one: those of the features that contain the nearest points.
 
 use super::{Checked, support_gap};
 use crate::body::combination::Combination;
@@ -7,11 +7,10 @@ use crate::distance::oracle::PiecePair;
 use crate::math::vector::{across, unit};
 use glam::{DMat3, DVec3};
 
-/// Checks again, along the best axis of the claim's features.
+/// Checks a claim again, along the best axis of its features.
 ///
-/// The vector between nearest points is only as exact as their coordinates: along it, two pieces
-/// that are near for their size lose some of their distance. The normal of a face, or of two edges,
-/// is exact to its last bits.
+/// The vector between nearest points is only as exact as their coordinates. Along it, two pieces that are near for
+/// their size lose some of their distance. The normal of a face, or of two edges, is exact to its last bits.
 pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
     let radii = pair.a.radius + pair.b.radius;
     let mut best = *checked;
@@ -30,8 +29,8 @@ pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) 
     best
 }
 
-/// The vector between the witnesses; the one across it and a single edge; the normals of faces, and
-/// of two edges.
+/// Returns the candidate axes: the vector between the witnesses, the vector perpendicular to it and a single edge,
+/// the normals of faces, and the normal of two edges.
 fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
     let axis_in_b = pair.b_to_a.inverse_vector(checked.axis);
@@ -48,8 +47,8 @@ fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
 /// The feature that contains a nearest point.
 struct Feature {
     edge: Option<DVec3>,
-    /// The normal of its face, of the piece if that is a triangle, or of the facet at its corners that is most
-    /// across the claimed axis; zero if there is none.
+    /// The normal of the feature's face: that of the piece if it is a triangle, or that of the facet at the feature's
+    /// corners that is most across the claimed axis; zero if there is none.
     normal: DVec3,
 }
 
@@ -81,8 +80,8 @@ impl Feature {
 
 /// Returns the normal of the facet that holds the given corners and is most across an axis.
 ///
-/// Two corners across a facet span no edge, and one corner of a facet may be nearest to a point on the other
-/// piece: then it is the facet that keeps the pieces apart.
+/// Two corners on opposite sides of a facet span no edge, and one corner of a facet may be nearest to a point on the
+/// other piece. In both cases the facet keeps the pieces apart.
 fn facet_normal(piece: &Piece<'_>, support: &[u32], axis: DVec3) -> Option<DVec3> {
     let holds = |corners: &&[u32]| support.iter().all(|corner| corners.contains(corner));
     let normal = |corners: &[u32]| {

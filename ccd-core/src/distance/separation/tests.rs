@@ -74,7 +74,7 @@ fn bounds_hold_for_any_claim() {
         assert!((checked.axis.length() - 1.0).abs() < 1e-15, "{claim:?}");
         let between = checked.witness_a.distance(checked.witness_b);
         assert!((between - checked.core_distance).abs() < 1e-14);
-        // Features are named by points that exist.
+        // The features consist of points that exist.
         for (combination, points) in [(checked.claim.a, a), (checked.claim.b, b)] {
             assert!(combination.of(&points).is_some());
         }
@@ -111,7 +111,7 @@ fn a_true_claim_is_tight() {
     assert!(apart > 5_000 && across > 300, "{apart} {across}");
 }
 
-/// Weights that overflow when they are summed must not make two distant pieces touch.
+/// Weights that overflow in their sum must not make two distant pieces touch.
 #[test]
 fn overflowing_weights_are_a_false_claim() {
     let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -167,7 +167,7 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
     assert_eq!(checked.core_distance, 3.0);
 }
 
-/// Checks that a claim can be sharpened to the distance, and returns whether it was poor.
+/// Checks that a claim can be sharpened to the distance, and returns whether the claim was poor.
 fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
     let checked = check(pair, tilted, ROUNDING);
     let Checked {
@@ -176,14 +176,14 @@ fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
         witness_a,
         ..
     } = sharpened(pair, &checked, ROUNDING);
-    // The axis is the one that shows the bound.
+    // The bound was computed along this axis.
     assert_eq!(support_gap(pair, axis, witness_a) - ROUNDING, lower);
     assert!(lower <= distance, "{lower} {distance}");
     assert!(lower >= distance - 2.0 * ROUNDING, "{:e}", distance - lower);
     checked.lower < distance - 10.0 * ROUNDING
 }
 
-/// The vector between near points is rounded; large triangles lose distance by its tilt.
+/// The vector between near points is rounded, and large triangles lose distance by its tilt.
 #[test]
 fn features_have_better_axes_than_near_points() {
     let mut rng = rng(3);
@@ -213,8 +213,8 @@ fn features_have_better_axes_than_near_points() {
     assert!(poor > 2_000, "{poor}");
 }
 
-/// A corner over the face of a box, whose nearest point is told by two corners across the face, which are no edge,
-/// or is told to be one of the face's corners, which is a corner of other faces too.
+/// A corner is over the face of a box. The claim names its nearest point by two corners across the face, which are no
+/// edge, or as one of the face's corners, which is a corner of other faces too.
 #[test]
 fn facets_have_better_axes_than_corners_across_them() {
     let mut rng = rng(4);
@@ -254,7 +254,7 @@ fn facets_have_better_axes_than_corners_across_them() {
     assert!(poor > 900, "{poor}");
 }
 
-/// A piece of many points has the gap that a look at all of them has.
+/// A piece of many points has the same gap as by a scan of all its points.
 #[test]
 fn searches_for_extremal_points_change_no_gap() {
     let mut rng = rng(5);
@@ -287,7 +287,7 @@ fn searches_for_extremal_points_change_no_gap() {
     assert!(apart > 20, "{apart}");
 }
 
-/// A claim is as good as its better half: its axis, or the way between its points.
+/// A claim is as good as its better half: its axis, or the vector between its points.
 #[test]
 fn the_better_one_of_axis_and_way_counts() {
     let mut rng = rng(6);
@@ -318,10 +318,10 @@ fn the_better_one_of_axis_and_way_counts() {
             ..right
         };
         let wrong_points = check(&pair, &points, ROUNDING);
-        // An axis that shows half of the way is good enough.
+        // An axis that proves half of the distance is good enough.
         for (checked, share) in [(wrong_axis, 0.5), (wrong_points, 1.0)] {
             assert!(checked.lower >= share * distance - 2.0 * radius - 1e-9);
-            // Witnesses are on the surfaces, on the way between the points, whatever the axis.
+            // The witnesses are on the surfaces, on the line between the points, whatever the axis.
             let between = checked.witness_a.distance(checked.witness_b);
             assert!((between - (checked.core_distance - 2.0 * radius)).abs() < 1e-13);
         }
@@ -329,7 +329,7 @@ fn the_better_one_of_axis_and_way_counts() {
     assert!(apart > 500, "{apart}");
 }
 
-/// Points that coincide have no way between them: the axis tells on which side of it the surfaces are.
+/// There is no vector between coinciding points: the axis decides on which sides of the point the surfaces are.
 #[test]
 fn witnesses_of_coinciding_points_are_along_the_axis() {
     let points = [DVec3::ZERO];

@@ -1,7 +1,7 @@
 use super::*;
 use glam::dvec3;
 
-/// Pseudo-random numbers in −1..1 by a linear congruence.
+/// Returns a generator of pseudo-random numbers in −1..1, by a linear congruence.
 fn noise() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -12,7 +12,7 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-/// A scan of all points finds no other points in front, and few more that are near.
+/// A scan of all points finds no further points in front, and the search visits few that are near.
 #[test]
 fn nothing_in_front_is_passed_over() {
     let mut next = noise();
@@ -33,7 +33,7 @@ fn nothing_in_front_is_passed_over() {
     }
 }
 
-/// A query with a plane that touches one end of a long row visits few of its points.
+/// A query with a plane that touches one end of a long row visits few points of the row.
 #[test]
 fn most_points_are_passed_over_together() {
     let points: Vec<DVec3> = (0..100_000)

@@ -1,4 +1,4 @@
-//! Principal axes against the definition of an eigenvector.
+//! Principal axes, compared with the definition of an eigenvector.
 
 use super::{half_angle, principal_axes};
 use crate::tests::scene::{RngExt, direction, rng};

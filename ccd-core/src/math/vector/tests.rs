@@ -1,4 +1,4 @@
-//! Compares with double-double arithmetic, over all sizes of numbers.
+//! Lengths and unit vectors, compared with double-double arithmetic over all sizes of numbers.
 
 use super::{across, distance, length, normal, unit};
 use crate::rounding::U64;
@@ -6,7 +6,7 @@ use crate::tests::double::Double3;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use glam::DVec3;
 
-/// A number of any size, down to the least.
+/// Returns a number of any size, down to the least.
 fn any(rng: &mut Pcg64) -> f64 {
     let exponent = rng.random_range(-1074..1000);
     let sign = if rng.random_range(0..2) == 0 {
@@ -24,7 +24,7 @@ fn any(rng: &mut Pcg64) -> f64 {
     }
 }
 
-/// A vector of any size, with components of similar or different sizes.
+/// Returns a vector of any size, with components of similar or different sizes.
 fn vector(rng: &mut Pcg64) -> DVec3 {
     match rng.random_range(0..2) {
         0 => DVec3::new(any(rng), any(rng), any(rng)),
@@ -32,7 +32,7 @@ fn vector(rng: &mut Pcg64) -> DVec3 {
     }
 }
 
-/// The same vector with its largest component near 1.
+/// Returns the same vector with its largest component near 1.
 fn near_one(v: DVec3) -> DVec3 {
     let largest = v.abs().max_element();
     let half = 2f64.powf((-0.5 * largest.log2()).round());
@@ -79,7 +79,7 @@ fn lengths_are_right() {
         if largest == 0.0 {
             continue;
         }
-        // Scaled by halves: one power of two may be no number.
+        // The vector is scaled twice by half the exponent: a single power of two may be out of range.
         let half = 2f64.powf((-0.5 * largest.log2()).round());
         let exact = Double3::from(v * half * half).length().get() / half / half;
         let least = f64::from_bits(1);
@@ -105,7 +105,7 @@ fn normals_are_those_of_triangles_of_any_size() {
         let off = (Double3::from(found) - exact).length().get();
         assert!(off < 100.0 * U64, "{p:e} {q:e}: {off:e}");
     }
-    // On one line, or in one point.
+    // The corners are on one line, or at one point.
     assert_eq!(normal([DVec3::ZERO, DVec3::X, 3.0 * DVec3::X]), None);
     assert_eq!(normal([DVec3::X; 3]), None);
     assert_eq!(across(DVec3::X * 1e-300, DVec3::X), DVec3::ZERO);

@@ -5,7 +5,7 @@ use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// Its rounding is part of the rates that are bounded with it.
+/// The rounding of the bound is part of that of the rates that it bounds.
 #[test]
 fn worst_sound_bound() {
     let found = Worst::of("RATE_F64, the sound bound", 40_000).search(|tape| {
@@ -30,7 +30,7 @@ fn the_published_bound_is_the_speed_of_the_farthest_arm_at_this_instant() {
         linear: DVec3::new(-1.0, 2.0, 3.0),
         spin: DVec3::new(0.0, 0.0, 2.0),
     };
-    // n × ω = −2 Y
+    // Here n × ω = −2 Y.
     for (arm, expected) in [(-3.0, 1.0 + 6.0), (3.0, 1.0)] {
         let farthest = |along: DVec3| {
             assert_eq!(along, DVec3::new(0.0, -2.0, 0.0));

@@ -4,7 +4,7 @@ use crate::tests::double::Double;
 use crate::tests::scene::{RngExt, magnitude, rng};
 use crate::tests::worst::{Worst, share};
 
-/// A free time without its allowance against the root of the square equation.
+/// Compares a free time without its allowance with the root of the quadratic equation.
 #[test]
 fn worst_free_time() {
     let found = Worst::of("RATE_F64, a free time", 40_000).search(|tape| {
@@ -27,14 +27,14 @@ fn worst_free_time() {
     found.is_within(8.0);
 }
 
-/// The same for a gap that closes ever slower: where it closes at all, the squares may all but cancel.
+/// Compares the free time of a gap that closes ever slower. If the gap closes at all, the squares may all but cancel.
 #[test]
 fn a_free_time_of_parting_is_never_late_and_near() {
     let mut rng = rng(1);
     let (mut closes, mut near, mut stays) = (0, 0, 0);
     for _ in 0..100_000 {
         let [gap, rate] = [0; 2].map(|_| magnitude(&mut rng, -12.0, 6.0));
-        // The bend at which the gap just closes, or any other.
+        // The second derivative is that at which the gap just closes, or any other.
         let just = rate * rate / (2.0 * gap);
         let bend = if rng.random_bool(0.5) {
             just * (1.0 + magnitude(&mut rng, -16.0, 0.0) * rng.random_range(-1.0..1.0))
@@ -72,9 +72,9 @@ fn a_gap_that_never_closes_is_free_for_good() {
     assert_eq!(time(1.0, -1.0, -1.0), forever);
     assert_eq!(time(1.0, 0.0, -1.0), forever);
     assert_eq!(time(1.0, 1.0, -0.501), forever);
-    // It touches after 2, slower and slower.
+    // The gap closes after 2, ever slower.
     assert!((1.99..=2.0).contains(&time(1.0, 1.0, -0.5)));
-    // What is no number, or overflows, has no time.
+    // A value that is NaN, or overflows, has no free time.
     for gap in [0.0, -1.0, f64::NAN] {
         assert_eq!(time(gap, 1.0, -1.0), 0.0);
         assert_eq!(time(gap, -1.0, -1.0), 0.0);
@@ -84,7 +84,7 @@ fn a_gap_that_never_closes_is_free_for_good() {
     assert_eq!(time(1.0, -1e200, -1.0), 0.0);
     assert_eq!(time(1.0, 1.0, f64::NEG_INFINITY), 0.0);
     assert_eq!(time(f64::INFINITY, 1.0, -1.0), 0.0);
-    // Lost squares promise no more than the rate does.
+    // Lost squares give no more time than the rate does.
     let lost = time(1e-170, 1e-170, -1e-300);
     assert!((0.0..=1.0).contains(&lost), "{lost}");
 }

@@ -1,4 +1,4 @@
-//! A path is the motion less the origin, in units of the duration.
+//! Tests that a path is the motion minus the origin, in units of the duration.
 
 use super::Path;
 use crate::math::order::greater;
@@ -50,7 +50,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
                 "{error:e}"
             );
         }
-        // Points turn at their distance from the axis, the farthest one the fastest.
+        // Points move at their distance from the axis times the rate, the farthest one the fastest.
         let points = [point, within(&mut rng, 3.0)];
         let place = |x| path.frame(0.4).point(x);
         let fastest = points.map(|x| path.velocity_at(place(x), 0.4).distance(path.velocity));
@@ -76,7 +76,7 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
     assert_eq!(path.rate, 0.0);
 }
 
-/// The exact place of a point on a path as it is kept.
+/// Returns the exact position of a point on a path as it is stored.
 fn exact_place(path: &Path, s: Double, x: DVec3) -> Double3 {
     let arm = Double3::from(x) - Double3::from(path.centre);
     let rotated = |m: &DMat3| {
@@ -90,7 +90,7 @@ fn exact_place(path: &Path, s: Double, x: DVec3) -> Double3 {
     Double3::from(path.start) + change.scale(s) + turned + rotated(&path.constant)
 }
 
-/// The place of a point on a part of a path, against that on the path itself.
+/// Compares the position of a point on a part of a path with that on the path itself.
 #[test]
 fn worst_part() {
     let found = Worst::of("place_rounding, part of a path", 4_000).search(|tape: &mut Tape| {

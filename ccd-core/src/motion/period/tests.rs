@@ -1,4 +1,4 @@
-//! Periods against distances of points at sampled times, and against fractions that are known.
+//! Periods, compared with distances of points at sampled times, and with known fractions.
 
 use super::*;
 use crate::motion::Motion;
@@ -69,7 +69,7 @@ fn common_periods_are_the_best_fractions() {
     };
     assert_eq!(fractions(0.0, 9.0), [[0.0, 1.0]]);
     assert_eq!(fractions(1.0, 9.0), [[1.0, 1.0]]);
-    // Rounding may add some, but hides none.
+    // Rounding may add some fractions, but hides none.
     assert!(fractions(0.375, 9.0).contains(&[3.0, 8.0]));
     assert_eq!(fractions(f64::NAN, 9.0), [[0.0; 2]; 0]);
     let of_pi = [[0.0, 1.0], [1.0, 3.0], [7.0, 22.0], [106.0, 333.0]];

@@ -1,4 +1,4 @@
-//! What a body sees of another, against the two frames.
+//! The view of one body from another, compared with the two frames.
 
 use super::{Seen, View};
 use crate::math::packed::{Packed, PackedMatrix, rows};
@@ -28,7 +28,8 @@ fn path(rng: &mut Pcg64) -> Path {
     }
 }
 
-/// A body as seen from another: where it sees a point, its velocity, its acceleration and its spin.
+/// Returns the view of a body from another: the position of a point, its velocity, its acceleration, and the angular
+/// velocity.
 #[inline(always)]
 fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
     let Seen {

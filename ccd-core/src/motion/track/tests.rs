@@ -1,4 +1,4 @@
-//! Tracks against their defining formula, and the three bounds against samples.
+//! Tracks, compared with their defining formula, and the three bounds, compared with samples.
 
 use super::{Angle, AxisMotion, Track};
 use crate::math::order::{greater, lesser};
@@ -13,14 +13,14 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
 impl Track {
-    /// The track along `n` of a point that starts at `height` along it, at arm `arm` from the
-    /// motion's centre.
+    /// Creates the track along `n` of a point that starts at `height` along it, at arm `arm` from the motion's
+    /// centre.
     fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
         let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
         AxisMotion::new(motion.linear, axis, length(motion.spin), n).track(height, arm)
     }
 
-    /// The height after `tau`.
+    /// Returns the height after `tau`.
     fn at(&self, tau: f64) -> f64 {
         self.height_at(tau, Angle::new(self.omega * tau))
     }
@@ -62,8 +62,8 @@ fn a_track_is_the_height_of_a_turning_point() {
     }
 }
 
-/// The highest point of a track over `[0, tau]`: dense samples, the best of them refined by golden
-/// sections.
+/// Returns the highest point of a track over `[0, tau]`: dense samples, of which the best are refined by golden
+/// section search.
 fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
     let samples = 64 + (64.0 * turns) as usize;
     let at = |k: usize| tau * k as f64 / samples as f64;
@@ -166,13 +166,13 @@ fn free_times_use_up_the_gap_and_no_more() {
     }
 }
 
-/// The arm that is farthest along a direction.
+/// Returns the arm that is farthest along a direction.
 fn farthest(arms: &[DVec3], c: DVec3) -> DVec3 {
     let farther = |a: &DVec3, b: &DVec3| c.dot(*a).total_cmp(&c.dot(*b));
     arms.iter().copied().max_by(farther).unwrap()
 }
 
-/// No point rises faster along `n` than [`sound`] says, at any time.
+/// No point rises along `n` faster than the bound of [`sound`], at any time.
 #[test]
 fn the_sound_bound_holds_over_intervals() {
     let mut rng = rng(6);
@@ -203,8 +203,8 @@ fn the_sound_bound_holds_over_intervals() {
     assert!(beaten > 100, "{beaten}");
 }
 
-/// An arm of 2 that hangs down and turns about its end towards a wall above. The published bound
-/// counts only the sideways motion of its tip, and lets it turn through the wall.
+/// An arm of 2 hangs down and turns about its end towards a wall above. The published bound counts only the sideways
+/// motion of its tip, and lets the arm turn through the wall.
 #[test]
 fn the_published_bound_lets_the_mace_through_the_wall() {
     let (length, width, wall) = (2.0, 0.02, 1.0);
@@ -215,7 +215,7 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     let tips = [-width, width].map(|x| DVec3::new(x, -length, 0.0));
     let ball = 0.1;
     let gap = wall - ball;
-    // Fastest advance of the tips, and of the ball about the centre, which does not advance.
+    // The bound is the fastest advance of the tips, and of the ball about the centre, which does not advance.
     let allowed = gap / published(&motion, DVec3::Y, |c| farthest(&tips, c));
     let reach = tips[0].length();
     let contact = (length.atan2(width) + (wall / reach).asin()) / 3.0;
@@ -253,7 +253,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         // Samples are rounded, too.
         let rounding = 1e-15 * (1.0 + track.omega);
         assert!(least <= seen + rounding, "{least} {seen} {track:?}");
-        // Between two samples the track bends by this much.
+        // Between two samples the track deviates by this much from a straight line.
         let step = horizon / 400.0;
         let missed = track.bend() * step * step + 1e-13 * (1.0 + track.omega);
         assert!(seen - least <= missed, "{seen} {least} {track:?}");
@@ -269,7 +269,8 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
     );
 }
 
-/// The least height of a point that turns. What rounds before is an error of heights, and is allowed for there.
+/// Compares the least height of a point that turns with the exact one. Earlier rounding is an error of heights, and
+/// is allowed for there.
 #[test]
 fn worst_least_until() {
     let found = Worst::of("RATE_F64, least heights of points", 40_000).search(|tape| {
@@ -281,7 +282,7 @@ fn worst_least_until() {
             q: tape.any(-60..=10),
             omega: tape.size(-40..=4),
         };
-        // Anywhere, or next to the lowest point of the circle.
+        // The angle is arbitrary, or next to the lowest point of the circle.
         let trough = (-track.q).atan2(-track.p).rem_euclid(TAU);
         let horizon = match tape.pick(2) {
             0 => tape.fraction(),
@@ -295,7 +296,7 @@ fn worst_least_until() {
         let (sin, cos) = half.sin_cos();
         let two = Double::from(2.0);
         let at_end = two * sin * (cos * q - sin * p);
-        // A turn that all but reaches the lowest point comes as low.
+        // A turn that all but reaches the lowest point reaches the same height.
         let exact = if turn >= trough {
             -p - swing
         } else {
@@ -308,8 +309,8 @@ fn worst_least_until() {
     found.is_within(30.0);
 }
 
-/// The bend of a track as it is kept. What rounds before is an error of heights: it moves none by more
-/// than twice as much, whatever the turn.
+/// Compares the bound of the second derivative of a track, as stored, with the exact one. Earlier rounding is an
+/// error of heights: it moves no height by more than twice as much, whatever the turn.
 #[test]
 fn worst_bend() {
     let found = Worst::of("RATE_F64, bends of points", 40_000).search(|tape| {

@@ -1,4 +1,4 @@
-//! Strays of stretches against poses in between.
+//! Deviations of stretches, compared with poses in between.
 
 use super::*;
 use crate::math::order::greater;
@@ -6,7 +6,8 @@ use crate::tests::scene::{RngExt, direction, magnitude, rng, within};
 use crate::tests::trajectories::Swing;
 use glam::DVec3;
 
-/// The largest stray of points at a reach from the centre, over the bound, at some times of a stretch.
+/// Returns the largest deviation of points at a reach from the centre, divided by the bound, at some times of a
+/// stretch.
 fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch(from, to).unwrap();
     let bound = stretch.stray.at(reach);
@@ -54,7 +55,7 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
         let from = rng.random_range(0.0..1.0);
         let later = motion.stretch(from, 1.0).unwrap();
         assert!(later.stray.at(1.0) < 1e-10);
-        // The poses compared are rounded, too, by about as much.
+        // The compared poses are rounded, too, by about as much.
         assert!(worst(&motion, from, 1.0, 1.0) <= 2.0);
     }
 }

@@ -9,18 +9,18 @@ use crate::tests::worst::{Worst, share};
 fn agrees_with_the_standard_library() {
     let mut worst = 0.0f64;
     for k in 0..2_000_000u32 {
-        // Dense near 0, spread evenly on a scale of ratios up to the largest turn.
+        // The angles are dense near 0, and spread evenly on a logarithmic scale up to the largest turn.
         let angle = MAX_TURN.powf(f64::from(k) / 2e6 * 1.5 - 0.5);
         let (sin, cos) = sin_cos(angle);
         let (s, c) = angle.sin_cos();
         worst = greater(greater(worst, (sin - s).abs()), (cos - c).abs());
     }
-    // Either is off by half a unit in the last place at best.
+    // At best each function is off by half a unit in the last place.
     assert!(worst <= 2.0 * U64, "{}", worst / U64);
     assert_eq!(sin_cos(0.0), (0.0, 1.0));
 }
 
-/// The 2u of its guarantee, at angles next to multiples of a right angle and elsewhere.
+/// Checks the guarantee of 2u, at angles next to multiples of a right angle and elsewhere.
 #[test]
 fn worst_sine_and_cosine() {
     let found = Worst::of("sin_cos: 2u", 40_000).search(|tape| {

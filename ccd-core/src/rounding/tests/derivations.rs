@@ -1,4 +1,4 @@
-//! The allowances against the sums in their docs.
+//! The allowances, compared with the sums in their docs.
 
 use crate::rounding::*;
 use crate::tuning::*;

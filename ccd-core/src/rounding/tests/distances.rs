@@ -1,6 +1,6 @@
 //! The rounding of distances, in the worst cases that a search finds, against double-double arithmetic.
 //!
-//! Coordinates of about a unit, far from the origins of the bodies and of the world, and up to a million
+//! Coordinates are about a unit or far from the origins of the bodies and of the world, and turns are up to a million
 //! radians: each is a part of the bound.
 
 use super::{Shares, far_body, motion, shares_of_a_look};
@@ -15,7 +15,7 @@ use crate::tests::worst::{Tape, Worst, share};
 use crate::{Body, Motion};
 use glam::DVec3;
 
-/// Two bodies on their way.
+/// Two moving bodies.
 struct Scene {
     bodies: [Body; 2],
     motions: [Motion; 2],
@@ -40,7 +40,7 @@ impl Scene {
         }
     }
 
-    /// The same without a turn on the way.
+    /// Returns the scene without turns.
     fn unturning(mut self) -> Self {
         self.motions = self.motions.map(|motion| {
             let spin = DVec3::ZERO;
@@ -55,7 +55,7 @@ impl Scene {
         Problem::accelerated(bodies, pulls, self.duration, &Settings::DEFAULT.terms()).ok()
     }
 
-    /// The same with accelerations, which move the bodies about as far as their velocities do.
+    /// Returns the scene with accelerations, which move the bodies about as far as their velocities do.
     fn accelerating(self, tape: &mut Tape) -> Self {
         let pull = |motion: Motion| {
             let speed = motion.velocity().length() * magnitude(tape, -2.0, 2.0);
@@ -67,7 +67,7 @@ impl Scene {
         }
     }
 
-    /// The exact place of a body's point at a share of the duration.
+    /// Returns the exact position of a body's point at a share of the duration.
     fn place(&self, body: usize, s: f64, point: DVec3) -> Double3 {
         let time = Double::from(self.duration) * Double::from(s);
         let fall = Double3::from(self.accelerations[body]).scale(time * time * Double::from(0.5));
@@ -75,13 +75,13 @@ impl Scene {
     }
 }
 
-/// Returns the shares of a random look at two bodies.
+/// Returns the shares that the errors of a random scene take.
 fn look(tape: &mut Tape) -> Option<Shares> {
     let scene = Scene::new(tape);
     look_at(tape, &scene)
 }
 
-/// The same of bodies that do not turn.
+/// Returns the shares that the errors of a scene without turns take.
 fn look_without_turns(tape: &mut Tape) -> Option<Shares> {
     let scene = Scene::new(tape).unturning();
     look_at(tape, &scene)
@@ -140,7 +140,7 @@ fn worst_distances_without_turns() {
     found.is_within(100.0);
 }
 
-/// Poses at both ends, from which velocities are derived.
+/// Velocities are derived from poses at both ends.
 #[test]
 fn worst_places_between_poses() {
     let found = Worst::of("distance_rounding, between poses", 8_000).search(|tape| {
@@ -189,7 +189,7 @@ fn worst_places_of_accelerating_bodies() {
     found.is_within(100.0);
 }
 
-/// One body as nodes of the other one see it.
+/// Compares a body as seen from the nodes of the other one with the exact one.
 #[test]
 fn worst_views() {
     let found = Worst::of("distance_rounding, views", 8_000).search(|tape| {

@@ -1,4 +1,4 @@
-//! Allowances for sums of products, against fractions, in the worst cases that a search finds.
+//! Allowances for sums of products, compared with fractions, in the worst cases that a search finds.
 
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
@@ -12,10 +12,10 @@ use crate::tests::rational::{Exact3, error_of};
 use crate::tests::worst::{Tape, Worst, share};
 use glam::{DMat3, DVec3};
 
-/// The accepted coordinates, and far smaller ones: 1e-100 to 1e12.
+/// The exponents of the accepted coordinates, and of far smaller ones: 1e-100 to 1e12.
 const COORDINATES: std::ops::RangeInclusive<i32> = -332..=39;
 
-/// Some points that are near each other, compared to their distance from the origin, or not.
+/// Returns some points that may be near each other, compared to their distance from the origin.
 fn corners<const N: usize>(tape: &mut Tape) -> [DVec3; N] {
     let scale = tape.size(COORDINATES);
     let first = DVec3::from(tape.vector(-8..=0));
@@ -27,7 +27,7 @@ fn corners<const N: usize>(tape: &mut Tape) -> [DVec3; N] {
     })
 }
 
-/// A direction that is a unit vector up to rounding; none in place of zero.
+/// Returns a direction that is a unit vector up to rounding; `None` instead of zero.
 fn axis(tape: &mut Tape) -> Option<DVec3> {
     unit(tape.vector(-60..=0).into())
 }
@@ -47,7 +47,7 @@ fn height_f64() {
     found.is_within(3.0);
 }
 
-/// Along a ray: how far ahead a corner is.
+/// The sign is that of a corner's position along a ray.
 #[test]
 fn sign_f64_of_a_product() {
     let found = Worst::of("SIGN_F64, a product", 40_000).search(|tape| {
@@ -60,7 +60,7 @@ fn sign_f64_of_a_product() {
     found.is_within(12.0);
 }
 
-/// On which side of an edge a ray passes.
+/// The sign is the side of an edge on which a ray passes.
 #[test]
 fn sign_f64_of_a_ray_and_an_edge() {
     let found = Worst::of("SIGN_F64, a ray and an edge", 40_000).search(|tape| {
@@ -74,7 +74,7 @@ fn sign_f64_of_a_ray_and_an_edge() {
     found.is_within(9.0);
 }
 
-/// On which side of a triangle a ray starts.
+/// The sign is the side of a triangle on which a ray starts.
 #[test]
 fn sign_f64_of_three_corners() {
     let found = Worst::of("SIGN_F64, three corners", 30_000).search(|tape| {
@@ -89,7 +89,7 @@ fn sign_f64_of_three_corners() {
     found.is_within(9.0);
 }
 
-/// As a tree of points and hulls take heights above planes.
+/// The heights above planes are those that a tree of points and hulls use.
 #[test]
 fn height_rounding_of_points() {
     let found = Worst::of("height_rounding, a point", 30_000).search(|tape| {
@@ -109,7 +109,7 @@ fn height_rounding_of_points() {
     found.is_within(30.0);
 }
 
-/// The height of a box is never less than that of a point in it, by more than is allowed.
+/// The height of a box is less than that of a point in it by at most the allowance.
 #[test]
 fn height_rounding_of_boxes() {
     let found = Worst::of("height_rounding, a box", 30_000).search(|tape| {
@@ -141,7 +141,7 @@ fn height_rounding_of_boxes() {
     found.is_within(40.0);
 }
 
-/// The error of three columns from unit length and right angles.
+/// The error is that of three columns, from unit length and right angles.
 #[test]
 fn frame_f64() {
     let found = Worst::of("FRAME_F64", 20_000).search(|tape| {
@@ -160,7 +160,7 @@ fn off_frame(frame: &DMat3) -> f64 {
     off.fold(0.0, greater)
 }
 
-/// `4u`, for a square within the range and for one beyond it.
+/// The allowance is `4u`, for a square within the range and for one beyond it.
 #[test]
 fn units_and_lengths() {
     for (name, exponents, looseness) in [
@@ -170,7 +170,7 @@ fn units_and_lengths() {
         let found = Worst::of(name, 40_000).search(|tape| {
             let v = DVec3::from(tape.vector(exponents.clone()));
             let n = unit(v)?;
-            // Scaled by a power of two: the digits of double-double do not reach below 1e-290.
+            // The vector is scaled by a power of two: the digits of double-double do not reach below 1e-290.
             let up = 2f64.powi(*exponents.start() / -2);
             let scaled = Double3::from(v * up);
             let exact = scaled.length().get();
@@ -183,20 +183,20 @@ fn units_and_lengths() {
     }
 }
 
-/// What an error is at all where the squares of all coordinates vanish: nothing but the last digit of the
-/// least numbers. A bound without a constant would vanish too.
+/// If the squares of all coordinates vanish, the error is only the last digit of the least numbers. A bound without a
+/// constant would vanish too.
 #[test]
 fn least_rounding() {
     let found = Worst::of("LEAST_ROUNDING", 10_000).search(|tape| {
         let v = DVec3::from(tape.vector(-1074..=-1000));
         let bound = distance_rounding([length(v), 0.0], [0.0; 2], 0.0);
         assert!(bound >= LEAST_ROUNDING && length(v).powi(2) < *SQUARES.start());
-        // A third of a length: a mean of corners.
+        // A third of a vector occurs in a mean of corners.
         let third = v / 3.0;
         let exact = Exact3::of(v);
         let off = [0, 1, 2].map(|k| {
             let truth = &exact.0[k] / dashu_ratio::Relaxed::from(3);
-            // In units of 2⁻¹⁰⁰⁰, so that a part of the least number is a number.
+            // The unit is 2⁻¹⁰⁰⁰, so that a part of the least number is representable.
             let error = crate::tests::rational::exact(third[k]) - truth;
             let unit = crate::tests::rational::exact(2f64.powi(-500));
             (error / &unit / &unit).to_f64().value().abs()
@@ -204,14 +204,14 @@ fn least_rounding() {
         let worst = off.into_iter().fold(0.0, greater);
         Some(share(worst, bound * 2f64.powi(500) * 2f64.powi(500)))
     });
-    // Far above, as its derivation says.
+    // The allowance is far above the error, as its derivation says.
     found.is_within(f64::INFINITY);
 }
 
-/// A number of turns is a quotient of an angle, which was computed in a few steps.
+/// A number of turns is a quotient of an angle, which is computed in a few steps.
 #[test]
 fn turns_f64() {
-    // 2π to 107 bits: sine and cosine of the rounded angle correct it.
+    // This is 2π to 107 bits: sine and cosine of the rounded angle correct it.
     let tau = {
         let rough = Double::from(std::f64::consts::TAU);
         rough - rough.sin_cos().0
@@ -221,7 +221,7 @@ fn turns_f64() {
         let turns = (from - width - ahead) / std::f64::consts::TAU;
         let exact = (Double::from(from) - Double::from(width) - Double::from(ahead)) / tau;
         let off = (Double::from(turns) - exact).get().abs();
-        // Angles that cancel are off by their own digits.
+        // Angles that cancel are off by the last digits of their terms.
         let most = [from, width, ahead].map(f64::abs).into_iter();
         let allowed = TURNS_F64 * (1.0 + most.fold(turns.abs(), greater));
         Some(share(off, allowed))

@@ -1,4 +1,4 @@
-//! Any contact along trajectories.
+//! The search for any contact along trajectories.
 
 use super::first::SoFar;
 use super::lengths::{cut_at_once, length};
@@ -59,7 +59,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             };
             if stretches.is_fine(&leg)? {
                 let found = kept.found(&stretches, &leg, answer.outcome)?;
-                // One is inside the other: they have met before, or overlap at the start.
+                // One body is inside the other: they have met before, or overlap at the start.
                 if let Outcome::Unresolved(known) = found.outcome {
                     undecided = lesser(undecided, known.safe_until);
                     continue;

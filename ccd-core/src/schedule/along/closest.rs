@@ -1,4 +1,4 @@
-//! The closest approach along trajectories.
+//! The search for the closest approach along trajectories.
 
 mod found;
 
@@ -67,7 +67,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
             }
             let problem = leg.problem(query, &terms)?;
-            // As much farther as the motions' distance is not known.
+            // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added
+            // to the upper bound.
             let beyond = found.upper() + leg.stray + 2.0 * problem.tolerance();
             let answer = self.approach_below(&problem, beyond, oracle);
             stretches.add(&answer.stats);
@@ -75,7 +76,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 Err(Beyond { lower }) => Seen {
                     lower,
                     upper: lower,
-                    // Bodies beyond the least distance so far are so with their strays.
+                    // Bodies whose motions are farther apart than the least distance found so far are so despite
+                    // their deviations.
                     blur: 0.0,
                     time: 0.0,
                     approach: 0.0,
@@ -141,7 +143,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         })
     }
 
-    /// Proves a part of the least distance seen of the whole query, if that is due.
+    /// Proves a lower bound of the whole query's least distance, as a part of the least distance seen, if one is due.
     fn climb_along(
         &mut self,
         found: &mut Found,
@@ -193,7 +195,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         })
     }
 
-    /// Cuts a stretch where its motions are nearest; returns false if it cannot be cut.
+    /// Cuts a stretch at the time at which its motions are nearest. Returns false if it cannot be cut.
     fn cut_where_nearest(
         &mut self,
         oracle: &mut O,
@@ -206,11 +208,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let Query {
             terms, duration, ..
         } = stretches.query();
-        // Halves will do, mostly, and cost less than a look.
+        // Halves mostly suffice, and cost less than measuring the distance.
         if leg.span.length() > COARSE * duration {
             return Ok(stretches.cut_about(leg.span, time, f64::INFINITY));
         }
-        // Where they are nearest at an end, and still approach, they get nearer beyond it.
+        // If they are nearest at an end, and still approach there, they get nearer beyond it.
         if let Some(end) = seen.falls_beyond(leg)
             && let Some(beyond) = stretches.take_beside(end)
         {
@@ -225,7 +227,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         Ok(stretches.cut_about(leg.span, time, length))
     }
 
-    /// Measures the bodies at a time; none if they overlap, or no work is left.
+    /// Measures the bodies at a time. Returns `None` if they overlap, or a limit is reached.
     fn doubt(
         &mut self,
         oracle: &mut O,
@@ -255,9 +257,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-/// What the bodies' distance at a time says of stretches there.
+/// The limits that the bodies' distance at a time sets for stretches near that time.
 struct Doubt {
-    /// Strays below that leave none.
+    /// Deviations below this leave no doubt.
     stray: f64,
     /// The rate at which the distance grows.
     rate: f64,

@@ -1,8 +1,9 @@
 //! The greatest distance along trajectories, by branch and bound over time.
 //!
-//! Two points of the bodies are never nearer to each other than the bodies are. Those that are nearest at a time bound
-//! the distance about it: at their velocities they move straight, but for half their acceleration times the square of
-//! the time, and where they move straight they are farthest at an end.
+//! The distance of two points, one of each body, is never less than the distance of the bodies. The points that are
+//! nearest at a time therefore bound the bodies' distance from above near that time. They move straight at their
+//! velocities, up to half their acceleration times the square of the time. Two points that move straight are farthest
+//! apart at an end.
 
 use super::leg::{Leg, Span};
 use super::stretches::Stretches;
@@ -32,7 +33,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// The margin plays no role.
     ///
     /// # Guarantee
-    /// That of [`Outcome`]; ends on every input.
+    /// The guarantee of [`Outcome`]; ends on every input.
     ///
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
@@ -82,13 +83,13 @@ struct Search<'s, 'j, 'a, O: DistanceOracle> {
     stretches: Stretches<'j, 'a>,
     schedule: &'s mut DepthFirst<O>,
     oracle: &'s mut O,
-    /// The time at which the bodies were seen farthest apart.
+    /// The time at which the greatest distance was measured, and the contact there.
     best: Option<(f64, Contact)>,
-    /// Bounds the distance in stretches that are not worth a cut.
+    /// An upper bound of the distance in stretches that are not worth a cut.
     settled: f64,
 }
 
-/// A stretch, and a bound of the distance in it. Of two, the one of the greater bound is greater.
+/// A stretch of time and an upper bound of the distance in it, ordered by the bound.
 struct Part {
     span: Span,
     upper: f64,
@@ -114,17 +115,17 @@ impl PartialEq for Part {
 
 impl Eq for Part {}
 
-/// Points of both bodies that are nearest at a time, and bounds of their distance.
+/// The points of both bodies that are nearest at a time, and bounds of their distance.
 struct Seen {
     points: [DVec3; 2],
     lower: f64,
     upper: f64,
-    /// A bound of what is not known of the points' distance in a stretch of no length: strays and rounding.
+    /// The part of the bound that remains in a stretch of no length: deviations and rounding.
     blur: f64,
 }
 
 impl Seen {
-    /// What a contact in a pose shows.
+    /// Returns the nearest points and their bounds from a contact in a pose.
     fn of(pose: &Leg, contact: Contact) -> Self {
         let separation = contact.separation;
         let points = [separation.witness_a, separation.witness_b];
@@ -137,11 +138,11 @@ impl Seen {
     }
 }
 
-/// An upper bound at all times, or the best one when a limit was reached.
+/// An upper bound at all times, or the best known bound and the limit that was reached.
 type Bounded = Result<f64, (f64, Limit)>;
 
 impl<O: DistanceOracle> Search<'_, '_, '_, O> {
-    /// Cuts the stretch in which the bodies may be farthest apart, again and again.
+    /// Cuts the stretch with the greatest upper bound, until the tolerance is met.
     fn run(&mut self) -> Result<Bounded, InputError> {
         let Query {
             duration, terms, ..
@@ -185,7 +186,8 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             .map_or(0.0, |(_, contact)| contact.separation.lower)
     }
 
-    /// Measures the bodies in the middle of a stretch, and bounds their distance in it; none if it is not worth a cut.
+    /// Measures the bodies in the middle of a stretch, and bounds their distance in it. Returns `None` if it is not
+    /// worth a cut.
     fn part(&mut self, span: Span, above: f64) -> Result<Result<Option<Part>, Limit>, InputError> {
         self.stretches.turn_to(span);
         let seen = match self.measure(span.middle())? {
@@ -199,7 +201,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             upper if upper >= 0.0 => lesser(upper, above),
             _ => above,
         };
-        // Shorter stretches strays and rounding would blur as much.
+        // Deviations and rounding would blur shorter stretches as much.
         if moved <= greater(SETTLED * (seen.upper - seen.lower), 2.0 * seen.blur) {
             self.settled = greater(self.settled, upper);
             return Ok(Ok(None));
@@ -242,10 +244,10 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
     }
 }
 
-/// Where the bodies are at a time.
+/// The relation of the bodies at a time.
 enum Place {
     Apart(Contact),
-    /// Their surfaces meet, or nearly so: then one of them may be inside the other.
+    /// The surfaces meet, or nearly so. One of the bodies may be inside the other.
     Meeting(Contact),
     /// A point is in both bodies.
     Inside(DVec3),
@@ -275,8 +277,8 @@ fn measured<O: DistanceOracle>(
 }
 
 impl Leg {
-    /// Bounds by how much the distance of two points, of A and of B, that are these in the middle of the leg grows
-    /// within `time` before or after.
+    /// Returns a bound of the growth of the distance between two points, one of A and one of B, within `time` before
+    /// or after the middle of the leg. The points are given at the middle of the leg.
     fn drift(&self, [on_a, on_b]: [DVec3; 2], time: f64) -> f64 {
         let middle = 0.5 * self.span.length();
         let [a, b] = &self.motions;
@@ -295,7 +297,7 @@ impl Leg {
                 length(motion.velocity()) + spin * arm + middle * length(stretch.acceleration);
             scale += length(point) + length(centre) + self.span.to * speed;
         }
-        // The points of the bodies stray from those of the motions, which turn.
+        // The points of the bodies deviate from those of the motions, which turn.
         let strays = self.stray * (2.0 + turn * time);
         let grown = (ends - length(way)) + 0.5 * bend * time * time + strays;
         greater(0.0, grown) * (1.0 + FARTHEST_F64) + FARTHEST_F64 * scale

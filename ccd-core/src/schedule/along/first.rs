@@ -10,7 +10,7 @@ use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::schedule::solve::Solve;
 
-/// Answers when the bodies first touch along their trajectories.
+/// Returns the time at which the bodies first touch along their trajectories.
 pub(in crate::schedule) fn first_contact<O: DistanceOracle, S: Solve<O>>(
     schedule: &mut S,
     query: &Query<'_>,
@@ -29,7 +29,7 @@ pub(in crate::schedule) fn first_contact<O: DistanceOracle, S: Solve<O>>(
         let problem = leg.problem(query, &terms)?;
         let answer = schedule.solve(&problem, oracle);
         stretches.add(&answer.stats);
-        // What is before a contact may not be looked at again.
+        // The stretches before a contact may not be examined again.
         kept.keep(&leg, problem.proven_gap());
         let (s, contact) = match answer.outcome {
             Outcome::Free { proven_gap } => {
@@ -62,7 +62,7 @@ pub(in crate::schedule) fn first_contact<O: DistanceOracle, S: Solve<O>>(
         };
         let seen = (s, contact);
         let length = length(&mut stretches, &leg, seen, oracle, schedule.scratch())?;
-        // Much shorter than before, its strays are as well.
+        // A much shorter stretch also has much smaller deviations.
         let is_short = rest.length() <= lesser(length, 0.5 * leg.span.length());
         if !is_short && stretches.cut(rest, length) {
             continue;
@@ -76,7 +76,7 @@ pub(in crate::schedule) fn first_contact<O: DistanceOracle, S: Solve<O>>(
     Ok(kept.free(&stretches))
 }
 
-/// What is proven of the stretches so far.
+/// The facts proven for the stretches so far.
 pub(super) struct SoFar {
     gap: f64,
     margin: f64,
@@ -137,7 +137,7 @@ impl SoFar {
             Outcome::Contact { time, contact } => at(leg.time(time), contact),
             Outcome::Touching { contact } => at(leg.span.from, contact),
             Outcome::Overlapping { .. } if stretches.begins_at_start(leg)? => outcome,
-            // Bodies that were apart until then overlap by no more than they stray.
+            // Bodies that were apart until then overlap by no more than their deviations.
             Outcome::Overlapping { overlap, .. } => match overlap.contact() {
                 Some(contact) => at(leg.span.from, contact),
                 None => Outcome::unresolved(leg.span.from, Limit::Undecided),

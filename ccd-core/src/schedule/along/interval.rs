@@ -14,11 +14,11 @@ use crate::schedule::BestFirst;
 use std::time::Instant;
 
 impl<O: DistanceOracle> BestFirst<O> {
-    /// Answers when the bodies first and last touch along their trajectories: the last contact is the first one
-    /// of the trajectories in reverse.
+    /// Answers when the bodies first and last touch along their trajectories. The last contact is the first contact
+    /// of the reversed trajectories.
     ///
     /// # Guarantee
-    /// That of [`Outcome`], for the trajectories themselves; ends on every input.
+    /// The guarantee of [`Outcome`], for the trajectories themselves; ends on every input.
     ///
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
@@ -77,7 +77,7 @@ impl<O: DistanceOracle> BestFirst<O> {
                     ..hit
                 },
             },
-            // A contact that is seen in one direction of time only is a near miss.
+            // A contact that is found in only one direction of time is a near miss.
             Ok(_) => Outcome::Interval {
                 first: begins,
                 last: begins,
@@ -92,7 +92,7 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 }
 
-/// A trajectory from its end to its start.
+/// A trajectory that runs from its end to its start.
 struct Reversed<'t> {
     of: Movement<'t>,
     duration: f64,
@@ -109,7 +109,7 @@ impl Trajectory for Reversed<'_> {
         let (first, last) = (self.time(to), self.time(from));
         let stretch = self.of.stretch(first, last)?;
         let end = stretch.started(last - first)?;
-        // Times are rounded, by as much as the bodies move in that.
+        // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
         let off = 2.0 * U64 * self.duration;
         let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));
         let moved = Stray {

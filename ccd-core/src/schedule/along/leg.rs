@@ -1,4 +1,4 @@
-//! One stretch of both trajectories, as a problem about motions.
+//! One stretch of both trajectories, as a query about motions.
 
 use crate::answer::{Contact, Separation};
 use crate::error::InputError;
@@ -19,12 +19,12 @@ use glam::DVec3;
 pub(super) struct Span {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// The part of the query, between two corners, that it is in.
+    /// The part of the query between two corners that contains the stretch.
     pub(super) part: usize,
 }
 
 impl Span {
-    /// No time, at its beginning.
+    /// Returns the stretch of no length at the start of this one.
     pub(super) fn start(self) -> Self {
         Span {
             to: self.from,
@@ -36,17 +36,17 @@ impl Span {
         self.to - self.from
     }
 
-    /// The time at which it is cut in halves.
+    /// Returns the middle of the stretch.
     pub(super) fn middle(&self) -> f64 {
         self.from + 0.5 * self.length()
     }
 }
 
-/// The motions of both bodies in a stretch of time, and how far the bodies stray from them.
+/// The motions of both bodies in a stretch of time, and the bodies' deviation from them.
 #[derive(Debug)]
 pub(super) struct Leg {
     pub(super) motions: [Stretch; 2],
-    /// The sum of both strays.
+    /// The sum of both deviations.
     pub(super) stray: f64,
     pub(super) span: Span,
 }
@@ -64,7 +64,7 @@ impl Leg {
         })
     }
 
-    /// Returns the motions without accelerations: what these add up to counts as a stray.
+    /// Returns the motions without accelerations. The displacement by these counts as a deviation.
     pub(super) fn straight(mut self) -> Self {
         let time = self.span.length();
         for stretch in &mut self.motions {
@@ -75,7 +75,7 @@ impl Leg {
         self
     }
 
-    /// Returns true if queries take the lengths by which the bodies stray and accelerate.
+    /// Returns true if queries accept the deviations and the displacements by acceleration.
     pub(super) fn is_in_range(&self, query: &Query<'_>) -> bool {
         let time = self.span.length();
         let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
@@ -85,19 +85,18 @@ impl Leg {
         self.stray >= 0.0 && self.stray <= most && far(a) <= most && far(b) <= most
     }
 
-    /// Guesses the length of a stretch in which the bodies stray by that much: strays shrink with a power of it.
+    /// Estimates the length of a stretch with this deviation: deviations shrink with a power of the length.
     pub(super) fn length_for(&self, stray: f64) -> f64 {
         self.span.length() * (stray / self.stray).powf(1.0 / self.order())
     }
 
-    /// Guesses the length of a stretch in which the bodies stray by a share of what their distance changes by at a
-    /// rate.
+    /// Estimates the length of a stretch in which the deviation is a share of the change of distance at a rate.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole * (STRAY_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
     }
 
-    /// The power of the time with which strays grow.
+    /// Returns the power of the time with which deviations grow.
     fn order(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
         if self.motions.iter().any(accelerates) {
@@ -107,12 +106,12 @@ impl Leg {
         }
     }
 
-    /// Returns true if a part of that length is much shorter.
+    /// Returns true if a part of this length is much shorter than the stretch.
     pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
         length < WORTH_A_CUT * self.span.length()
     }
 
-    /// Returns the rate at which the bodies approach each other in a contact of the motions.
+    /// Returns the rate at which the bodies approach each other at a contact of the motions.
     pub(super) fn approach(&self, time: f64, contact: &Contact) -> f64 {
         let Separation {
             witness_a,
@@ -124,7 +123,7 @@ impl Leg {
         normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
     }
 
-    /// Poses the problem of the motions. Wherever the bodies stray, they keep the gap that a query about one motion
+    /// Returns the problem of the motions. At any deviation the bodies keep the gap that a query about one motion
     /// proves: half the tolerance beyond the margin.
     pub(super) fn problem<'a>(
         &self,
@@ -132,7 +131,7 @@ impl Leg {
         terms: &Terms<'a>,
     ) -> Result<Problem<'a>, InputError> {
         let tolerance = self.tolerance(terms.tolerance);
-        // Both tolerances have the same middle, the gap that is proven.
+        // Both tolerances have the same middle: the gap that is proven.
         let beyond = 0.5 * greater(terms.tolerance - tolerance, 0.0);
         let terms = Terms {
             margin: terms.margin + beyond + self.stray,
@@ -149,20 +148,20 @@ impl Leg {
         )
     }
 
-    /// Returns the tolerance for the motions: that for the bodies without the strays, which are lost twice on either
-    /// side of its middle, for the gap that the motions keep and for the contact that they show.
+    /// Returns the tolerance for the motions: that for the bodies, less four deviations. Two are lost on either side
+    /// of its middle: for the gap that the motions keep, and for the contact that they show.
     fn tolerance(&self, whole: f64) -> f64 {
-        // Written so that without strays it is the whole, to the last bit.
+        // Written so that without deviations the result is the whole tolerance, to the last bit.
         let left = whole - 4.0 * self.stray;
         if self.stray == 0.0 || left >= (1.0 - 4.0 * STRAY_SHARE) * whole {
             return left;
         }
-        // Too little is left for a contact. Distances that strays blur need not be known better.
+        // Too little is left for a contact. Distances blurred by deviations need not be known better.
         let least = greater((1.0 - 4.0 * STRAY_SHARE) * whole, BLURRED * self.stray);
         greater(least, LEAST_TOLERANCE)
     }
 
-    /// Returns what a distance of the motions says of the bodies where they stray.
+    /// Returns the lower bound of the bodies' distance that a distance of the motions implies.
     pub(super) fn at_least(&self, distance: f64) -> f64 {
         if self.stray > 0.0 {
             (distance - self.stray).next_down()
@@ -181,7 +180,7 @@ impl Leg {
         }
     }
 
-    /// Returns the contact with bounds that hold for the bodies where they stray.
+    /// Returns the contact with bounds that hold for the bodies despite their deviations.
     pub(super) fn contact(&self, contact: Contact) -> Contact {
         let Separation { lower, upper, .. } = contact.separation;
         Contact {
@@ -195,13 +194,13 @@ impl Leg {
     }
 }
 
-/// Bounds the distance of a body's points from the centre of a stretch's motion.
+/// Returns a bound of the distance of a body's points from the centre of a stretch's motion.
 fn reach(moving: &Moving<'_>, stretch: &Stretch) -> f64 {
     let (centre, radius) = moving.body.tree().ball();
     centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius
 }
 
-/// Returns a sum, rounded up; nothing added is exact.
+/// Returns a sum, rounded up; a sum with zero is exact.
 fn sum(a: f64, b: f64) -> f64 {
     if b > 0.0 && a != 0.0 {
         (a + b).next_up()

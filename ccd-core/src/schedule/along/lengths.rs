@@ -1,5 +1,5 @@
-//! How long a stretch is worth a look: long enough to get somewhere, and so short that the bodies stray by less than
-//! their distance.
+//! The length of a stretch to try next: long enough for progress, and so short that the deviations are less than the
+//! bodies' distance.
 
 use super::leg::Leg;
 use super::stretches::Stretches;
@@ -12,8 +12,8 @@ use crate::schedule::scratch::Scratch;
 use crate::settings::Terms;
 use crate::tuning::{COARSE, STRAY_SHARE};
 
-/// Cuts a stretch that looks too long before it is tried: where it meets a proven one, the bodies are measured.
-/// Returns false if it is worth a try.
+/// Cuts a stretch that is probably too long before it is searched: the bodies are measured where it meets a proven
+/// one. Returns false if the stretch is worth a search.
 pub(super) fn cut_at_once<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
     leg: &Leg,
@@ -26,7 +26,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
         return Ok(false);
     };
-    // Backwards in time, rates have the other sign.
+    // Rates have the opposite sign backwards in time.
     let approach = if time > leg.span.from {
         -approach
     } else {
@@ -36,7 +36,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     Ok(leg.is_worth_a_cut(length) && stretches.cut_about(leg.span, time, 2.0 * length))
 }
 
-/// Returns the length of a stretch worth a look after a contact of the motions at a time of a leg.
+/// Returns the length of a stretch worth a search after a contact of the motions at a time of a leg.
 pub(super) fn length<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
     leg: &Leg,
@@ -47,9 +47,9 @@ pub(super) fn length<O: DistanceOracle>(
     let query = stretches.query();
     let seen = match time > 0.0 {
         true => seen.map(|contact| (contact, leg.approach(time, &contact))),
-        // Halves will do, mostly, and cost less.
+        // Halves mostly suffice, and cost less.
         false if leg.span.length() > COARSE * query.duration => return Ok(f64::INFINITY),
-        // The motions begin beside the bodies: how near these are is not seen.
+        // The motions begin beside the bodies. They do not show the distance of the bodies, which is measured.
         false => stretches.measure(leg.span.from, oracle, scratch)?,
     };
     Ok(match seen {
@@ -58,8 +58,9 @@ pub(super) fn length<O: DistanceOracle>(
     })
 }
 
-/// Returns the length of a stretch worth a look where the bodies are as near as a contact shows, and approach each
-/// other at a rate: they stray by a part of their distance, and get where they meet, or where they are nearest.
+/// Returns the length of a stretch worth a search, from the bodies' distance at a contact and the rate at which they
+/// approach. In such a stretch the deviation is a part of the distance, and the bodies reach the time at which they
+/// meet or are nearest.
 ///
 /// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
 /// and pass each other closely, they are nearest after about `2 d/r`.

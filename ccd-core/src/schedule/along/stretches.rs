@@ -15,21 +15,21 @@ use crate::tuning::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// The stretches that wait, the next one last, and the work so far.
+/// The waiting stretches, the next one last, and the work so far.
 pub(super) struct Stretches<'j, 'a> {
     query: &'j Query<'a>,
     waiting: Vec<Span>,
     pub(super) stats: Stats,
     budgets: Budgets,
     looked_at_start: bool,
-    /// The last stretch that was proven, and its strays.
+    /// The last stretch that was proven, and its deviations.
     proven: Option<(Span, f64)>,
-    /// None if there is no deadline; then no clock is read.
+    /// The start of the query; `None` if there is no deadline. No clock is read then.
     begun: Option<Instant>,
 }
 
 impl<'j, 'a> Stretches<'j, 'a> {
-    /// Starts with the whole duration.
+    /// Starts with one stretch, the whole duration.
     pub(super) fn new(query: &'j Query<'a>) -> Self {
         Stretches {
             query,
@@ -54,18 +54,18 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.waiting.pop()
     }
 
-    /// Returns the stretches that wait.
+    /// Returns the waiting stretches.
     pub(super) fn waiting(&self) -> &[Span] {
         &self.waiting
     }
 
-    /// Returns the first time of all stretches that wait; infinite if none does.
+    /// Returns the first time of all waiting stretches; infinite if there are none.
     pub(super) fn first(&self) -> f64 {
         let starts = self.waiting.iter().map(|span| span.from);
         starts.fold(f64::INFINITY, lesser)
     }
 
-    /// Returns the settings with what is left of budget and deadline.
+    /// Returns the settings with the rest of the budget and of the deadline.
     pub(super) fn terms(&self) -> Result<Terms<'a>, Limit> {
         let terms = &self.query.terms;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
@@ -89,19 +89,19 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Adds the work on a stretch.
     pub(super) fn add(&mut self, stats: &Stats) {
-        // A stretch is worth a visit, even if it takes none.
+        // Each stretch counts as one visit, even if its search made none.
         self.stats.iterations += 1;
         self.stats.add(stats);
     }
 
-    /// Adds work on the whole query, which no part has to pay for.
+    /// Adds work on the whole query, which is charged to no part.
     pub(super) fn add_for_no_part(&mut self, stats: &Stats) {
         self.stats.add(stats);
         self.budgets.begun += stats.work();
     }
 
-    /// Returns the motions in a stretch, cut until the bodies stray from them by a length that queries
-    /// take, with the settings; or the limit that was reached.
+    /// Returns the motions in a stretch with the settings, or the limit that was reached. The stretch is cut until
+    /// the deviations are lengths that queries accept.
     pub(super) fn leg(
         &mut self,
         mut span: Span,
@@ -123,13 +123,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
         }
     }
 
-    /// Returns true if a contact of a leg's motions is one of the bodies, as well as can be told: within the
-    /// tolerance, or cutting does not make it any better.
+    /// Returns true if a contact of a leg's motions is accepted as one of the bodies: the tolerance is met, or
+    /// cutting does not improve it.
     pub(super) fn is_fine(&self, leg: &Leg) -> Result<bool, InputError> {
         Ok(leg.stray <= STRAY_SHARE * self.query.terms.tolerance || self.is_shortest(leg)?)
     }
 
-    /// Returns true if the bodies stray hardly farther than in a stretch of no length: by rounding.
+    /// Returns true if the deviations are hardly larger than in a stretch of no length: only rounding remains.
     fn is_shortest(&self, leg: &Leg) -> Result<bool, InputError> {
         let least = Leg::new(self.query, leg.span.start())?;
         Ok(leg.stray <= 2.0 * least.stray)
@@ -141,9 +141,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
         Ok(leg.span.from == 0.0 && (leg.stray == 0.0 || self.is_shortest(leg)?))
     }
 
-    /// Lets the pose at the start be next, and then the leg again, if the leg's motions begin beside it: where
-    /// they overlap at the start, the bodies need not. Returns false once the start was looked at, and for legs
-    /// that begin later.
+    /// Schedules the pose at the start, and then the leg again, if the leg's motions begin beside that pose: an
+    /// overlap of the motions at the start need not be one of the bodies. Returns false if the start was examined
+    /// already, and for legs that begin later.
     pub(super) fn look_at_start(&mut self, leg: &Leg) -> Result<bool, InputError> {
         if leg.span.from > 0.0 || self.looked_at_start || self.begins_at_start(leg)? {
             return Ok(false);
@@ -158,8 +158,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.proven = Some((leg.span, leg.stray));
     }
 
-    /// Returns the time at which a stretch begins or ends beside the one that was proven last, if its strays are
-    /// much larger: they likely are too large.
+    /// Returns the time at which a stretch begins or ends beside the one that was proven last, if its deviations are
+    /// much larger: they are probably too large.
     pub(super) fn looks_too_long(&mut self, leg: &Leg) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
         let Span { from, to, .. } = leg.span;
@@ -168,12 +168,12 @@ impl<'j, 'a> Stretches<'j, 'a> {
         (leg.stray > MUCH_LONGER * stray).then_some(time)
     }
 
-    /// Lets work from now on count for the part of the query that a stretch is in.
+    /// Charges the following work to the part of the query that contains a stretch.
     pub(super) fn turn_to(&mut self, span: Span) {
         self.budgets.turn_to(span.part, self.stats.work());
     }
 
-    /// Returns the pose at a time, with the settings; or the limit that was reached.
+    /// Returns the pose at a time and the settings, or the limit that was reached.
     pub(super) fn pose(&self, time: f64) -> Result<Result<(Leg, Terms<'a>), Limit>, InputError> {
         let terms = match self.terms() {
             Ok(terms) => terms,
@@ -187,8 +187,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         Ok(Ok((Leg::new(self.query, span)?, terms)))
     }
 
-    /// Measures the bodies at a time, up to rounding: returns the contact and the rate at which they approach; none if
-    /// they overlap, or no work is left.
+    /// Measures the bodies at a time, up to rounding. Returns the contact and the rate at which the bodies approach;
+    /// `None` if they overlap, or a limit is reached.
     pub(super) fn measure<O: DistanceOracle>(
         &mut self,
         time: f64,
@@ -209,20 +209,20 @@ impl<'j, 'a> Stretches<'j, 'a> {
         })
     }
 
-    /// Takes out the stretch that waits beside a time; none if all there is proven.
+    /// Removes and returns the waiting stretch beside a time; `None` if everything there is proven.
     pub(super) fn take_beside(&mut self, time: f64) -> Option<Span> {
         let is_beside = |span: &Span| span.from == time || span.to == time;
         let index = self.waiting.iter().rposition(is_beside)?;
         Some(self.waiting.remove(index))
     }
 
-    /// Lets a stretch be next.
+    /// Makes a stretch the next one.
     pub(super) fn push(&mut self, span: Span) {
         self.waiting.push(span);
     }
 
-    /// Cuts a stretch in two, at a corner or after about that length, and lets the earlier part be next. Returns
-    /// false if it cannot be cut.
+    /// Cuts a stretch in two, at a corner or after about this length, and makes the earlier part the next one.
+    /// Returns false if it cannot be cut.
     pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
         let Some([early, late]) = self.parts(span, length) else {
             return false;
@@ -231,8 +231,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    /// Cuts a part of about that length, about a time, out of a stretch, and lets it be next; or the part with that
-    /// time, at a corner. Returns false if it cannot be cut.
+    /// Cuts a part of about this length around a time out of a stretch, and makes it the next one. At a corner it is
+    /// the part that contains the time. Returns false if the stretch cannot be cut.
     pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
         let whole = span.length();
         let Some([early, late]) = self.parts(span, 0.5 * whole) else {
@@ -240,7 +240,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         };
         let half = 0.5 * greater(length, LEAST_CUT * whole);
         let [first, last] = [time - half, time + half];
-        // Written so that NaN is a half of the stretch, and so is a length that is lost to rounding.
+        // Written so that NaN, or a length lost to rounding, gives a half of the stretch.
         let is_part = length < 0.5 * whole && first < time && last > time;
         if !is_part || early.to != span.middle() {
             if time < late.from {
@@ -251,7 +251,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             return true;
         }
         let mut middle = span;
-        // What would be left beside it is hardly longer.
+        // The rest beside it would be hardly longer.
         if last + half < span.to {
             self.waiting.push(Span { from: last, ..span });
             middle.to = last;
@@ -297,12 +297,12 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 }
 
-/// The work on each part of a query: a part between two corners has a budget of its own.
+/// The work on each part of a query. Each part between two corners has its own budget.
 struct Budgets {
     spent: Vec<u64>,
-    /// The part that is worked on.
+    /// The part that is charged now.
     part: usize,
-    /// The work on all parts when that began.
+    /// The work on all parts when the charging of this part began.
     begun: u64,
 }
 
@@ -317,18 +317,18 @@ impl Default for Budgets {
 }
 
 impl Budgets {
-    /// Returns the work on the present part; `work` is that on all of them.
+    /// Returns the work on the present part; `work` is the total of all parts.
     fn spent(&self, work: u64) -> u64 {
         self.spent[self.part] + (work - self.begun)
     }
 
-    /// Lets work from now on count for a part.
+    /// Charges the following work to a part.
     fn turn_to(&mut self, part: usize, work: u64) {
         self.spent[self.part] = self.spent(work);
         (self.part, self.begun) = (part, work);
     }
 
-    /// Returns a part with a budget of its own, or that of the part that it was cut from, if there are too many.
+    /// Returns a new part with its own budget; or the given part, which it was cut from, if there are too many.
     fn another(&mut self, part: usize) -> usize {
         if self.spent.len() >= MOST_PARTS {
             return part;

@@ -1,4 +1,4 @@
-//! Answers along trajectories against sampled distances, and against those of plain motions.
+//! Answers along trajectories, compared with sampled distances, and with the answers for plain motions.
 
 mod budgets;
 
@@ -117,7 +117,7 @@ fn first_contacts_hold_at_sampled_times() {
     );
 }
 
-/// Schedules that take no accelerations find the same contacts, as late and no later.
+/// Schedules that take no accelerations into account find the same contacts, never late and equally early.
 #[test]
 fn every_schedule_finds_first_contacts_along_trajectories() {
     let mut rng = rng(31);
@@ -235,10 +235,10 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     assert!(apart > 60 && touching > 60, "{apart} {touching}");
 }
 
-/// A motion of constant velocities, known as a trajectory of a user's own.
+/// A motion of constant velocities, given as a user's own trajectory.
 struct Own(Motion);
 
-/// A motion that does not say that it is one: the query is answered stretch by stretch.
+/// A motion given as a trajectory that does not return it as one: the query is answered stretch by stretch.
 struct Unknown(Motion);
 
 impl Trajectory for Unknown {
@@ -303,7 +303,7 @@ fn a_motion_as_a_trajectory_of_ones_own_has_the_same_answer_within_the_tolerance
             (Outcome::Free { .. }, Outcome::Free { .. }) => misses += 1,
             (Outcome::Touching { .. }, Outcome::Touching { .. })
             | (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
-            // Coordinates too large for the tolerance on a path of its own.
+            // The coordinates are too large for the tolerance on this path.
             (_, Outcome::Unresolved(_)) => grazes += 1,
             (answer, along) => {
                 grazes += 1;

@@ -1,4 +1,4 @@
-//! Translates answers about surfaces to the pieces that have these surfaces.
+//! Translates answers about surfaces to the pieces that the surfaces bound.
 
 use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
@@ -47,8 +47,8 @@ pub(in crate::schedule) fn contact_of_given<O: DistanceOracle>(
     }
 }
 
-/// Returns the contact along a common normal of both surfaces, where its own normal is mostly rounding: pieces that
-/// touch may do so in directions in which the rest of the surfaces does not.
+/// Returns the contact along a common normal of both surfaces, if its own normal is mostly rounding. Touching pieces
+/// may have normals that the rest of the surfaces does not have.
 fn along_common_normal(
     problem: &Problem<'_>,
     meter: &mut Meter,
@@ -67,7 +67,7 @@ fn along_common_normal(
     }
     let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, s);
     let pieces = &snapshot.pieces;
-    // The cores of rounded pieces are apart.
+    // Rounded pieces are skipped: their cores are apart.
     if pieces.a.radius + pieces.b.radius > 0.0 {
         return contact;
     }
@@ -78,8 +78,9 @@ fn along_common_normal(
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;
-    // Pieces that overlap have no direction between them. That they touch, either direction may prove: an oracle
-    // that knows their nearest points to rounding need not know a direction. Written so that NaN is an overlap.
+    // Overlapping pieces have no direction between them. Either direction may prove that they touch: an oracle that
+    // computes their nearest points up to rounding need not return a direction. Written so that NaN counts as an
+    // overlap.
     if !(greater(lower, gap) >= -RESTING * problem.rounding) {
         return contact;
     }
@@ -107,8 +108,8 @@ fn of_pieces<O: DistanceOracle>(
     let checked = snapshot.ask(oracle, &mut O::Cache::default(), meter);
     match checked.filter(|checked| checked.upper <= within) {
         Some(checked) => pair::contact(&snapshot, ids, &checked).no_nearer_than(bound),
-        // The oracle finds less for the pieces: the result on their surfaces remains, with the
-        // bounds that its normal proves for them.
+        // The oracle finds less for the pieces than for their surfaces. The result for the surfaces remains, with the
+        // bounds that its normal proves for the pieces.
         None => {
             let axis = snapshot.frames[0].inverse_vector(contact.separation.normal);
             let from = snapshot.frames[0].inverse_point(given.local(contact.separation.witness_a));

@@ -1,4 +1,4 @@
-//! Any contact against the first contact and against samples, with every budget and honest or lying
+//! Answers for any contact, compared with the first contact and with samples, with every budget and honest or lying
 //! oracles.
 
 use super::*;
@@ -34,7 +34,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
             (Outcome::Contact { time, contact }, Outcome::Contact { time: first, .. }) => {
                 hits += 1;
                 later += u32::from(time > first);
-                // Neither is much earlier than the other is certain of.
+                // Neither contact is much earlier than the other is certain.
                 assert!(time >= first || distance(&problem, time) <= within + problem.rounding);
                 assert!(contact.separation.upper <= within, "{number}: {contact:?}");
                 assert!(distance(&problem, time) <= within + problem.rounding);
@@ -57,7 +57,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
                 assert!(distance(&problem, time) <= within + problem.rounding);
             }
             (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => starts += 1,
-            // Nearest within the tolerance, but not within half of it: both answers are right.
+            // The least distance is within the tolerance, but not within half of it: both answers are right.
             (Outcome::Free { .. }, Outcome::Contact { time, .. })
             | (Outcome::Contact { time, .. }, Outcome::Free { .. }) => {
                 grazes += 1;

@@ -1,4 +1,5 @@
-//! Whole queries: against samples, the naive schedule, tiny budgets, and a million pairs at once.
+//! Whole queries, compared with samples and with the naive schedule, with tiny budgets, and with a million pairs at
+//! once.
 
 use super::*;
 use crate::answer::Unresolved;
@@ -57,8 +58,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
                     "{number}: {near:e}"
                 );
                 holds(&problem, time, &contact);
-                // Both stop within the tolerance of one contact: neither is much earlier than the
-                // other.
+                // Both searches stop within the tolerance of one contact: neither is much earlier than the other.
                 let (first, last) = (lesser(time, other), greater(time, other));
                 assert!(distance(&problem, first) <= margin + tolerance + problem.rounding);
                 assert!(distance(&problem, last) <= margin + tolerance + problem.rounding);
@@ -68,7 +68,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
                 misses += 1;
                 (1.0, proven_gap)
             }
-            // Nearest within the tolerance, but not within half of it: both answers are right.
+            // The least distance is within the tolerance, but not within half of it: both answers are right.
             (Outcome::Contact { time, .. }, Outcome::Free { .. })
             | (Outcome::Free { .. }, Outcome::Contact { time, .. }) => {
                 grazes += 1;
@@ -121,7 +121,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
                 "{number}: {found:e} before {until}"
             );
         }
-        // The straight motions of the start say something else.
+        // Straight motions with the velocities of the start give another answer.
         let straight = Scene {
             accelerations: [DVec3::ZERO; 2],
             ..scene
@@ -136,7 +136,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
     assert!(later > 12, "{later}");
 }
 
-/// Checks that the named pieces are as far apart as claimed.
+/// Checks that the pieces of a contact are as far apart as claimed.
 fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
     let placed = |side: &Side<'_>, piece: u32| {
         let frame = side.path.frame(s);
@@ -160,7 +160,7 @@ fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
         "{found:e} {contact:?}"
     );
     let way = separation.witness_b.distance(separation.witness_a);
-    // Witnesses are rounded once more where they are in the world.
+    // Witnesses are rounded once more in the world's coordinates.
     let world = f64::EPSILON * (separation.witness_a.length() + separation.witness_b.length());
     assert!(way <= separation.upper + problem.rounding + world);
     assert!((separation.normal.length() - 1.0).abs() < 1e-15);
@@ -311,8 +311,8 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
     }
 }
 
-/// Large level plates at equal steps of height, in a random hierarchy: below every node there are
-/// plates of all heights, so that only single plates are apart.
+/// Large level plates at equal steps of height, in a random hierarchy. Below every node there are plates of all
+/// heights, so that only single plates are apart.
 fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
     let plate = |k: usize| {
         let height = (lowest + step * k as f64) * DVec3::Z;
@@ -373,7 +373,7 @@ fn a_million_groups_of_pairs_wait_at_once() {
         time <= exact && time >= exact - all.tolerance,
         "{time} of {exact}"
     );
-    // Not enough visits for all: the certified time is then not later.
+    // The visits do not suffice for all: the certified time is then not later.
     let some = answer(1_000_000);
     let Outcome::Unresolved(Unresolved {
         safe_until,
@@ -387,8 +387,8 @@ fn a_million_groups_of_pairs_wait_at_once() {
     assert!(safe_until <= time);
 }
 
-/// A triangle of size 200 turns about a line below a thousand small ones. Nodes that a plane which
-/// turns with it keeps apart need no split, and stay apart for a while.
+/// A triangle of size 200 turns about a line below a thousand small ones. Planes that turn with it keep pairs of
+/// nodes apart for a while, without splits.
 #[test]
 fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
     let small = |k: u32| {

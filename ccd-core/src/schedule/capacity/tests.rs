@@ -1,4 +1,4 @@
-//! Lists give back what is too much.
+//! Tests that lists give back memory beyond the bound.
 
 use super::*;
 

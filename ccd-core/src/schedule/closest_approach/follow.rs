@@ -9,8 +9,8 @@ use crate::schedule::pieces::pair;
 use crate::schedule::pieces::snapshot::Snapshot;
 use crate::tuning::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
 
-/// Follows the pieces of a contact to a time at which they are nearer, about a local minimum of their
-/// distance. Returns the nearest that was seen.
+/// Follows the pieces of a contact to a nearby local minimum of their distance. Returns the nearest pieces that were
+/// measured.
 pub(super) fn follow<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -47,8 +47,8 @@ struct Slope {
 }
 
 impl<O: DistanceOracle> Descent<'_, O> {
-    /// Looks at the pieces at a clock; none if the oracle gives up, or if they are known to be as near
-    /// as matters.
+    /// Measures the pieces at a clock. Returns `None` if the oracle gives up, or if the pieces are already as near as
+    /// matters.
     fn look(&mut self, clock: f64) -> Option<Slope> {
         if self.best.contact.separation.upper <= self.problem.tolerance {
             return None;
@@ -74,13 +74,13 @@ impl<O: DistanceOracle> Descent<'_, O> {
         })
     }
 
-    /// Goes down from a clock until the distance grows again: returns two clocks with a least distance in
-    /// between, that from which the distance falls first.
+    /// Descends from a clock until the distance grows again. Returns two clocks with a local minimum of the distance
+    /// between them; the distance falls from the first one on.
     fn bracket(&mut self, from: f64) -> Option<[Slope; 2]> {
         let mut here = self.look(from)?;
         let forward = here.rate < 0.0;
         let end = if forward { 1.0 } else { 0.0 };
-        // At this rate the pieces would meet. Bodies that turn further may pass a valley.
+        // The pieces would meet at this rate. A larger rotation may pass a valley of the distance.
         let turning = self.problem.a.path.rate + self.problem.b.path.rate;
         let mut step = lesser((here.distance / here.rate).abs(), FOLLOWED_TURN / turning);
         for _ in 0..FOLLOWING_LOOKS {
@@ -109,7 +109,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         None
     }
 
-    /// Narrows the interval that holds a least distance, which falls from the first clock on.
+    /// Narrows the interval around a minimum of the distance, which falls from the first clock on.
     fn narrow(&mut self, mut falling: Slope, mut other: Slope) {
         for look in 0..FOLLOWING_LOOKS {
             let width = other.clock - falling.clock;
@@ -117,8 +117,8 @@ impl<O: DistanceOracle> Descent<'_, O> {
             if !((width * falling.rate).abs() > FOLLOWED * self.problem.tolerance) {
                 return;
             }
-            // Where a straight line through both rates is zero; every other time in the middle, for
-            // rates that jump.
+            // The step goes to the zero of a straight line through both rates. Every other step halves the interval,
+            // for rates that jump.
             let zero = falling.rate / (falling.rate - other.rate);
             let share = if look % 2 == 0 && (0.0..=1.0).contains(&zero) {
                 zero

@@ -1,4 +1,4 @@
-//! The least distance at a few times, to begin with.
+//! A first guess of the least distance, from measurements at a few times.
 
 use super::Best;
 use super::follow::follow;
@@ -12,8 +12,8 @@ use crate::schedule::out_of_reach::{least_distance, nearest_clock};
 use crate::tuning::{FOLLOWED, GUESSES};
 use std::ops::ControlFlow;
 
-/// Measures the bodies when balls around them are nearest, and follows the nearest pieces from there; then
-/// again at that time, for as long as it finds nearer ones.
+/// Measures the bodies when bounding balls are nearest, and follows the nearest pieces from there. The search repeats
+/// this at the time found, as long as it finds nearer pieces.
 ///
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
 pub(super) fn guess<O: DistanceOracle>(
@@ -39,7 +39,7 @@ pub(super) fn guess<O: DistanceOracle>(
             break;
         }
     }
-    // Beyond all distances there is nothing to look for.
+    // If `beyond` is infinite, every distance is of interest, and none was found.
     if best.is_none() && beyond == f64::INFINITY {
         ControlFlow::Break(super::unresolved(0.0, Limit::OracleGaveUp))
     } else {
@@ -67,7 +67,7 @@ pub(in crate::schedule) fn nearest_at<O: DistanceOracle>(
         contact,
     };
     match stopped {
-        // They meet before.
+        // The bodies have met before.
         Some(Stop::Overlap(pieces, contact)) if clock > 0.0 => {
             ControlFlow::Continue(Some(best((pieces, contact))))
         }

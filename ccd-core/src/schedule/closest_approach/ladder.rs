@@ -1,7 +1,8 @@
-//! Lower bounds proven on the way, for a search that may end before its own is.
+//! Lower bounds of the distance, for a search that may reach a limit before it has its answer.
 //!
-//! A search for the least distance proves it for each pair in turn: it knows nothing of the bodies until its end.
-//! Half of the distance is proven much sooner. A search that takes long stops now and then to do so, and climbs.
+//! A search for the least distance proves it pair by pair, and has no bound for the whole bodies until its end. Half
+//! of the distance is proven much sooner. A long search therefore stops now and then, to prove such a part: a *rung*
+//! of the ladder.
 
 use crate::math::order::greater;
 use crate::problem::Problem;
@@ -11,25 +12,25 @@ use crate::problem::Problem;
 pub(in crate::schedule) struct Ladder {
     /// The work at which the next rung is due.
     next: u64,
-    /// The work at which the last one is: the rest of the budget is for it.
+    /// The work at which the last rung is due. The rest of the budget is reserved for it.
     last: u64,
-    /// The part that is tried next.
+    /// The part of the distance to prove next.
     part: f64,
-    /// The best bound of the distance at all times.
+    /// The best lower bound of the distance at all times.
     pub(in crate::schedule) lower: f64,
 }
 
-/// A question for any contact, which may prove a lower bound.
+/// A query for any contact. If there is none, a lower bound is proven.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::schedule) struct Rung {
     pub(in crate::schedule) margin: f64,
     pub(in crate::schedule) tolerance: f64,
-    /// The most work on it.
+    /// The most work on the rung.
     pub(in crate::schedule) budget: u64,
 }
 
 impl Rung {
-    /// Returns the problem that asks it.
+    /// Returns the problem of this rung.
     pub(in crate::schedule) fn problem<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
         let mut asking = problem.keeping(self.margin, self.tolerance);
         asking.budget = self.budget;
@@ -37,17 +38,17 @@ impl Rung {
     }
 }
 
-/// The work after which the first rung is tried: most searches have ended before.
+/// The work after which the first rung is tried. Most searches end sooner.
 const FIRST: u64 = 1 << 17;
 
-/// The same for searches that time may end.
+/// The work after which the first rung is tried in a search with a deadline or a stop flag.
 const FIRST_TIMED: u64 = 1 << 14;
 
-/// The most rungs at the end of a search that did not get to its answer.
+/// The most rungs at the end of a search that reached a limit.
 pub(in crate::schedule) const LAST_RUNGS: usize = 8;
 
 impl Ladder {
-    /// Begins with a bound that is known, for a search with this budget.
+    /// Creates the ladder with a known lower bound, for a search with this budget.
     pub(in crate::schedule) fn new(lower: f64, budget: u64) -> Self {
         let last = budget - budget / 4;
         Ladder {
@@ -59,7 +60,7 @@ impl Ladder {
         }
     }
 
-    /// Returns the ladder for a search that time may end, or another thread.
+    /// Returns the ladder for a search that a deadline or another thread may end.
     pub(in crate::schedule) fn timed(self) -> Self {
         Ladder {
             next: self.next.min(FIRST_TIMED),
@@ -67,7 +68,7 @@ impl Ladder {
         }
     }
 
-    /// Returns the next rung if it is due: it may take half as much work as was done before.
+    /// Returns the next rung if it is due. The rung may take half as much work as was done before.
     #[inline]
     pub(in crate::schedule) fn due(&mut self, work: u64, upper: f64) -> Option<Rung> {
         if work < self.next {
@@ -81,10 +82,10 @@ impl Ladder {
         self.rung(upper, work / 2)
     }
 
-    /// Returns the next rung below a distance; none if that is not known, or nothing can be gained.
+    /// Returns the next rung below a distance; `None` if the distance is unknown, or nothing can be gained.
     pub(in crate::schedule) fn rung(&self, upper: f64, budget: u64) -> Option<Rung> {
         let level = self.part * upper;
-        // The tolerance is room for proofs.
+        // The tolerance leaves room for proofs.
         let (margin, tolerance) = (0.75 * level, 0.25 * level);
         (margin > self.lower && level < f64::INFINITY && budget > 0).then_some(Rung {
             margin,
@@ -93,7 +94,7 @@ impl Ladder {
         })
     }
 
-    /// Takes what came of a rung: the bound that is proven, if it is.
+    /// Records the result of a rung: the proven bound, or `None`.
     pub(in crate::schedule) fn climb(&mut self, proven: Option<f64>) {
         match proven {
             Some(proven) => {

@@ -16,15 +16,15 @@ use crate::schedule::search::{Advance, Question, Search};
 use crate::schedule::stack::Stack;
 use std::ops::ControlFlow;
 
-/// How close do they come? Pairs are proven to keep the least distance found so far.
+/// The search for the least distance. Each pair is proven to keep the least distance found so far.
 pub(super) struct Nearing {
     pub(super) best: Option<Best>,
-    /// Larger distances are of no interest.
+    /// Distances above this are of no interest.
     pub(super) beyond: f64,
     pub(super) proven: Proven,
     /// The reason why some pair could not be proven to the end.
     pub(super) stuck: Option<Limit>,
-    /// What is proven of all pairs.
+    /// The lower bound that is proven for all pairs.
     pub(super) ladder: Ladder,
 }
 
@@ -49,7 +49,7 @@ impl Nearing {
         Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
     }
 
-    /// Searches for pairs nearer than a rung, in a search of its own: proves the rung, or sees nearer pieces.
+    /// Searches for pairs nearer than a rung, in a separate search. It proves the rung, or finds nearer pieces.
     ///
     /// Breaks with the answer for bodies that overlap.
     pub(super) fn climb<O: DistanceOracle>(
@@ -99,7 +99,8 @@ impl Nearing {
         ControlFlow::Continue(())
     }
 
-    /// Returns the answer of a search; one that is stuck proves as much as it can.
+    /// Returns the answer of a search. A search with a pair that could not be proven to the end proves the best bound
+    /// it can.
     pub(super) fn at_last<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
@@ -148,7 +149,7 @@ impl<O: DistanceOracle> Question<O> for Nearing {
                     contact,
                 };
                 self.best = Some(follow(problem, oracle, meter, seen));
-                // The pair is looked at again: it keeps a lesser distance.
+                // The pair is examined again, since it keeps a smaller distance.
                 ControlFlow::Continue(clock)
             }
             Step::Overlap(contact) => {

@@ -1,4 +1,4 @@
-//! Is a required distance kept? Two questions for any contact decide.
+//! Decides whether a required distance is kept, by two queries for any contact.
 
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
@@ -6,22 +6,23 @@ use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
 use crate::math::order::{greater, lesser};
 
-/// A required distance, and what may be spent on it.
+/// A required distance, and the limits of the search for a violation.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::schedule) struct Required {
     pub(in crate::schedule) distance: f64,
     pub(in crate::schedule) tolerance: f64,
     pub(in crate::schedule) budget: u64,
-    /// How far the bodies may exceed their shapes: only bodies that are nearer than the distance by as much violate it.
+    /// The amounts by which the bodies may exceed their shapes: the distance is violated only by bodies that are
+    /// nearer by as much.
     pub(in crate::schedule) excess: Excess,
 }
 
 impl Required {
-    /// Answers whether bodies keep the distance: whether they come near it, and if they do, whether they come
-    /// nearer by the excess. In between, neither is certain of their shapes.
+    /// Decides whether bodies keep the distance. The first query is whether they come near it. If they do, the second
+    /// is whether they come nearer by the excess. In between, neither answer is certain for their shapes.
     ///
     /// # Errors
-    /// Those of the question for any contact.
+    /// The errors of the query for any contact.
     pub(in crate::schedule) fn decide<E>(
         &self,
         any_contact: impl FnMut(Rung) -> Result<Answer, E>,
@@ -32,10 +33,10 @@ impl Required {
             stats: Stats::default(),
             half: 0.5 * self.tolerance,
         };
-        // A part is left for a lesser distance.
+        // A part of the budget is left for the proof of a smaller distance.
         let most = self.budget - self.budget / 4;
         let near = asking.ask(self.distance, asking.half, most)?;
-        // No finer one may be certified in f64.
+        // A finer tolerance may not be certified in f64.
         asking.half = greater(asking.half, near.tolerance);
         let outcome = match self.of(near.outcome) {
             Outcome::Measured {
@@ -58,13 +59,13 @@ impl Required {
         })
     }
 
-    /// Returns the distance of bodies whose shapes are certainly nearer than the required one; not above 0 if there is
-    /// none.
+    /// Returns the distance below which the bodies' shapes are certainly nearer than the required one; not above 0 if
+    /// there is none.
     fn certain(&self) -> f64 {
         self.excess.below(self.distance)
     }
 
-    /// Returns what an answer says, with the distance as its margin.
+    /// Returns the outcome that a query's outcome implies, if the query had the distance as its margin.
     fn of(&self, found: Outcome) -> Outcome {
         match found {
             Outcome::Free { proven_gap } => Outcome::Free {
@@ -83,12 +84,12 @@ impl Required {
     }
 }
 
-/// A required distance that is being decided.
+/// The state of a decision about a required distance.
 struct Asking<F> {
     required: Required,
     any_contact: F,
     stats: Stats,
-    /// The tolerance of the questions: half of that of the answer.
+    /// The tolerance of the queries: half the tolerance of the answer.
     half: f64,
 }
 
@@ -103,17 +104,17 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
         Ok(answer)
     }
 
-    /// The work that is left.
+    /// Returns the work that is left.
     fn left(&self) -> u64 {
         self.required.budget.saturating_sub(self.stats.work())
     }
 
-    /// Answers whether shapes come nearer whose bodies come within the tolerance of the distance, or by less than the
-    /// excess nearer.
+    /// Decides whether shapes come nearer than the distance, after the bodies came within the tolerance of it, or
+    /// nearer by less than the excess.
     fn nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
         let (distance, half) = (self.required.certain(), self.half);
-        // What is in contact with this margin is nearer, and what is not keeps the distance but for the tolerance and
-        // the excess.
+        // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
+        // and the excess.
         let margin = greater(0.0, distance - 1.5 * half);
         let finer = if margin > 0.0 {
             half
@@ -132,7 +133,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
         })
     }
 
-    /// Returns the best bound that can be proven with the rest of the work.
+    /// Returns the best lower bound that can be proven with the rest of the work.
     fn lower(&mut self, reason: Limit) -> Result<f64, E> {
         let mut ladder = Ladder::new(0.0, self.required.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {

@@ -1,4 +1,4 @@
-//! Brackets of the least distance against samples, with every budget and honest or lying oracles.
+//! Brackets of the least distance, compared with samples, with every budget and honest or lying oracles.
 
 mod conforming;
 mod excess;
@@ -21,7 +21,7 @@ fn approach(problem: &Problem<'_>) -> Answer {
     DepthFirst::default().closest_approach_of(problem, &mut Exhaustive)
 }
 
-/// The least of distances at equal steps.
+/// Returns the least of the distances at equal steps.
 fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
     let at = |k| distance(problem, f64::from(k) / f64::from(steps));
     (0..=steps).map(at).fold(f64::INFINITY, lesser)
@@ -54,7 +54,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
                 );
                 assert!(found >= lower - slack, "{number}: {found:e} in {outcome:?}");
                 let near = distance(&problem, time);
-                // The twin finds common points of crossing needles with some error only.
+                // The reference finds common points of crossing needles with some error only.
                 let cross = contact.separation.lower < -slack;
                 assert!(
                     cross || near <= upper + 1e-9 * near + slack,
@@ -80,7 +80,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     );
 }
 
-/// The answer to another question: the first contact at the margin of the bracket's ends.
+/// The brackets agree with the first contact, with their ends as margins.
 #[test]
 fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
     let mut rng = rng(2);
@@ -240,7 +240,7 @@ fn bodies_at_rest_have_a_distance() {
                 apart += 1;
                 let upper = contact.separation.upper;
                 assert!(lower <= found + slack && found <= upper * (1.0 + 1e-9) + slack);
-                // As exact as f64 allows, whatever the tolerance.
+                // The bracket is as exact as f64 allows, whatever the tolerance.
                 assert!(
                     upper - lower <= 2e-5 * upper + 2.0 * slack,
                     "{number}: {outcome:?}"
@@ -250,7 +250,7 @@ fn bodies_at_rest_have_a_distance() {
                 overlapping += 1;
                 assert!(found <= slack, "{number}: {found:e}");
             }
-            // A corner on a face, up to rounding.
+            // A corner is on a face, up to rounding.
             Outcome::Unresolved(Unresolved { limit: reason, .. }) => {
                 assert_eq!(reason, Limit::Undecided);
                 assert!(found <= slack, "{number}: {found:e}");

@@ -1,4 +1,4 @@
-//! Computes the distance of the bodies at one clock, and the front that is left `[FAST06 Alg. 3]`.
+//! The descent that computes the distance of the bodies at one clock, and the front that remains `[FAST06 Alg. 3]`.
 
 use super::front::{Front, Item, Node};
 use super::hull_pair::{HullPair, Near};
@@ -31,7 +31,7 @@ pub(super) struct Descent<'s, 'p, C> {
 
 /// The results at a clock so far.
 struct Found {
-    /// Bounds the distance of the bodies from above.
+    /// An upper bound of the distance of the bodies.
     distance: f64,
     /// The nearest pair of pieces in contact.
     contact: Option<Contact>,
@@ -126,7 +126,8 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         };
         let snapshot = snapshot.with(self.hulls.hulls(node.pair));
         let depth = snapshot.depth_between_middles();
-        // The search for a common point takes longer than that for a distance, and tells nothing.
+        // The search for a common point takes longer than the search for a distance, and its result is of no use
+        // here.
         if depth.is_some_and(|depth| depth > OVERLAPPING) {
             self.meter.stats.point_looks += snapshot.pieces.points();
             found.open.push(node.unmeasured(at, s));
@@ -143,15 +144,15 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         node.near = self.hulls.near(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
         let contact = problem.contact_distance();
-        // Contacts at the start are found there, or never.
+        // Contacts at the start are found at the start, or never.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         let apart = checked.lower > reach && node.clock > s;
-        // The distance is that of the pieces below, which are not in contact.
+        // The distance bound is that of the pieces below the nodes, which are not in contact.
         let settled = node.near == Near::Pieces && checked.upper > contact;
         if settled && apart {
             found.distance = lesser(found.distance, checked.upper);
         }
-        // What is below a pair that stays apart does so as well, however far it is.
+        // If a pair stays apart, all pairs below it do, whatever their distance.
         let done = apart && (settled || node.stays_apart());
         if !(done || checked.lower >= found.distance) {
             let lower = checked.lower;

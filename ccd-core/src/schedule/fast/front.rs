@@ -7,12 +7,12 @@ use crate::schedule::pieces::pair::Pair;
 
 /// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent
 /// stopped.
-///
-/// Its leaves are the front: together they cover all pairs of pieces. It is kept between two
+/// The leaves are the front: together they cover all pairs of pieces. The front is kept between two descents, with
+/// the caches of the oracle.
 /// descents, with the caches of the oracle.
 #[derive(Debug)]
 pub(super) struct Front<C> {
-    /// The root is the first; pairs of children are adjacent.
+    /// The pairs. The root is the first, and pairs of children are adjacent.
     nodes: Vec<Node<C>>,
     /// Free slots of former pairs of children.
     vacant: Vec<u32>,
@@ -25,14 +25,14 @@ pub(super) struct Front<C> {
 pub(super) struct Node<C> {
     pub(super) pair: [u32; 2],
     pub(super) item: Item<C>,
-    /// The first of its two children, unless it is in the front.
+    /// The first of the two children; `None` in the front.
     pub(super) children: Option<u32>,
-    /// A lower bound of its distance, when it was last visited.
+    /// A lower bound of the pair's distance at its last visit.
     pub(super) lower: f64,
-    /// The time until which it was certified apart at its last visit; infinite for one that stays
-    /// apart to the end.
+    /// The time until which the pair was certified apart at its last visit; infinite for a pair that stays apart to
+    /// the end.
     pub(super) clock: f64,
-    /// The owners of its nearest features.
+    /// The owners of the pair's nearest features.
     pub(super) near: Near,
     /// While the distance of the bodies is below this, joining its children is worth another try.
     pub(super) join_below: f64,
@@ -40,9 +40,9 @@ pub(super) struct Node<C> {
 
 #[derive(Clone, Debug)]
 pub(super) enum Item<C> {
-    /// At least one is an inner node; with the oracle's cache.
+    /// A pair of which at least one is an inner node, with the oracle's cache.
     Nodes(C),
-    /// Two leaves.
+    /// A pair of two leaves.
     Pieces(Pair<C>),
 }
 
@@ -66,7 +66,7 @@ impl<C: Clone + Default> Front<C> {
         (self.leaves, self.peak) = (1, 1);
     }
 
-    /// Returns the largest number of pairs that were in it at once.
+    /// Returns the largest number of pairs that were in the front at once.
     pub(super) fn peak(&self) -> u64 {
         self.peak as u64
     }
@@ -114,8 +114,7 @@ impl<C: Clone + Default> Front<C> {
         above
     }
 
-    /// Replaces a pair of the front by two that cover it, and returns the first of them; none for a
-    /// pair of pieces.
+    /// Replaces a pair of the front by two that cover it, and returns the first of them; `None` for a pair of pieces.
     pub(super) fn drop_below(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
         let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
@@ -167,7 +166,7 @@ impl<C: Clone + Default> Front<C> {
 }
 
 impl<C> Node<C> {
-    /// Returns whether it is certified apart to the end of the query.
+    /// Returns whether the pair is certified apart to the end of the query.
     pub(super) fn stays_apart(&self) -> bool {
         self.clock == f64::INFINITY
     }

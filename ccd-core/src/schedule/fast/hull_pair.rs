@@ -1,4 +1,4 @@
-//! The nodes of hull trees, in pairs.
+//! Pairs of nodes of two hull trees.
 
 use crate::body::Body;
 use crate::body::combination::Combination;
@@ -19,15 +19,15 @@ pub(super) struct HullPair<'a> {
 /// The owners of the nearest features of two nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Near {
-    /// Pieces, both.
+    /// Both features are owned by pieces.
     Pieces,
     /// A bridge on one of the bodies.
     Bridge(Which),
-    /// Bridges, both.
+    /// Both features are bridges.
     Bridges,
 }
 
-/// The pairs below a pair of nodes.
+/// The pairs that replace a pair of nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Below {
     /// Both nodes are leaves, of these pieces.
@@ -37,7 +37,7 @@ pub(super) enum Below {
 }
 
 impl<'a> HullPair<'a> {
-    /// Returns none when one of the bodies has more than one piece and no tree.
+    /// Returns `None` when one of the bodies has more than one piece and no tree.
     pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
         Some(HullPair {
             a: Hulls::of(problem.a.body)?,
@@ -49,7 +49,7 @@ impl<'a> HullPair<'a> {
         [self.a.hull(a), self.b.hull(b)]
     }
 
-    /// Returns the owners of the nearest features; a claim names their points.
+    /// Returns the owners of the nearest features; `claim` names the points of these features.
     pub(super) fn near(&self, [a, b]: [u32; 2], claim: &Claim) -> Near {
         match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
             (false, false) => Near::Pieces,
@@ -59,8 +59,8 @@ impl<'a> HullPair<'a> {
         }
     }
 
-    /// Returns the pairs to examine instead. One node is replaced by its children: that of the only
-    /// body with a bridge, else the larger node, or the one with children if the other has none.
+    /// Returns the pairs to examine instead. One node is replaced by its children: if only one body has a bridge,
+    /// that body's node, else the larger node, or the one with children if the other has none.
     pub(super) fn below(&self, [a, b]: [u32; 2], near: Near) -> Below {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {

@@ -1,4 +1,4 @@
-//! The reach of nodes from their body's axis of rotation, each computed once a query.
+//! Distances of nodes from their body's axis of rotation, each computed once a query.
 
 use crate::problem::Problem;
 use crate::schedule::pieces::snapshot::Snapshot;
@@ -16,7 +16,7 @@ impl Reaches {
         self.query += 1;
     }
 
-    /// Returns the reaches of both nodes of a pair; the snapshot has their hulls.
+    /// Returns the distances from the axis for both nodes of a pair; `snapshot` has their hulls.
     pub(super) fn each(
         &mut self,
         problem: &Problem<'_>,

@@ -1,4 +1,4 @@
-//! Chains of balls, whose hulls are capsules: against the best-first and the naive search.
+//! Chains of balls, whose hulls are capsules, compared with the best-first and the naive search.
 
 use super::{BestFirst, Fast};
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
@@ -20,7 +20,7 @@ use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DVec3;
 
-/// Balls on a line, in a tree of halves; one tree in three has balls of several sizes.
+/// Balls on a line, in a tree split in halves. One tree in three has balls of several sizes.
 fn chain(rng: &mut Pcg64, count: usize) -> Body {
     let step = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-4..=4))));
     let step = if step == DVec3::ZERO { DVec3::X } else { step };
@@ -119,7 +119,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     Fast::default().solve(problem, &mut Exhaustive)
 }
 
-/// The least distance of any two pieces at a clock.
+/// Returns the least distance of any two pieces at a clock.
 fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     let placed = [&problem.a, &problem.b].map(|side| {
         let frame = side.path.frame(s);
@@ -134,7 +134,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// Checks an answer at sampled times; returns the time of contact, or infinity.
+/// Checks an answer at sampled times, and returns the time of contact, or infinity.
 fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     let holds_until = |end: f64, least: f64| {
         for k in 0..=128 {
@@ -181,8 +181,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
         assert_eq!(time <= 0.0, twin <= 0.0, "{number}");
         for other in [twin, checked(&problem, &boxes.outcome)] {
             let kind = |time: f64| (time < 0.0, time <= 0.0, time.is_finite());
-            // Where they differ, the bodies graze each other: within the tolerance, but not within
-            // half of it.
+            // If they differ, the bodies graze each other: within the tolerance, but not within half of it.
             if kind(other) != kind(time) {
                 let near = distance(&problem, greater(0.0, lesser(other, time)));
                 let grazed = near >= problem.gap() - problem.rounding;
@@ -237,7 +236,7 @@ fn a_brief_motion_splits_nothing_that_stays_apart() {
         .iter()
         .map(|body| body.tree().radius())
         .fold(0.0, greater);
-    // Far from each other in their own terms, but not told apart by balls about them.
+    // The bodies are far from each other for their size, but balls about them do not prove them apart.
     assert_eq!(calls(1.8 * f64::from(size), 1.0), 1);
 }
 

@@ -1,4 +1,4 @@
-//! In whatever steps: the answer of the best-first schedule.
+//! Tests that the answer is that of the best-first schedule, whatever the steps.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -11,7 +11,7 @@ use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, distance, rng, scene};
 use glam::DVec3;
 
-/// Answers in steps of random lengths, and counts them.
+/// Answers a query in steps of random lengths, and counts them.
 fn in_steps(
     problem: &Problem<'_>,
     memory: &mut BestFirst<Exhaustive>,
@@ -23,7 +23,7 @@ fn in_steps(
         match search.advance(&mut Exhaustive, until) {
             Progress::ApartUntil(time) => {
                 assert!(time >= until, "{time:e} {until:e}");
-                // Often no more than has to be.
+                // The step is often the least possible one.
                 until = match rng.random_range(0..3) {
                     0 => time.next_up(),
                     _ => time + rng.random_range(0.0..0.3),
@@ -50,7 +50,7 @@ fn steps_do_not_change_the_answer() {
         let kind = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding][rng.random_range(0..4)];
         let mut scene: Scene = scene(&mut rng, kind, 12);
         if rng.random_range(0..3) == 0 {
-            // In contact at the start, unless they overlap.
+            // The bodies are in contact at the start, unless they overlap.
             scene.config.tolerance = 2.0 * distance(&scene.problem(), 0.0) + 1e-9;
         }
         scene.config.start = [StartPolicy::Report, StartPolicy::Leave][rng.random_range(0..2)];
@@ -93,7 +93,7 @@ fn a_search_goes_no_further_than_it_is_asked() {
     assert!(less > 0 && 2 * less < all, "{less} of {all}");
 }
 
-/// Times whose clocks round, down to the least numbers.
+/// The times have clocks that round, down to the least numbers.
 #[test]
 fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     let mut rng = rng(3);
@@ -122,7 +122,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     assert!(reached > 500, "{reached}");
 }
 
-/// No pair of pieces meets, and no time passes without a look at what is inside.
+/// No pair of pieces meets, and no time passes before containment is tested.
 #[test]
 fn a_body_inside_the_other_is_no_body_apart() {
     let room = room(4.0);

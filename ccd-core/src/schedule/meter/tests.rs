@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// A ball at rest and its like, with some limits.
+/// Poses two equal balls at rest, with some limits.
 fn limited<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
     let still = (ball, Motion::STILL);
     Problem::about(still, still, 1.0, settings).unwrap()

@@ -4,14 +4,14 @@ use crate::schedule::capacity::empty;
 use crate::schedule::nodes::siblings::Siblings;
 use crate::schedule::queue::Queue;
 
-/// The lists of a search, which keep their memory.
+/// The lists of a search; their memory is kept between searches.
 #[derive(Debug, Default)]
 pub(crate) struct Lists {
     /// Pairs of nodes, ordered by lower bounds of their distances.
     pub(super) waiting: Queue<Siblings>,
-    /// All pairs of pieces without a separating axis; none of them has a distance.
+    /// All pairs of pieces without a separating axis, which have no distance.
     pub(super) touching: Vec<[u32; 2]>,
-    /// For the search for one body inside the other.
+    /// A list of pieces for the search for one body inside the other.
     pub(super) pieces: Vec<u32>,
 }
 
@@ -22,7 +22,7 @@ impl Lists {
         empty(&mut self.pieces);
     }
 
-    /// Returns all pairs of pieces that no axis separates, and a list of pieces for use elsewhere.
+    /// Returns all pairs of pieces that no axis separates, and a list of pieces as scratch memory.
     pub(in crate::schedule) fn touching(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
         (&self.touching, &mut self.pieces)
     }

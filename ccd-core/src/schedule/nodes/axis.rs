@@ -4,7 +4,7 @@ use super::lanes::{TINY, Vec3x8, choose, splat};
 use super::shape::{Children, OtherNode};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// Axes, the gaps along them, and each side's reach towards the other.
+/// Eight axes, the gaps along them, and each side's extent towards the other.
 #[derive(Clone, Copy)]
 pub(super) struct Axis<L: Simd> {
     pub(super) n: Vec3x8<L>,
@@ -13,10 +13,10 @@ pub(super) struct Axis<L: Simd> {
     pub(super) other_reach: f32x8<L>,
 }
 
-/// Returns the best of three axes: the one between the centres, or the edges of triangles, and the
-/// two nodes' own normals.
+/// Returns the best of three axes for each pair: the one between the centres, or the edges of triangles, and the
+/// normals of the two nodes.
 ///
-/// Homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
+/// The result is homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
 #[inline(always)]
 pub(super) fn widest<L: Simd, C: Children, P: OtherNode>(
     children: &C,
@@ -31,11 +31,11 @@ pub(super) fn widest<L: Simd, C: Children, P: OtherNode>(
     let others = towards(Vec3x8::splat(level, other.normal()), way);
     let reach = other.reach_along_normal(others);
     let others = Axis::new(others, way, children.reach(others), reach);
-    // The one between them is known last.
+    // The gap along the axis between the nodes is available last.
     better(better(own, others), between)
 }
 
-/// Returns the axis between the centres when they are nearest, if they move on by at most `travel`.
+/// Returns the axis between the centres at the time when they are nearest, if they move by at most `travel`.
 #[inline(always)]
 pub(super) fn passing<L: Simd, C: Children, P: OtherNode>(
     children: &C,
@@ -50,7 +50,8 @@ pub(super) fn passing<L: Simd, C: Children, P: OtherNode>(
 
 /// Returns axes along vectors of any length.
 ///
-/// They are measured before they are made unit vectors: a root and a quotient take as long as that.
+/// The gaps are measured before the vectors are made unit vectors: a root and a quotient take as long as the
+/// measurement.
 #[inline(always)]
 pub(super) fn along<L: Simd, C: Children, P: OtherNode>(
     children: &C,

@@ -1,8 +1,7 @@
-//! Bounds eight pairs of nodes at once: their distances, and the times for which they stay apart.
+//! Bounds for eight pairs of nodes at once: lower bounds of their distances, and times for which they stay apart.
 //!
-//! Everything here is relative to the origin of the split group, in its body's frame, in f32, with
-//! one lane of a vector per child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap
-//! and rate.
+//! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
+//! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
 
 use super::axis::{self, Axis};
 use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
@@ -15,10 +14,9 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 /// The bounds of eight pairs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
-    /// The time for which each pair certainly stays farther apart than the gap to be kept.
+    /// The time for which each pair is certainly farther apart than the required gap.
     pub(crate) free: FreeTimes,
-    /// The pairs that are so far apart for their size that a second look after their time is worth
-    /// more than a split.
+    /// The pairs that are far apart for their size: a second visit after their time is worth more than a split.
     pub(crate) waits: u8,
     /// The pairs whose child is thicker along the axis than the other node, and can be split.
     pub(crate) thicker: u8,
@@ -26,11 +24,11 @@ pub(crate) struct Bounds {
     pub(crate) whole: bool,
 }
 
-/// Bounds those of eight pairs that are in `lanes`.
+/// Bounds the pairs that are in `lanes`.
 ///
-/// Fixed planes are across two axes: the one with the widest gap now, and the one between the
-/// centres when they are nearest. The first suits approaching pairs, the second passing ones. Beside
-/// nodes that are much larger, planes that turn with their body are tried, too.
+/// Fixed planes are perpendicular to two axes: the one with the widest gap now, and the one between the centres at
+/// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
+/// much larger, planes that turn with the body of these nodes are tried, too.
 #[inline(always)]
 pub(super) fn bound<L: Simd, C: Children, P: OtherNode>(
     level: L,
@@ -75,20 +73,18 @@ fn bits<L: Simd>(mask: mask32x8<L>) -> u8 {
 struct Past<L: Simd> {
     /// The time for which a plane that turns with the large node keeps the pair apart.
     attached: f32x8<L>,
-    /// The rate at which the large node turns, and the distance of the small one from its body's
-    /// centre.
+    /// The angular velocity of the large node's body, and the distance of the small node from that body's centre.
     spin: f32,
     arm: f32x8<L>,
     /// The radii.
     large: f32x8<L>,
     small: f32x8<L>,
-    /// Set if the large node cannot be split: then only the small one's size decides whether it is
-    /// far.
+    /// Set if the large node cannot be split. Then only the size of the small node decides whether it is far.
     whole: mask32x8<L>,
 }
 
 impl<L: Simd> Past<L> {
-    /// Returns none where neither side is much larger and turns.
+    /// Returns `None` if neither side is much larger and turns.
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
         pairs: &EightPairs<'_, L, C, P>,
@@ -121,7 +117,7 @@ impl<L: Simd> Past<L> {
         }
     }
 
-    /// Returns the pairs for which a second look is worth more than a split.
+    /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
     fn waits(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
         let swept = free * self.spin * self.arm - self.large * SWEPT;

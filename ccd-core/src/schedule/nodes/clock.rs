@@ -1,11 +1,11 @@
-//! Computes the times for which gaps stay open, in f32.
+//! The times for which gaps stay open, in f32.
 
 use super::lanes::splat;
 use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
 use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
-/// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for NaN and for a pair that is not
-/// apart by more than `closed`, even if it recedes.
+/// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for NaN, and for a pair that is apart by at most
+/// `closed`, even if it recedes.
 #[inline(always)]
 pub(super) fn free_time<L: Simd>(
     apart: f32x8<L>,
@@ -22,7 +22,7 @@ pub(super) fn free_time<L: Simd>(
     proven.select(tau, splat(apart.token(), 0.0))
 }
 
-/// Returns the same for a bend of either sign: a gap that closes ever slower may stay open for good.
+/// Like `free_time`, for a second derivative `bend` of either sign: a gap that closes ever slower may never close.
 #[inline(always)]
 pub(super) fn parting_free_time<L: Simd>(
     apart: f32x8<L>,
@@ -33,19 +33,19 @@ pub(super) fn parting_free_time<L: Simd>(
     let level = apart.token();
     let bends = free_time(apart, closed, rate, bend.max(LEAST_BEND_F32));
     let (square, lost) = (rate * rate, bend * -2.0 * apart);
-    // A sum that is lost to rounding, or to underflow, counts as none.
+    // A sum that is lost to rounding or to underflow counts as zero.
     let left = (square - lost) + (square + lost) * (16.0 * U32) + f32::MIN_POSITIVE;
     let meets = rate.simd_gt(0.0) & left.simd_ge(0.0);
     let closing = apart * (2.0 * CLOCK_F32) / (rate + left.sqrt());
     let parts = meets.select(closing, splat(level, f32::INFINITY));
-    // Written so that NaN proves nothing; so does what overflowed.
+    // Written so that neither NaN nor an overflow proves anything.
     let known = square.simd_le(f32::MAX) & lost.simd_le(f32::MAX);
     let proven = apart.simd_gt(closed) & known & rate.simd_le(f32::MAX);
     let parts = proven.select(parts, splat(level, 0.0));
     bend.simd_lt(0.0).select(parts, bends)
 }
 
-/// Returns the same on a straight path.
+/// Like `free_time`, for a straight path.
 #[inline(always)]
 pub(super) fn straight_free_time<L: Simd>(
     apart: f32x8<L>,

@@ -1,6 +1,6 @@
-//! Looks at pairs of nodes in f64 that are closer than the bounds of eight in f32.
+//! Tighter f64 bounds for single pairs of nodes, beside the bounds for eight pairs in f32.
 //!
-//! They are taken only where splits would prove little.
+//! These bounds are computed only where splits would prove little.
 
 use super::expand::Split;
 use super::flat_pair;
@@ -11,12 +11,12 @@ use crate::rounding::REACH_F32;
 use crate::schedule::meter::Meter;
 use crate::tuning::{AXIS_ROUNDS, COARSE_F32, SCREW_AFTER};
 
-/// The looks that a query has use for.
+/// The tighter bounds that are useful for a query.
 #[derive(Debug)]
 pub(crate) struct CloserLook {
-    /// True if the gaps of the largest nodes are rounded by more than they have to be known.
+    /// True if the rounding of gaps between the largest nodes, in f32, is too coarse for the gap to be kept.
     fine: bool,
-    /// The splits so far.
+    /// The number of splits so far.
     splits: u64,
     screw: Option<Screw>,
 }
@@ -32,8 +32,8 @@ impl CloserLook {
         }
     }
 
-    /// Takes the pair of least clock, which is `s`, out of siblings, if there is a later clock for
-    /// it; returns that clock and the pair, which is to wait alone.
+    /// Removes the pair of least clock, which is `s`, from its siblings, if a later clock is proven for it. Returns
+    /// that clock and the pair, which then waits alone.
     #[inline(always)]
     pub(crate) fn part(
         &self,
@@ -48,7 +48,7 @@ impl CloserLook {
         }
     }
 
-    /// Finishes those pairs of a new split that stay apart for good.
+    /// Finishes the pairs of a new split that stay apart for good.
     #[inline(always)]
     pub(crate) fn finish(
         &mut self,
@@ -76,7 +76,7 @@ impl CloserLook {
         if self.splits == SCREW_AFTER {
             self.screw = Screw::of(problem, &mut meter.memory().profiles);
         }
-        // A second look at a single pair would give the same result.
+        // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw
             && split.lanes == u8::MAX
         {

@@ -1,4 +1,4 @@
-//! What all pairs of nodes of a query have in common.
+//! Values that all pairs of nodes of a query share.
 
 use crate::body::tree::up;
 use crate::math::order::{greater, lesser};
@@ -10,14 +10,14 @@ use crate::tuning::CLOSED_GAP;
 use glam::Vec3;
 use std::cell::OnceCell;
 
-/// A query, with the numbers that every visit needs of it, rounded to f32 where it does.
+/// A query, with the numbers that every visit needs, rounded to f32 where visits compute in f32.
 #[derive(Debug)]
 pub(crate) struct Common<'p> {
     pub(crate) problem: &'p Problem<'p>,
-    /// B as A sees it, and A as B does. Each is made at the first split of its body: queries of a few
-    /// pieces have none.
+    /// B as seen from A, and A as seen from B. Each is computed at the first split of its body: queries of a few
+    /// pieces need neither.
     views: [OnceCell<View>; 2],
-    /// The spins of A and of B along their own axes, and the angular speeds, rounded up; none of a
+    /// The angular velocities of A and of B along their own axes, and the angular speeds, rounded up; `None` for a
     /// body that does not turn.
     spins: [Option<(Vec3, f32)>; 2],
     /// The gap that all clocks prove, rounded up.
@@ -28,18 +28,17 @@ pub(crate) struct Common<'p> {
     pub(super) rounding: f32,
     /// A bound of the rounding of a rate.
     pub(super) rate_slack: f32,
-    /// A gap that exceeds the slack by no more than this counts as closed.
+    /// A gap above the slack by at most this counts as closed.
     pub(super) closed: f32,
 }
 
-/// Bounds the speeds that a rate is the difference of, with the share that the places of arms have in
-/// its rounding.
+/// Bounds the speeds whose difference is a rate. The rounding of the positions of arms adds a share.
 fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
     let straight = length(b.path.velocity - a.path.velocity)
         + length(b.path.acceleration - a.path.acceleration);
     let turning = |own: &Side<'_>, other: &Side<'_>| {
-        // An arm is the difference of two positions, each rounded in its place, as seen from a group
-        // of the other body. That is in a ball which moves straight, and turns with its body.
+        // An arm is the difference of two positions, each rounded at its place, as seen from a group of the other
+        // body. That group is in a ball which moves straight, and turns with its body.
         let (ball, radius) = other.body.tree().ball();
         let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
         let start = distance(other.path.start_of(ball), own.path.centre_at(0.0));
@@ -49,8 +48,8 @@ fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
     straight + turning(a, b) + turning(b, a)
 }
 
-/// Bounds the distance of any point of any node from the body's centre of rotation: a node's points
-/// are within the diameter of the whole body from its centre, and that is in a cube around it.
+/// Bounds the distance of any point of any node from the body's centre of rotation. The points of a node are within
+/// the diameter of the whole body from the node's centre, and that is in a cube around the body.
 fn reach(side: &Side<'_>) -> f64 {
     let (centre, radius) = side.body.tree().ball();
     centre.distance(side.path.centre) + 4.0 * radius
@@ -80,8 +79,8 @@ impl<'p> Common<'p> {
         self.views[body as usize].get_or_init(|| View::new(path(body), path(body.other())))
     }
 
-    /// Returns the spin of a body along its own axes, and its angular speed, rounded up; none if it
-    /// does not turn.
+    /// Returns the angular velocity of a body along its own axes, and its angular speed, rounded up; `None` if the
+    /// body does not turn.
     #[inline(always)]
     pub(super) fn spin(&self, body: Which) -> Option<(Vec3, f32)> {
         self.spins[body as usize]

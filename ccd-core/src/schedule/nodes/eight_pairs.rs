@@ -9,12 +9,12 @@ use crate::rounding::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
-/// The relative motion that all lanes share, in f32, with allowances for rounding.
+/// The relative motion shared by all lanes, in f32, with allowances for rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativeMotionF32 {
     /// The velocity of the split side's centre minus that of the other side's.
     pub(crate) velocity: Vec3,
-    /// Its derivative, if the centres accelerate differently.
+    /// The derivative of the velocity, if the centres accelerate differently.
     pub(crate) acceleration: Option<Vec3>,
     pub(crate) split: Turn,
     pub(crate) other: Turn,
@@ -22,7 +22,7 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) horizon: f32,
     /// The gap to be kept, plus the rounding of a gap.
     pub(crate) slack: f32,
-    /// A gap that exceeds the slack by no more than this counts as closed.
+    /// A gap above the slack by at most this counts as closed.
     pub(crate) closed: f32,
     /// A bound of the rounding of a rate.
     pub(crate) rate_slack: f32,
@@ -41,15 +41,15 @@ pub(super) struct EightPairs<'a, L: Simd, C, P> {
     pub(super) children: &'a C,
     pub(super) other: &'a P,
     pub(super) motion: &'a RelativeMotionF32,
-    /// From the children's centres to the other's.
+    /// The vectors from the children's centres to the other node's centre.
     pub(super) way: Vec3x8<L>,
     /// The velocities of the children's centres relative to the other's.
     pub(super) velocity: Vec3x8<L>,
-    /// Upper bounds of the children's points' speeds due to turning.
+    /// Upper bounds of the speeds of the children's points due to turning.
     pub(super) speed: f32x8<L>,
     /// The velocity of the other node's centre due to turning.
     pub(super) other_turning: Vec3x8<L>,
-    /// An upper bound of the other node's points' speeds due to turning.
+    /// An upper bound of the speeds of the other node's points due to turning.
     pub(super) other_speed: f32x8<L>,
 }
 
@@ -76,7 +76,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             motion,
             way: other_centre - centre,
             velocity: velocity + turning - other_turning,
-            // A slack on the speeds covers the rounding of the bends.
+            // A slack on the speeds covers the rounding of the second derivatives.
             speed: turning.length()
                 + children.radius(level) * motion.split.rate
                 + motion.rate_slack,
@@ -87,11 +87,11 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         }
     }
 
-    /// Returns the times for which fixed planes across the axes keep the pairs apart.
+    /// Returns the times for which fixed planes, perpendicular to the axes, keep the pairs apart.
     #[inline(always)]
     pub(super) fn free(&self, axis: Axis<L>) -> f32x8<L> {
         let motion = self.motion;
-        // n·(v + ω×arm) of the centres, plus the share of the points around them.
+        // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
         let mut bend = splat(axis.n.level(), LEAST_BEND_F32);
         if motion.split.turns {
@@ -117,8 +117,8 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     }
 }
 
-/// Bounds the bending along `n` of paths that turn at a rate of `|ω|`, at `speed` at most; `m` is
-/// `n × ω`.
+/// Returns a bound of the second derivative along `n` of points that turn at a rate of `|ω|`, at `speed` at most; `m`
+/// is `n × ω`.
 #[inline(always)]
 pub(super) fn bending<L: Simd>(m: Vec3x8<L>, rate: f32, speed: f32x8<L>) -> f32x8<L> {
     (m.length() * BEND_F32 + ACROSS_F32 * rate) * speed

@@ -1,5 +1,4 @@
-//! Splits one node of a pair and bounds its children against the other node, at the pose of the
-//! pair's clock.
+//! The split of one node of a pair: its children are bounded against the other node, at the pose of the pair's clock.
 
 use super::bounds::{Bounds, bound};
 use super::common::Common;
@@ -55,14 +54,13 @@ pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
     split_at(common, split, s, Pace::AsTheyMove)
 }
 
-/// Splits a node at clock `s` and measures its pairs: their free times are lower bounds of their
-/// distances.
+/// Splits a node at clock `s`, and measures its pairs: the free times are lower bounds of their distances.
 ///
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
     let mut expansion = split_at(common, split, s, Pace::Unit);
-    // A second look would give the same result.
+    // A second visit would give the same result.
     expansion.bounds.waits = 0;
     expansion
 }
@@ -70,13 +68,13 @@ pub(crate) fn measure(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
 /// The rate at which gaps close.
 #[derive(Clone, Copy, Debug)]
 enum Pace {
-    /// As the bodies move.
+    /// The rate due to the motion of the bodies.
     AsTheyMove,
     /// One unit of length per unit of time, along every axis: the free time is the distance.
     Unit,
 }
 
-/// The kernels are compiled here alone, once for each set of instructions.
+/// This function alone contains the kernels, compiled once for each set of instructions.
 #[inline(never)]
 fn split_at(common: &Common<'_>, split: &Split, s: f64, pace: Pace) -> Expansion {
     vectorize!(common.problem.level, level => split_node(level, common, split, s, pace))
@@ -120,7 +118,7 @@ struct RelativeMotion<'p, L: Simd> {
     split: &'p Split,
     split_side: &'p Side<'p>,
     other_side: &'p Side<'p>,
-    /// What the split body sees of the other one, now and at any time.
+    /// The other body as seen from the split one, now and at any time.
     seen: Seen<L>,
     view: &'p View,
     /// The time left.
@@ -129,7 +127,7 @@ struct RelativeMotion<'p, L: Simd> {
 }
 
 impl<'p, L: Simd> RelativeMotion<'p, L> {
-    // Half of a kilobyte, made once a visit: built in place, not moved.
+    // The struct is half a kilobyte, made once a visit. It is built in place, not moved.
     #[inline(always)]
     fn new(level: L, common: &'p Common<'_>, split: &'p Split, s: f64, pace: Pace) -> Self {
         let view = common.view_from(split.body);
@@ -174,7 +172,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 struct GroupView<'m, L: Simd> {
     motion: &'m RelativeMotion<'m, L>,
     members: &'m Members,
-    /// Takes the other body's frame to the split one's.
+    /// The rotation from the other body's frame to the split body's frame.
     rotation: PackedMatrix<L>,
     /// The same rotation in f32, by columns.
     turn: [f32x4<L>; 3],
@@ -207,7 +205,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Takes a point of the other body to the split one's frame.
+    /// Transforms a point of the other body to the split body's frame.
     #[inline(always)]
     fn placed(&self, point: DVec3) -> Packed<L> {
         let level = self.motion.level;
@@ -262,14 +260,14 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// The motion in f32, beside a node with this centre and this radius.
+    /// Returns the motion in f32, beside a node with this centre and this radius.
     #[inline(always)]
     fn as_they_move(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_turn(), self.other_turn());
         let reach = self.members.reach;
         let common = self.motion.common;
         let rounding = self.rounding(centre, radius);
-        // Large nodes, whose gaps are rounded by more than is left of the tolerance, keep what pieces do.
+        // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
         let slack = greater((common.gap + rounding).next_up(), common.node_gap);
         RelativeMotionF32 {
             velocity: self.motion.seen.velocity.as_vec3(),
@@ -290,7 +288,8 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// A closing rate of 1: the times for which pairs keep apart are lower bounds of their distances.
+    /// Returns the motion with a closing rate of 1: the times for which pairs keep apart are lower bounds of their
+    /// distances.
     #[inline(always)]
     fn at_unit_rate(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         RelativeMotionF32 {

@@ -1,8 +1,7 @@
 //! Flat nodes that approach each other face to face.
 //!
-//! In f32 the gap between two large plates is known no better than their size is. At a finer
-//! tolerance all of their nodes would be split before a single pair of pieces is near enough. Their
-//! slabs are known in f64.
+//! In f32 the rounding of the gap between two large plates is that of their size. For a finer tolerance all of their
+//! nodes would be split before a single pair of pieces is near enough. Their slabs are known in f64.
 
 use super::approach::Approach;
 use super::placed::Placed;
@@ -14,9 +13,9 @@ use crate::rounding::{RATE_F64, REACH_F32};
 use crate::tuning::{CLOSED_GAP, COARSE_F32, TURNED_SHARE};
 use glam::DVec3;
 
-/// Returns a time for which two flat nodes, of A and of B, certainly stay apart by the gap of nodes
-/// from clock `s` on; 0 if they are not flat, if f32 is fine enough for them, or if it is more their
-/// turning than their approach that uses up the gap.
+/// Returns a time for which two flat nodes, of A and of B, certainly stay apart by the gap of nodes from clock `s`
+/// on. The time is 0 if they are not flat, if f32 is fine enough for them, or if their turning uses up more of the
+/// gap than their approach.
 pub(super) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f64 {
     let sides = [(&problem.a, a), (&problem.b, b)];
     if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
@@ -33,7 +32,7 @@ pub(super) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
     greater(along(a.normal), along(b.normal))
 }
 
-/// Whether a node is a triangle, or as thin as flat nodes are.
+/// Returns whether a node is a triangle, or as thin as flat nodes are.
 fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
     match side.body.tree().get(id) {
         Named::Node(node) => node.is_thin(),
@@ -41,10 +40,10 @@ fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
     }
 }
 
-/// A flat node where its body is.
+/// A flat node at its position in the problem's coordinates.
 struct Flat {
     node: Placed,
-    /// None for a triangle, whose corners are known.
+    /// The half thickness; `None` for a triangle, whose corners are known.
     half: Option<f64>,
     /// A unit vector.
     normal: DVec3,
@@ -84,7 +83,8 @@ impl Flat {
     }
 }
 
-/// Returns the time for which a fixed plane keeps the nodes apart; `n` points along it either way.
+/// Returns the time for which a fixed plane keeps the nodes apart. The vector `n` is perpendicular to it, with either
+/// sign.
 fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
@@ -96,7 +96,7 @@ fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f6
     }
     let approach = Approach::along(problem, [&a.node, &b.node], n, s);
     let free = approach.free_time(gap);
-    // What the turning of the nodes uses up shrinks as they are split. Written so that NaN gives no
+    // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.
     if free >= 1.0 - s || approach.straight * free >= (1.0 - TURNED_SHARE) * gap {
         free

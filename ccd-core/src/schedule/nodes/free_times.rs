@@ -1,34 +1,34 @@
-//! The free times of eight pairs, from which the least is taken out again and again.
+//! The free times of eight pairs, from which the least is removed repeatedly.
 
 use super::lanes::splat;
 use crate::body::tree::LANES;
 use crate::math::order::lesser;
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
-/// Free times as bits, each rounded down to bits that end in the pair's lane: the least of them also
-/// names its lane. Bits of numbers that are not negative order as the numbers do. Compared as numbers,
-/// those next to zero would be one where the processor is set to take them for zero.
+/// Free times as bits. The lowest bits of each hold the pair's lane, and the time is rounded down to them, so that
+/// the least value also names its lane. Bits of non-negative numbers have the order of the numbers. Comparing them as
+/// integers also distinguishes numbers next to zero if the processor is set to flush those to zero.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct FreeTimes([u32; LANES]);
 
 const LANE_BITS: u32 = LANES as u32 - 1;
 
-/// The bits of a pair that is finished, later than all others.
+/// The bits of a finished pair, later than all others.
 const FINISHED: u32 = f32::INFINITY.to_bits() | LANE_BITS;
 
 impl FreeTimes {
-    /// Creates the times of one pair, in the first lane, free until now.
+    /// Creates the times of a single pair, in the first lane, free until now.
     pub(super) fn one() -> Self {
         FreeTimes::of_lane(0)
     }
 
-    /// Packs times; lanes that are not used count as finished.
+    /// Packs times; unused lanes count as finished.
     #[inline(always)]
     pub(super) fn pack<L: Simd>(free: f32x8<L>, used: u8) -> Self {
         let level = free.token();
         let lanes: u32x8<L> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(level);
-        // Written so that NaN counts as zero, and so does a zero with a sign.
+        // Written so that NaN counts as zero, and negative zero as zero.
         let free = free.simd_gt(0.0).select(free, splat(level, 0.0));
         let used = mask32x8::from_bitmask(level, used.into());
         let free: u32x8<L> = used.select(free, splat(level, f32::INFINITY)).bitcast();
@@ -41,7 +41,7 @@ impl FreeTimes {
         time(self.least_bits())
     }
 
-    /// Creates the times of one pair, in this lane, free until now.
+    /// Creates the times of a single pair, in this lane, free until now.
     pub(super) fn of_lane(lane: usize) -> Self {
         let mut times = [FINISHED; LANES];
         times[lane] = lane as u32;
@@ -58,14 +58,14 @@ impl FreeTimes {
     #[inline]
     pub(super) fn take_least(&mut self) -> usize {
         let least = self.least_bits();
-        // All lanes are written at once: the next read need not wait for a single store.
+        // All lanes are written at once, so that the next read need not wait for a single store.
         for bits in &mut self.0 {
             *bits = if *bits == least { FINISHED } else { *bits };
         }
         (least & LANE_BITS) as usize
     }
 
-    /// Halves the lanes until one is left.
+    /// Returns the least of all bits, by halving the lanes until one is left.
     #[inline]
     fn least_bits(&self) -> u32 {
         let [a, b, c, d, e, f, g, h] = self.0;
@@ -84,7 +84,7 @@ impl FreeTimes {
     }
 }
 
-/// Removes the bits of the lane.
+/// Returns the time of a lane, without the bits of the lane.
 #[inline]
 fn time(bits: u32) -> f32 {
     f32::from_bits(bits & !LANE_BITS)

@@ -1,11 +1,11 @@
-//! Eight numbers at once, and eight vectors, one of each for every child of a group.
+//! Eight numbers at once, and eight vectors, one for every child of a group.
 
 use crate::rounding::LEAST_AXIS_F32;
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 use std::ops::{Add, Mul, Sub};
 
-/// The least normal number, a divisor in place of zero.
+/// The least normal number: a divisor in place of zero.
 pub(super) const TINY: f32 = f32::MIN_POSITIVE;
 
 /// Eight vectors.
@@ -60,14 +60,14 @@ impl<L: Simd> Vec3x8<L> {
         }
     }
 
-    /// The unit vectors; zero for a vector that is too short to have one in f32: no gap exists along
-    /// zero.
+    /// Returns the unit vectors. A vector that is too short to have one in f32 gives zero, and along zero there is no
+    /// gap.
     #[inline(always)]
     pub(super) fn unit(self) -> Self {
         self * self.reciprocal_length()
     }
 
-    /// The factors that make unit vectors; zero for a vector that is too short to be one in f32.
+    /// Returns the factors that make unit vectors; zero for a vector that is too short to have one in f32.
     #[inline(always)]
     pub(super) fn reciprocal_length(self) -> f32x8<L> {
         let (zero, one) = (splat(self.level(), 0.0), splat(self.level(), 1.0));

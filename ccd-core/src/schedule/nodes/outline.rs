@@ -1,9 +1,9 @@
-//! A triangle as seen from the axis of a screw: its corners, at their distances from the axis and their heights on the
+//! A triangle as seen from the axis of a screw: its corners by their distances from the axis and their heights on the
 //! screw.
 //!
-//! The distance `r` from the axis is a convex function. On a triangle it is greatest at corners, for any `a r + b ζ` with
-//! `ζ` straight; and it is nowhere less than `o·x`, with `x` from the axis and any unit vector `o` across it. In the middle
-//! of the triangle's azimuths `o` loses least.
+//! The distance `r` from the axis is a convex function. On a triangle, any `a r + b ζ` with a linear `ζ` is greatest
+//! at a corner. Everywhere `r` is at least `o·x`, with `x` from the axis and any unit vector `o` across it. The `o`
+//! in the middle of the triangle's azimuths loses least.
 
 use super::placed::Placed;
 use crate::math::order::{greater, lesser};
@@ -14,22 +14,22 @@ use glam::{DVec2, DVec3};
 /// The corners of a triangle in the plane of `r` and `ζ`.
 #[derive(Debug)]
 pub(super) struct Outline {
-    /// With their distances from the axis.
+    /// The corners with their distances from the axis.
     outer: [DVec2; 3],
-    /// With lower bounds of these, straight over the triangle.
+    /// The corners with lower bounds of these distances, linear over the triangle.
     inner: [DVec2; 3],
-    /// By how much `ζ` is not straight.
+    /// A bound of the deviation of `ζ` from a linear function.
     twist: f64,
-    /// What the rounding of `r` and `ζ` grows with.
+    /// The factors with which the rounding of `r` and of `ζ` grows.
     scale: [f64; 2],
     tilt: f64,
 }
 
-/// What is straight about a node of a body on a screw, and bounds of what is not.
+/// The linear terms of a node's `r` and `ζ` on a screw, and bounds of the rest.
 pub(super) struct Linear {
-    /// A point on the axis, and its direction.
+    /// A point on the axis, and the axis's direction.
     pub(super) axis: [DVec3; 2],
-    /// The `ζ` of the centre.
+    /// The `ζ` of the node's centre.
     pub(super) zeta: f64,
     /// The gradient of `ζ`.
     pub(super) ahead: DVec3,
@@ -39,7 +39,7 @@ pub(super) struct Linear {
 }
 
 impl Outline {
-    /// Returns the outline of a triangle; none of other nodes.
+    /// Returns the outline of a triangle; `None` for other nodes.
     pub(super) fn new(node: &Placed, linear: &Linear) -> Option<Self> {
         let corners = node.corners()?;
         let [origin, along] = linear.axis;
@@ -49,7 +49,7 @@ impl Outline {
         };
         let middle = across(node.centre - origin);
         let across = corners.map(|w| middle + across(w));
-        // Outward in the middle of the corners' azimuths.
+        // The outward direction in the middle of the corners' azimuths.
         let [a, b, c] = across.map(|x| x / length(x));
         let pairs = [[a, b], [b, c], [c, a]];
         let [x, y] = pairs
@@ -83,12 +83,13 @@ impl Outline {
         [low - slack, high + slack]
     }
 
-    /// Returns the surfaces along its edges, as unit coefficients of `r` and `ζ`; the latter are not negative.
+    /// Returns the surfaces along the triangle's edges, as unit coefficients of `r` and `ζ`; those of `ζ` are not
+    /// negative.
     pub(super) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
         let [a, b, c] = self.outer;
         let edges = [b - a, c - b, a - c];
         let across = edges.map(|edge| edge.perp() / edge.length());
-        // An edge along the turn has no direction here. Written so that NaN is none.
+        // An edge along the turn has no direction here. Written so that NaN gives none.
         let known = across.into_iter().filter(|n| n.length_squared() > 0.5);
         known.map(|n| if n.y < 0.0 { -n } else { n })
     }

@@ -1,4 +1,4 @@
-//! Single nodes and triangles in f64, for looks closer than the eight bounds in f32.
+//! Single nodes and triangles in f64, for bounds tighter than the eight in f32.
 
 use crate::body::tree::{Named, NodeId};
 use crate::math::order::{greater, lesser};
@@ -8,11 +8,11 @@ use crate::problem::Side;
 use crate::rounding::BOX_AXES_F32;
 use glam::{DVec3, Vec3};
 
-/// A node or a triangle where its body is.
+/// A node or a triangle at its body's position.
 pub(super) struct Placed {
     frame: Frame,
     shape: Shape,
-    /// In the problem's coordinates, as everything that is handed in or out.
+    /// The centre, in the problem's coordinates. All arguments and results are in these coordinates.
     pub(super) centre: DVec3,
     /// An upper bound of the points' distances from the centre.
     pub(super) radius: f64,
@@ -20,7 +20,7 @@ pub(super) struct Placed {
 
 enum Shape {
     Box {
-        /// Along the body's axes.
+        /// The axes of the box, which are those of the body.
         axes: [DVec3; 3],
         half: [f64; 3],
         /// The pieces' rounding radius, and the error of axes and half sizes.
@@ -31,7 +31,7 @@ enum Shape {
 }
 
 impl Placed {
-    /// Places all of a body, by the box about it.
+    /// Places the box about a whole body.
     #[inline]
     pub(super) fn whole(side: &Side<'_>, s: f64) -> Self {
         let frame = side.path.frame(s);
@@ -77,7 +77,7 @@ impl Placed {
         }
     }
 
-    /// Returns the corners of a triangle, relative to the centre; none of a box.
+    /// Returns the corners of a triangle, relative to the centre; `None` for a box.
     pub(super) fn corners(&self) -> Option<[DVec3; 3]> {
         match self.shape {
             Shape::Triangle(corners) => Some(corners),
@@ -85,7 +85,7 @@ impl Placed {
         }
     }
 
-    /// Turns a vector along with the body.
+    /// Rotates a vector with the body.
     pub(super) fn turned(&self, vector: DVec3) -> DVec3 {
         self.frame.rotation * vector
     }
@@ -104,7 +104,7 @@ impl Placed {
         self.centre + self.turned(along(0) + along(1) + along(2))
     }
 
-    /// Returns the axis of the box that is nearest to a vector, pointing the same way; the vector itself for a
+    /// Returns the axis of the box that is nearest to a vector, with the sign of the vector; the vector itself for a
     /// triangle.
     pub(super) fn axis_along(&self, n: DVec3) -> DVec3 {
         let Shape::Box { axes, .. } = &self.shape else {

@@ -1,9 +1,9 @@
-//! A node as seen from the axis of a screw: what does not change while it moves along the screw.
+//! A node as seen from the axis of a screw: the values that do not change while it moves along the screw.
 //!
-//! Along a way past points at least `ρ` from the axis, `f = a r + b ζ` changes by at most `√(a² + b²
-//! (1 + p²/ρ²))` per length. Over a convex set, beyond a plane at `ρ` from the axis that faces it, it
-//! differs from its linearisation as `r` does, by at least 0 and at most `y²/(2ρ)` at `y` along the
-//! turn, and as `ζ` does, by at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
+//! Along a path past points at least `ρ` from the axis, `f = a r + b ζ` changes by at most `√(a² + b² (1 + p²/ρ²))`
+//! per length. Consider a convex set beyond a plane that faces the axis, at `ρ` from it. There `f` differs from its
+//! linearisation by two terms. That of `r` is at least 0 and at most `y²/(2ρ)` at `y` along the turn. That of `ζ` is
+//! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
 
 use super::outline::{Linear, Outline};
 use super::placed::Placed;
@@ -15,8 +15,8 @@ use crate::tuning::LEAST_INNER;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The number of surfaces tried, evenly over all slopes. With a thread's flanks at any slope, eleven
-/// degrees between them cost a tenth of a node's width at most.
+/// The number of surfaces tried, evenly over all slopes. Eleven degrees between neighbouring surfaces cost at most a
+/// tenth of a node's width, for the flanks of a thread at any slope.
 const SURFACES: usize = 16;
 
 /// The axis of a screw, at the start.
@@ -28,23 +28,23 @@ pub(super) struct ScrewAxis {
     advance: f64,
     /// The coefficients of `r` and `ζ` for each surface.
     surfaces: [DVec2; SURFACES],
-    /// The directions of the azimuths 0 and a right angle.
+    /// The directions of azimuth 0 and of a right angle.
     azimuths: [DVec3; 2],
 }
 
-/// The intervals of a node's `f` for each surface, and how fast they change near it.
+/// The intervals of a node's `f` for each surface, and the rates at which they change near the node.
 #[derive(Debug)]
 pub(super) struct Profile {
     low: [f64; SURFACES],
     high: [f64; SURFACES],
-    /// The azimuth of the centre, and by how much that of other points may differ.
+    /// The azimuth of the centre, and a bound of the difference of other points' azimuths.
     azimuth: f64,
     width: f64,
-    /// Ways from the node are at least this far from the axis, if they are no longer.
+    /// Paths from the node that are no longer than this are at least this far from the axis.
     close: f64,
-    /// The most by which any `f` changes per length on such ways.
+    /// The greatest change of any `f` per length on such paths.
     steepest: f64,
-    /// Of a single triangle, which has intervals for any surface.
+    /// The outline of a single triangle, which gives intervals for any surface.
     outline: Option<Outline>,
 }
 
@@ -66,13 +66,13 @@ impl ScrewAxis {
 }
 
 impl Profile {
-    /// Returns the profile of a node; none if it surrounds the axis, or nearly.
+    /// Returns the profile of a node; `None` if it surrounds the axis, or nearly.
     pub(super) fn new(node: &Placed, axis: &ScrewAxis) -> Option<Self> {
         Profile::beside(node, axis, None)
     }
 
-    /// Returns the profile that contains those of all parts, of which there is at least one; none if
-    /// one of them surrounds the axis, or nearly.
+    /// Returns the profile that contains those of all parts, of which there is at least one; `None` if one of them
+    /// surrounds the axis, or nearly.
     pub(super) fn about(mut parts: impl Iterator<Item = Placed>, axis: &ScrewAxis) -> Option<Self> {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
@@ -90,12 +90,12 @@ impl Profile {
         Some(all)
     }
 
-    /// Returns the profile with the azimuth that is nearest to a given one.
+    /// Returns the profile of a node, with its azimuth in the turn nearest to a given azimuth.
     fn beside(node: &Placed, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
         let across = way - height * axis.unit;
-        // What rounding leaves of the height would tilt the gradients of tall nodes.
+        // The rest of the height, left by rounding, would tilt the gradients of tall nodes.
         let across = across - across.dot(axis.unit) * axis.unit;
         let distance = length(across);
         let outward = across / distance;
@@ -154,8 +154,8 @@ impl Profile {
         Some(profile)
     }
 
-    /// Returns the interval of shifts by which another node's `ζ` may be raised so that no surface keeps
-    /// more than the needed gap between both. It is empty if one does so for any shift.
+    /// Returns the interval of the shifts of another node's `ζ` for which no surface keeps more than the needed gap
+    /// between both nodes. The interval is empty if some surface keeps that gap for any shift.
     fn meeting(&self, other: &Profile, axis: &ScrewAxis, needed: f64) -> [f64; 2] {
         let common = axis.surfaces.iter().enumerate();
         let common = common.map(|(k, &n)| {
@@ -165,7 +165,7 @@ impl Profile {
                 [other.low[k], other.high[k]],
             )
         });
-        // Surfaces that suit two triangles.
+        // The surfaces along the edges of two triangles.
         let outlines = self.outline.iter().zip(&other.outline);
         let own = outlines.flat_map(|(own, others)| {
             let surfaces = own.surfaces().chain(others.surfaces());
@@ -177,7 +177,7 @@ impl Profile {
             let most = (high - other_low) + needed;
             met = match n.y > 0.0 {
                 true => both(met, [least / n.y, most / n.y]),
-                // No shift leads around it. Written so that NaN is no gap.
+                // This surface separates the nodes for any shift. Written so that NaN is no gap.
                 false if least > 0.0 || most < 0.0 => return [f64::INFINITY, f64::NEG_INFINITY],
                 false => met,
             };
@@ -188,8 +188,8 @@ impl Profile {
         met
     }
 
-    /// Returns the numbers of whole turns that the still node's azimuth may be ahead of its own while
-    /// the turning node passes it: the least and the most.
+    /// Returns the least and the most whole turns by which the still node's azimuth may be ahead of its own while the
+    /// turning node passes it.
     fn passes(&self, still: &Profile, way: &Way) -> [f64; 2] {
         let ahead = still.azimuth - self.azimuth;
         let width = self.width + still.width + way.needed / greater(self.close, still.close);
@@ -198,23 +198,23 @@ impl Profile {
     }
 }
 
-/// Returns what is in two intervals.
+/// Returns the intersection of two intervals.
 fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [greater(a, c), lesser(b, d)]
 }
 
-/// Rounds to the whole numbers in an interval, which is widened by far more than rounding.
+/// Returns the least and the greatest whole number in an interval, which is first widened by far more than rounding.
 fn outward([least, most]: [f64; 2]) -> [f64; 2] {
     let width = TURNS_F64 * (1.0 + greater(least.abs(), most.abs()));
     [(least - width).ceil(), (most + width).floor()]
 }
 
-/// The way of the turning node, and the distance that is to be kept on it.
+/// The path of the turning node, and the distance to be kept on it.
 #[derive(Debug)]
 pub(super) struct Way {
     /// The advance per turn.
     pub(super) pitch: f64,
-    /// The angles from the start at which it begins and ends.
+    /// The angles at which the path begins and ends, from the start on.
     pub(super) angles: [f64; 2],
     pub(super) needed: f64,
 }
@@ -222,9 +222,9 @@ pub(super) struct Way {
 /// Returns whether a node that turns and one that stands still certainly keep more than the needed
 /// distance.
 ///
-/// A turn more raises the still node's `ζ`, as the turning one sees it, by a pitch less. No surface is between
-/// them in a single interval of shifts, so that the number of turns does not count, only whether a whole one is
-/// in there. Without a pitch all turns are alike.
+/// Each further turn lowers the still node's `ζ`, as seen from the turning node, by one pitch. The shifts for which
+/// no surface separates the nodes form a single interval. The number of turns therefore does not matter, only whether
+/// a whole number of pitches lies in it. Without a pitch all turns are alike.
 pub(super) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, way: &Way) -> bool {
     let near = if still.close > turning.close {
         still

@@ -1,4 +1,4 @@
-//! The boxes of two whole bodies: one fixed plane may tell them apart for good.
+//! The boxes of two whole bodies, which one fixed plane may separate for good.
 
 use super::approach::Approach;
 use super::placed::Placed;
@@ -8,20 +8,20 @@ use crate::problem::{Problem, Side};
 use crate::tuning::PROJECTIONS;
 use glam::DVec3;
 
-/// Returns whether a fixed plane between the boxes of both bodies keeps them farther apart than a
-/// contact is, all the time. It is across the way between the boxes' nearest points, across the way between
-/// their centres when these pass each other, or along a face of a box.
+/// Returns whether one fixed plane separates both bounding boxes by more than the contact distance, all the time. The
+/// plane is perpendicular to the offset between the boxes' nearest points, to the offset between their centres when
+/// these pass each other, or to an axis of a box.
 ///
 /// # Guarantee
-/// Only bodies that are never in contact, up to the tolerance, nor inside each other, are told apart.
+/// The result is true only for bodies that are never in contact, up to the tolerance, nor inside each other.
 pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
     let whole = |side: &Side<'_>| side.body.tree().piece(0).is_some();
-    // Two single pieces are told apart as fast by themselves.
+    // The search proves two single pieces apart as fast by itself.
     if whole(&problem.a) && whole(&problem.b) {
         return false;
     }
     let [a, b] = [&problem.a, &problem.b].map(|side| Placed::whole(side, 0.0));
-    // Projected from one box to the other and back, a point goes to the nearest ones.
+    // Repeated projection from one box to the other converges to the nearest points.
     let (mut on_a, mut on_b) = (a.centre, b.centre);
     for _ in 0..PROJECTIONS {
         on_a = a.project(on_b);
@@ -30,27 +30,27 @@ pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
     let nearest = unit(on_b - on_a);
     let passing = unit(passing(problem, [&a, &b]));
     let ways = [nearest, passing].into_iter().flatten();
-    // Between faces that are next to each other the way is hardly known, but it is across them.
+    // Between adjacent faces the offset is mostly rounding, but it is perpendicular to the faces.
     let along = ways
         .clone()
         .flat_map(|way| [&a, &b].map(|whole| whole.axis_along(way)));
     ways.chain(along).any(|n| keeps_apart(problem, [&a, &b], n))
 }
 
-/// Returns the way from centre to centre when they are nearest, at their velocities of the start.
+/// Returns the offset between the centres when they are nearest, at their velocities of the start.
 fn passing(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
     let way = b.centre - a.centre;
     let velocity =
         problem.b.path.velocity_at(b.centre, 0.0) - problem.a.path.velocity_at(a.centre, 0.0);
     let nearest = -way.dot(velocity) / velocity.length_squared();
-    // Without a velocity there is no such way.
+    // Without a velocity there is no such time.
     way + velocity * greater(0.0, lesser(nearest, 1.0))
 }
 
-/// Returns whether a plane across a unit vector keeps the boxes apart.
+/// Returns whether a plane perpendicular to a unit vector keeps the boxes apart.
 fn keeps_apart(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3) -> bool {
     let gap = n.dot(b.centre - a.centre) - a.reach(n) - b.reach(-n);
     let excess = gap - problem.contact_distance() - 2.0 * problem.rounding;
-    // Written so that NaN tells nothing.
+    // Written so that NaN proves nothing.
     excess > 0.0 && Approach::along(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
 }

@@ -1,5 +1,5 @@
-//! Nodes of two bodies of which one turns about an axis that stands still for the other: a bolt in
-//! a nut, a shaft in a sleeve, a wheel, a hinge.
+//! Pairs of nodes of two bodies of which one turns about an axis that stands still for the other: a bolt in a nut, a
+//! shaft in a sleeve, a wheel, a hinge.
 //!
 //! With `r` the distance of a point from the axis, `φ` its azimuth, `z` its height along the axis
 //! and `p` the advance per radian, neither `r` nor `ζ = z − p φ` changes while the point moves. A
@@ -26,27 +26,28 @@ use std::ops::Range;
 pub(super) struct Screw {
     turning: Which,
     axis: ScrewAxis,
-    /// The whole way. On it, this distance on the screw keeps two nodes apart, whatever the drift.
+    /// The whole path. Two nodes that keep this distance on the screw are apart, whatever the drift.
     way: Way,
 }
 
-/// The profiles of both bodies' nodes and triangles, made when they are first asked for.
+/// The profiles of both bodies' nodes and triangles, computed at their first use.
 #[derive(Debug, Default)]
 pub(crate) struct Profiles([OfBody; 2]);
 
 #[derive(Debug, Default)]
 struct OfBody {
-    /// Where each node's profile is, by id.
+    /// The index of each node's profile, by node id.
     places: Vec<u32>,
     known: Vec<Profile>,
 }
 
-/// The place of a profile that was not asked for, and of a node that has none.
+/// The index of a profile that was not computed yet, and that of a node that has none.
 const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
 impl Screw {
-    /// Returns none unless one body turns, and the axis hardly moves for the other. Forgets all profiles.
+    /// Returns the screw, and removes all profiles; `None` unless one body turns, and the axis hardly moves for the
+    /// other.
     pub(super) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
         let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
             (true, false) => Which::A,
@@ -67,14 +68,14 @@ impl Screw {
         };
         // The advance is off by a few units in the last place, which counts as drift too.
         let drift = length(velocity - along * unit) + ADVANCE_F64 * length(velocity);
-        // Bodies that fall alike do not accelerate for each other.
+        // Bodies with the same acceleration do not accelerate relative to each other.
         let acceleration = side.path.acceleration - other.path.acceleration;
         let drift = drift + 0.5 * length(acceleration);
         // Written so that NaN is no screw.
         if !(drift <= SCREW_DRIFT * size) {
             return None;
         }
-        // Rounding counts once for the positions, once for the axis.
+        // Rounding counts once for the positions, and once for the axis.
         let kept = problem.node_gap() + 2.0 * problem.rounding + CLOSED_GAP * problem.tolerance;
         profiles.0[0].forget(&problem.a);
         profiles.0[1].forget(&problem.b);
@@ -89,8 +90,8 @@ impl Screw {
         })
     }
 
-    /// Returns whether two nodes, of A and of B, certainly stay apart by the gap of nodes from clock
-    /// `s` to the end; none if one of them surrounds the axis, or nearly.
+    /// Returns whether two nodes, of A and of B, certainly stay apart by the gap of nodes from clock `s` to the end;
+    /// `None` if one of them surrounds the axis, or nearly.
     pub(super) fn keeps_apart(
         &self,
         problem: &Problem<'_>,
@@ -106,8 +107,8 @@ impl Screw {
         let (Some(of_a), Some(of_b)) = (of_a, of_b) else {
             return Some(false);
         };
-        // Groups of triangles whose outlines overlap hardly ever have triangles that do. To compare
-        // these costs less than to split the groups.
+        // In groups with overlapping outlines, hardly any two triangles have overlapping outlines. Comparing
+        // triangles costs less than splitting the groups.
         let mut of_a = of_a;
         Some(of_a.all(|x| {
             let mut apart = |pair| self.keeps_whole_apart(problem, profiles, pair, s) == Some(true);
@@ -115,7 +116,7 @@ impl Screw {
         }))
     }
 
-    /// The same, without a look at triangles below the nodes.
+    /// Like `Screw::keeps_apart`, without a test of the triangles below the nodes.
     fn keeps_whole_apart(
         &self,
         problem: &Problem<'_>,
@@ -146,7 +147,7 @@ impl OfBody {
         self.places.resize(count, UNKNOWN);
     }
 
-    /// Returns the profile of a node or triangle; none if it surrounds the axis, or nearly.
+    /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly.
     fn of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
         let place = &mut self.places[id as usize];
         if *place == UNKNOWN {
@@ -162,8 +163,7 @@ impl OfBody {
     }
 }
 
-/// Returns the profile of a node at the start. That of a few triangles is less than that of their
-/// box.
+/// Returns the profile of a node at the start. The profile of a few triangles is smaller than that of their box.
 fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| Placed::new(side, id, 0.0);
     match triangles(side, id) {
@@ -172,7 +172,7 @@ fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     }
 }
 
-/// Returns the triangle that an id names, or those of a node of a few; none for other nodes.
+/// Returns the triangle of an id, or the triangles of a node of a few; `None` for other nodes.
 fn triangles(side: &Side<'_>, id: NodeId) -> Option<Range<NodeId>> {
     let tree = side.body.tree();
     match tree.get(id) {

@@ -10,17 +10,17 @@ pub(crate) trait Children {
     fn centre<L: Simd>(&self, level: L) -> Vec3x8<L>;
     /// Returns unit vectors that are likely to separate the children from others, or zeros.
     fn normal<L: Simd>(&self, level: L) -> Vec3x8<L>;
-    /// Returns upper bounds of their points' distances from their centres.
+    /// Returns upper bounds of the distances of the children's points from their centres.
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
     /// Returns `max n·(x − centre)` over each child's points.
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Returns the same for an axis that is their normal, or its opposite.
+    /// Like `Children::reach`, for an axis that is each child's normal, or its opposite.
     #[inline(always)]
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.reach(n)
     }
-    /// Returns the ways to a point from the points of the children to look at it from; `to` leads to
-    /// it from their centres.
+    /// Returns the offsets to a point from the children's points that are best for an axis; `to` leads to that point
+    /// from the children's centres.
     fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children cannot be split.
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
@@ -31,24 +31,24 @@ pub(crate) trait OtherNode {
     fn centre(&self) -> Vec3;
     /// Returns a unit vector that is likely to separate the node from others, or zero.
     fn normal(&self) -> Vec3;
-    /// Returns an upper bound of its points' distances from its centre.
+    /// Returns an upper bound of the distances of the node's points from its centre.
     fn radius(&self) -> f32;
-    /// Returns `max n·(centre − y)` over the node's points: its reach towards −n.
+    /// Returns `max n·(centre − y)` over the node's points: the node's extent towards −n.
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Returns the same for an axis that is its normal, or its opposite.
+    /// Like `OtherNode::reach`, for an axis that is the node's normal, or its opposite.
     #[inline(always)]
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.reach(n)
     }
-    /// Returns the ways from points to points of the node to look at; `way` leads from there to its
-    /// centre.
+    /// Returns the offsets from points to the node's points that are best for an axis; `way` leads from those points
+    /// to the node's centre.
     fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node cannot be split.
     fn is_piece(&self) -> bool;
 }
 
-/// Returns `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: the reach of a box grown by its pieces' rounding r,
-/// and of a ball.
+/// Returns `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: the lesser extent of a box grown by its pieces' rounding r, and of a
+/// ball.
 #[inline(always)]
 fn box_reach<L: Simd>(
     n: Vec3x8<L>,
@@ -95,7 +95,7 @@ impl Children for BoxGroup {
     }
     #[inline(always)]
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        // This is how the half size was measured.
+        // The half size was measured in the same way.
         load(n.level(), &self.half[2]) + load(n.level(), &self.rounding)
     }
     #[inline(always)]
@@ -112,7 +112,7 @@ impl Children for TriangleGroup {
     }
     #[inline(always)]
     fn normal<L: Simd>(&self, level: L) -> Vec3x8<L> {
-        // Relative to the radius: the square of a small area would be lost in f32.
+        // The products are relative to the radius: the square of a small area would be lost in f32.
         let scale = splat(level, 1.0) / self.radius(level).max(TINY);
         let [a, b, c] = self.corners(level);
         ((b - a) * scale).cross((c - a) * scale).unit()
@@ -152,7 +152,7 @@ impl TriangleGroup {
     }
 }
 
-/// A node's box and ball.
+/// The box and the ball of a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OtherBox {
     pub(crate) centre: Vec3,
@@ -203,7 +203,7 @@ impl OtherNode for OtherBox {
     }
 }
 
-/// A triangle: its corners relative to its centre.
+/// A triangle, by its corners relative to its centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OtherTriangle {
     pub(crate) centre: Vec3,

@@ -1,4 +1,4 @@
-//! The pairs of one split wait together, and are taken out one by one.
+//! The pairs of one split, which wait together and are removed one by one.
 
 use super::expand::{Expansion, Split};
 use super::free_times::FreeTimes;
@@ -9,7 +9,7 @@ use crate::problem::{Problem, Side, Which};
 /// Up to eight pairs: the children of a node, each with one node of the other body.
 #[derive(Debug)]
 pub(crate) struct Siblings {
-    /// The time after `since` for which each pair is certified; infinite once the pair is finished.
+    /// The time after `since` up to which each pair is certified; infinite for a finished pair.
     free: FreeTimes,
     since: f64,
     /// The split that created the pairs.
@@ -19,24 +19,24 @@ pub(crate) struct Siblings {
     thicker: u8,
     /// True if the other node is a single piece.
     whole: bool,
-    /// The children for which a second look is better than a split.
+    /// The children for which a second visit is better than a split.
     waits: u8,
-    /// The number of times that a pair was parted to wait alone.
+    /// The number of times that a pair was removed to wait alone.
     parted: u8,
 }
 
 /// The next step for a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Next {
-    /// Ask the oracle about two pieces, of A and of B.
+    /// Two pieces, of A and of B: the oracle measures them next.
     Ask(u32, u32),
-    /// Split one of the two nodes.
+    /// A split of one of the two nodes.
     Split(Split),
 }
 
 impl Next {
-    /// Creates the pair of both roots. Of two nodes that can be split, the smaller one is: a large
-    /// one is best kept whole until it matters.
+    /// Creates the pair of both roots. If both nodes can be split, the smaller one is: a large node is best kept
+    /// whole as long as possible.
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
@@ -50,7 +50,7 @@ impl Next {
 }
 
 impl Siblings {
-    /// Creates the pair of both roots; the given body's root is to be split.
+    /// Creates the pair of both roots, of which the given body's root is to be split.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
             free: FreeTimes::one(),
@@ -79,8 +79,7 @@ impl Siblings {
         }
     }
 
-    /// Returns the least clock among the pairs, never later than certified; infinite when all are
-    /// finished.
+    /// Returns the least clock among the pairs, never later than certified; infinite when all are finished.
     #[inline]
     pub(crate) fn clock(&self) -> f64 {
         let free = self.free.least();
@@ -106,12 +105,12 @@ impl Siblings {
         }
     }
 
-    /// Finishes the pairs that stay apart for good. Those that may not are better split than looked at
-    /// again: most of the pairs that they are split into do.
+    /// Marks pairs that stay apart for good as finished. The others are to be split, not visited again: most of their
+    /// children stay apart.
     pub(crate) fn finish(&mut self, mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>) {
         let horizon = (1.0 - self.since) as f32;
         for lane in 0..LANES {
-            // Others are certified to the end as it is.
+            // The other pairs are already certified to the end.
             if self.free.of(lane) < horizon {
                 match keeps_apart(self.pair(lane)) {
                     Some(true) => self.free.finish(lane),
@@ -122,13 +121,13 @@ impl Siblings {
         }
     }
 
-    /// Returns the number of times that a pair was parted to wait alone.
+    /// Returns the number of times that a pair was removed to wait alone.
     #[inline]
     pub(crate) fn parted(&self) -> usize {
         usize::from(self.parted)
     }
 
-    /// Takes out the pair of least clock, to wait alone for a later one.
+    /// Removes the pair of least clock, to wait alone for a later one.
     pub(crate) fn part_least(&mut self, clock: f64) -> Self {
         Siblings {
             free: FreeTimes::of_lane(self.free.take_least()),
@@ -138,7 +137,7 @@ impl Siblings {
         }
     }
 
-    /// Takes out the pair of least clock, which is `s`.
+    /// Removes the pair of least clock, which is `s`, and returns its next step.
     // In the search's loop: a larger program, such as Python's module, would call it, and take 1 % more time.
     #[inline(always)]
     pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> Next {
@@ -148,7 +147,7 @@ impl Siblings {
             body, node, other, ..
         } = self.split;
         let child = self.first + lane as NodeId;
-        // A second look at the same instant would give the same result.
+        // A second visit at the same instant would give the same result.
         if advanced && self.waits >> lane & 1 == 1 {
             return Next::Split(Split {
                 lanes: 1 << lane,
@@ -159,14 +158,14 @@ impl Siblings {
         if self.whole && !thicker {
             return ask(problem, self.pair(lane));
         }
-        // Chosen without a branch: none could foresee it.
+        // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);
         let k = usize::from(thicker);
         Next::Split(Split::all(bodies[k], nodes[k], nodes[1 - k]))
     }
 }
 
-/// Asks about two nodes that cannot be split.
+/// Returns the step that measures two nodes which cannot be split.
 fn ask(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
     let piece = |side: &Side<'_>, node| side.body.tree().piece(node);
     match (piece(&problem.a, a), piece(&problem.b, b)) {

@@ -1,8 +1,8 @@
 //! Planes that turn with one of the bodies.
 //!
-//! For a fixed plane the full speed of a turning body's far rim counts, however small the other
-//! body is. For a plane that turns with the body it does not: the body's own extent along its
-//! normal is constant, and only the other node sweeps towards it.
+//! For a fixed plane the full speed of a turning body's far rim counts, however small the other body is. For a plane
+//! that turns with the body it does not count: the body's own extent along the plane's normal is constant, and only
+//! the other node sweeps towards the plane.
 //!
 //! With `n' = ω×n` and `d` from the turning body's centre to a point of the other node, the height
 //! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`, `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ|
@@ -19,14 +19,14 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// The node that sweeps towards a plane attached to the other body.
 struct SweepingNode<L: Simd> {
-    /// `n·(v_S − v_O)` at its centre, with both velocities taken at that point, plus the share of
-    /// the points around.
+    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus the share of the
+    /// points around it.
     rate: f32x8<L>,
-    /// The largest distance of its points from the turning body's centre.
+    /// The largest distance of the node's points from the turning body's centre.
     distance: f32x8<L>,
-    /// An upper bound of its points' speeds due to its own turning.
+    /// An upper bound of the speeds of the node's points due to its own turning.
     speed: f32x8<L>,
-    /// `|ω|` of its own turning.
+    /// The `|ω|` of the node's own turning.
     own_rate: f32,
 }
 
@@ -94,7 +94,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let speed = sweep.speed + straight;
         let far = sweep.distance + speed * ATTACHED_TIME;
         let bend = across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate + change;
-        // The sweep happens at its own distance from the turning body's centre.
+        // Each sweep happens at the distance of its node from the turning body's centre.
         let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
         let free = clock::free_time(
             axis.gap - motion.slack,

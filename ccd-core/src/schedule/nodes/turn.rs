@@ -1,4 +1,4 @@
-//! The turning of a body, as seen from the group that is split.
+//! The rotation of a body, as seen from the group that is split.
 
 use super::lanes::Vec3x8;
 use fearless_simd::{Simd, f32x8};
@@ -7,7 +7,7 @@ use glam::Vec3;
 /// A body's rotation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turn {
-    /// False for a body that does not turn: it costs nothing.
+    /// False for a body that does not turn, for which nothing is computed.
     pub(crate) turns: bool,
     pub(crate) spin: Vec3,
     /// `|ω|`, rounded up.

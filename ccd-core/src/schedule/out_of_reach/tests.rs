@@ -1,4 +1,4 @@
-//! Bodies told apart, against samples of their distance and against balls.
+//! Bodies proven apart, compared with samples of their distance and with balls.
 
 use super::out_of_reach;
 use crate::body::Body;
@@ -76,7 +76,7 @@ fn balls_are_told_apart_up_to_the_gap() {
         };
         let nearest = direction(&mut rng);
         let along = nearest.any_orthonormal_vector() * magnitude(&mut rng, -3.0, 2.0);
-        // Nearest at the start, within the duration, at its end, or always.
+        // The balls are nearest at the start, within the duration, at its end, or always.
         let (before, after) =
             [(0.0, 1.0), (0.3, 0.7), (1.0, 0.0), (0.0, 0.0)][rng.random_range(0..4)];
         let gap = radii[0] + radii[1] + config.margin + config.tolerance;

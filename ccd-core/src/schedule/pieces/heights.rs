@@ -1,4 +1,4 @@
-//! The points of a piece seen along a fixed axis.
+//! The heights of a piece's points along a fixed axis.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -11,9 +11,9 @@ use glam::DVec3;
 
 /// The heights of a piece's points along an axis while their body moves.
 ///
-/// Few points are followed one by one. Of many, only the lowest one is sought, along the axis as
-/// the body then sees it, and the one that sinks fastest. Heights after some time, and rates, are
-/// products of a vector with the points in the body's frame.
+/// Few points are followed one by one. Of many points, only two are computed: the lowest one along the axis, as the
+/// body then sees the axis, and the one with the least rate. Heights after some time, and rates, are products of a
+/// vector with the points in the body's frame.
 pub(super) struct Heights<'a> {
     piece: &'a Piece<'a>,
     frame: &'a Frame,
@@ -29,14 +29,14 @@ pub(super) struct Heights<'a> {
     acceleration: f64,
     least: f64,
     few: Few,
-    /// The bound for all points, if there are many.
+    /// The bound of the second derivatives of all points, if there are many.
     bend: f64,
-    /// The error of the lowest height of many points, and of its rate.
+    /// The error of the lowest height of many points, and the error of its rate per angular velocity.
     missed: f64,
 }
 
-/// One point's height, its rate, and a bound of what its turning adds to the second derivative; or bounds of these
-/// over all points from below, and from above.
+/// The height of one point, its rate, and a bound of the second derivative due to its turning. For many points these
+/// are bounds over all of them, from below, and from above for the second derivative.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Point {
     pub(super) height: f64,
@@ -44,7 +44,7 @@ pub(super) struct Point {
     pub(super) bend: f64,
 }
 
-/// Pieces of up to this many points are followed by pairs of points.
+/// The most points of a piece that are followed in pairs of points.
 const FEW: usize = 3;
 
 /// The tracks of the first few points; unused ones repeat the last.
@@ -52,7 +52,7 @@ const FEW: usize = 3;
 pub(super) struct Few([(Track, f64); FEW]);
 
 impl Few {
-    /// Returns their states after `tau`.
+    /// Returns the states of the points after `tau`.
     #[inline]
     pub(super) fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
         self.0.map(|(track, bend)| Point {
@@ -121,12 +121,12 @@ impl<'a> Heights<'a> {
         self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     }
 
-    /// Returns the fastest speed of any point, in any direction, at any time.
+    /// Returns a bound of the speed of any point, in any direction, at any time.
     pub(super) fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Returns the least height now.
+    /// Returns the least height at the present time.
     pub(super) fn least(&self) -> f64 {
         self.least
     }
@@ -147,7 +147,7 @@ impl<'a> Heights<'a> {
         (self.piece.points.len() <= FEW).then_some(&self.few)
     }
 
-    /// Bounds all points from below after `tau`.
+    /// Returns lower bounds of the heights and rates of all points after `tau`.
     pub(super) fn bound(&self, tau: f64) -> Point {
         let start = Point {
             height: f64::INFINITY,
@@ -164,8 +164,8 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// Returns how far the turning takes any of the points below [`Heights::least`] up to `horizon`; none if there
-    /// are many points.
+    /// Returns how far rotation takes any of the points below [`Heights::least`] up to `horizon`; `None` if there are
+    /// many points.
     pub(super) fn descent_until(&self, horizon: f64) -> Option<f64> {
         if self.piece.ball().is_some() {
             return None;
@@ -178,23 +178,23 @@ impl<'a> Heights<'a> {
         Some(self.least - least)
     }
 
-    /// Returns the rate at which all points rise now, apart from what their turning does.
+    /// Returns the present rate that all points share: their rate along the axis without rotation.
     pub(super) fn drift(&self) -> f64 {
         self.along.drift()
     }
 
-    /// Returns its derivative.
+    /// Returns the derivative of `Heights::drift`.
     pub(super) fn pull(&self) -> f64 {
         self.along.pull()
     }
 
-    /// Returns a lower bound of its derivative.
+    /// Returns a lower bound of the derivative of `Heights::drift`.
     pub(super) fn least_pull(&self) -> f64 {
         self.along.pull() - RATE_F64 * self.acceleration
     }
 
-    /// Returns the least value of a function of the points after `tau`: of each by itself, or of the bound if
-    /// there are many. The function falls with heights and rates.
+    /// Returns the least value of a function of the points after `tau`: over each point if there are few, of their
+    /// bound if there are many. The function decreases with heights and rates.
     pub(super) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
         match self.piece.ball() {
             Some(_) => of(&self.bound(tau)),
@@ -222,7 +222,7 @@ impl<'a> Heights<'a> {
                 bend: 0.0,
             };
         }
-        // The normal in the turning body's frame.
+        // The normal, as seen from the turning body.
         let seen = Spinning::new(-self.axis, self.normal);
         let (axis, slope) = (seen.at(angle), seen.slope_at(angle));
         Point {
@@ -238,7 +238,7 @@ impl<'a> Heights<'a> {
         self.track(self.piece.points[index as usize]).0
     }
 
-    /// Returns the points' tracks, and their arms from the centre.
+    /// Returns the tracks of the points, and the arms of the points from the centre.
     fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
         self.piece.points.iter().map(|&x| self.track(x))
     }
@@ -264,9 +264,9 @@ pub(super) fn least_free(
     times.fold(f64::INFINITY, lesser)
 }
 
-/// Returns a bound of the least free time of any two points: one body's points, each by itself, against a
-/// bound of the other's. The lowest point and the one that sinks fastest may be different ones, which a bound
-/// of both bodies takes for one. A body that does not turn loses nothing by its bound.
+/// Returns a lower bound of the least free time of any two points. The points of one body, each by itself, are paired
+/// with a bound of the other body's. The lowest point and the one with the least rate may differ, and a bound of both
+/// bodies would treat them as one. A body that does not turn loses nothing by its bound.
 pub(super) fn least_free_of_many(
     above: &Heights<'_>,
     below: &Heights<'_>,

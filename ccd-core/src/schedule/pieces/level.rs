@@ -1,4 +1,5 @@
-//! Pieces that come to touch beside the plane in which the bodies began to: an inner edge of flat ground is no obstacle.
+//! Pieces that come to touch beside the plane in which the bodies began to touch: an inner edge of flat ground is no
+//! obstacle.
 
 use super::snapshot::{Plane, Snapshot};
 use crate::answer::Contact;
@@ -13,14 +14,15 @@ use glam::DVec3;
 /// Two pieces that a [`TouchingPlane`] keeps apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Level {
-    /// The body that the plane stays with.
+    /// The body that carries the plane.
     holder: Which,
     /// The gap along the normal below which the pieces approach each other.
     floor: f64,
 }
 
 impl TouchingPlane {
-    /// Returns the plane across the normal of a contact at the start; none if the bodies may overlap along it.
+    /// Returns the plane perpendicular to the normal of a contact at the start; `None` if the bodies may overlap
+    /// along it.
     pub(crate) fn of(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
         let normal = contact.separation.normal;
         let given = problem.given();
@@ -39,11 +41,11 @@ impl TouchingPlane {
 }
 
 impl Snapshot<'_> {
-    /// Returns the plane that keeps two pieces apart for longest from now on, among those that the bodies began to touch
-    /// in; none if there is none. The heights of pieces are measured from a point in A's frame.
+    /// Returns the plane that keeps two pieces apart for longest from now on, among those in which the bodies began
+    /// to touch; `None` if there is none. The heights of pieces are measured from a point in A's frame.
     ///
-    /// A piece that stays on its side of a plane does not pass into one on the other side, whatever edges are between
-    /// the faces there.
+    /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
+    /// between the faces there.
     pub(super) fn level(&self, ids: [u32; 2], from: DVec3) -> Option<Level> {
         let plane = self.problem.touching.as_ref()?;
         let resting = RESTING * self.problem.rounding;
@@ -67,13 +69,13 @@ impl Snapshot<'_> {
     }
 
     /// Returns a time for which the pieces certainly do not approach each other along the normal of the plane between
-    /// them, or none when they never do.
+    /// them; `None` if they never do.
     pub(super) fn level_time(&self, level: &Level, from: DVec3) -> Option<f64> {
         let Some(normal) = self.normal_with(level.holder) else {
             return Some(0.0);
         };
         let slack = self.gap_across(normal, from) - level.floor;
-        // Written so that NaN is nothing left.
+        // Written so that NaN counts as no slack.
         if slack > RESTED * self.problem.rounding {
             self.free_beside(&Plane { normal, slack })
         } else {
@@ -81,7 +83,7 @@ impl Snapshot<'_> {
         }
     }
 
-    /// Returns the normal of the plane that stays with a body, in the problem's coordinates.
+    /// Returns the normal of the plane that a body carries, in the problem's coordinates.
     fn normal_with(&self, holder: Which) -> Option<DVec3> {
         let [in_a, in_b] = self.problem.touching.as_ref()?.normals;
         let [frame_a, frame_b] = &self.frames;
@@ -96,8 +98,8 @@ impl Snapshot<'_> {
         self.gap_along(self.frames[0].inverse_vector(normal), from)
     }
 
-    /// Returns whether the plane across a normal is between what the pieces bound. Two that are both in it are apart on
-    /// either side of it, wherever the solids are.
+    /// Returns whether the plane perpendicular to a normal separates the solids behind the pieces. Two pieces that
+    /// both lie in the plane are apart on either side of it, wherever the solids are.
     fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
         let in_one_plane = self.gap_across(-normal, from) >= -2.0 * RESTING * self.problem.rounding;
         if !in_one_plane {
@@ -112,7 +114,7 @@ impl Snapshot<'_> {
             // The side to keep to is unknown.
             (Facing::Unclear, _) | (_, Facing::Unclear) => false,
             (Facing::Neither, Facing::Neither) => false,
-            // Those on one side slide along the plane.
+            // Solids on the same side slide along the plane.
             (Facing::Out(n), Facing::Out(m)) => {
                 is_ahead(frame_a.rotation * n) || is_ahead(frame_b.rotation * -m)
             }

@@ -1,4 +1,4 @@
-//! Where two pieces meet: the surfaces of their bodies around their nearest points.
+//! The surfaces of two bodies around the nearest points of two pieces.
 
 use super::snapshot::Snapshot;
 use crate::distance::common_normals::CommonNormals;
@@ -13,7 +13,7 @@ pub(crate) struct Meeting<'s> {
 }
 
 impl<'s> Meeting<'s> {
-    /// Looks at the surfaces around two points, of A and of B, in A's frame.
+    /// Finds the surfaces around two points, of A and of B, in A's frame.
     pub(crate) fn at(snapshot: &Snapshot<'_>, points: [DVec3; 2], meter: &'s mut Meter) -> Self {
         let Snapshot {
             problem, pieces, ..
@@ -39,8 +39,8 @@ impl<'s> Meeting<'s> {
         }
     }
 
-    /// Returns the common normal of both surfaces that is nearest to a direction, if the points are along it up to
-    /// rounding.
+    /// Returns the common normal of both surfaces that is nearest to a direction, if the points are along that normal
+    /// up to rounding.
     pub(crate) fn normal(&self, towards: DVec3) -> Option<DVec3> {
         let [on_a, on_b] = self.points;
         self.normals.along(towards, on_b - on_a)

@@ -1,4 +1,4 @@
-//! One pair of pieces: ask the oracle, check its claim, advance the pair's own clock.
+//! One pair of pieces: the oracle's claim is checked, and the pair's own clock is advanced.
 
 use super::level::Level;
 use super::snapshot::Snapshot;
@@ -15,7 +15,7 @@ use crate::schedule::meter::Meter;
 use crate::settings::StartPolicy;
 use glam::DVec3;
 
-/// A pair of pieces that is advanced.
+/// A pair of pieces with a clock.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair<C> {
     pub(crate) a: u32,
@@ -23,34 +23,34 @@ pub(crate) struct Pair<C> {
     goal: Goal,
     /// True once the pair was advanced.
     known: bool,
-    /// The memory that the oracle left for its next call.
+    /// The memory of the oracle for its next call with this pair.
     cache: C,
 }
 
-/// The gap that a pair's clock proves, and the gap at which the pair is in contact. Distances are
-/// measured beyond the margin.
+/// The gap that a pair's clock proves, and the gap at which the pair is in contact. Distances are measured beyond the
+/// margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
-    /// In contact at the query's tolerance; the clock proves half of it.
+    /// The pair is in contact at the query's tolerance. The clock proves half of it.
     Apart,
-    /// The same for a pair that began in contact and has parted since.
+    /// Like `Apart`, for a pair that began in contact and has parted since.
     Parted,
-    /// Began in contact, up to rounding: in contact again once it cannot be proven above the floor.
+    /// The pair began in contact, up to rounding. It is in contact again once it cannot be proven above the floor.
     Resting { floor: f64 },
-    /// Came to touch beside the plane in which the bodies began to: in contact once it approaches along its normal.
+    /// The pair came to touch beside the plane in which the bodies began to touch. It is in contact once it
+    /// approaches along the normal of that plane.
     Level(Level),
 }
 
 /// The result of a pair's advance at its clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Step {
-    /// Certified apart until this clock, which is past the present one; a clock beyond 1 means
-    /// forever.
+    /// The pair is certified apart until this clock, which is past the present one; a clock beyond 1 means forever.
     FreeUntil(f64),
-    /// Within the tolerance. At the start it may intersect; the search for the nearest pieces
+    /// The pair is within the tolerance. At the start it may intersect, which the search for the nearest pieces
     /// decides.
     Contact(Contact),
-    /// Intersecting; at the start only.
+    /// The pair intersects; at the start only.
     Overlap(Contact),
     /// The next clock is not past the present one.
     Stalled,
@@ -69,7 +69,7 @@ impl<C: Default + Clone> Pair<C> {
         }
     }
 
-    /// Examines the pair at clock `s`, until which it is certified apart, and certifies it further.
+    /// Examines the pair at clock `s`, up to which it is certified apart, and certifies it further.
     pub(crate) fn advance<O: DistanceOracle<Cache = C>>(
         &mut self,
         problem: &Problem<'_>,
@@ -88,8 +88,8 @@ impl<C: Default + Clone> Pair<C> {
         })
     }
 
-    /// Like [`Pair::advance`] in a snapshot of the pair, with another rule for the time for which
-    /// it keeps a gap. Pairs that rest on each other are followed as usual.
+    /// Like [`Pair::advance`] in a snapshot of the pair, with another rule for the time for which it keeps a gap.
+    /// Pairs that rest on each other are followed as usual.
     pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
         &mut self,
         snapshot: &Snapshot<'_>,
@@ -111,7 +111,7 @@ impl<C: Default + Clone> Pair<C> {
                     Intersection::Certain => {
                         return Step::Overlap(contact(snapshot, ids, &checked));
                     }
-                    // The search for the nearest pieces resolves it.
+                    // The search for the nearest pieces decides this.
                     Intersection::Undecided => return in_contact(&checked),
                     Intersection::None => {}
                 }
@@ -138,8 +138,8 @@ impl<C: Default + Clone> Pair<C> {
                 return after(s, free).unwrap_or_else(|| in_contact(&checked));
             }
         };
-        // The axis may lose all of the gap that is left to advance by. Written so that NaN counts
-        // as that.
+        // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
+        // such a loss.
         let checked = if is_resting || !(checked.lower > kept + problem.rounding) {
             sharpened(&snapshot.pieces, &checked, problem.rounding)
         } else {
@@ -168,8 +168,7 @@ impl<C: Default + Clone> Pair<C> {
         }
     }
 
-    /// Returns the gap that a pair within the tolerance has to keep from now on, or none when it is
-    /// in contact.
+    /// Returns the gap that a pair within the tolerance has to keep from now on; `None` when it is in contact.
     fn goal_of_start<O: DistanceOracle<Cache = C>>(
         &self,
         problem: &Problem<'_>,
@@ -194,8 +193,8 @@ impl<C: Default + Clone> Pair<C> {
     }
 }
 
-/// Returns the step of a pair at clock `s` that is free for a time, or for good; none if that is too short for the
-/// clock to advance.
+/// Returns the step of a pair at clock `s` that is free for a time, or for good; `None` if the time is too short for
+/// the clock to advance.
 fn after(s: f64, free: Option<f64>) -> Option<Step> {
     match free {
         None => Some(Step::FreeUntil(f64::INFINITY)),

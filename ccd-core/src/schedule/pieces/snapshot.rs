@@ -1,4 +1,4 @@
-//! Two pieces at one instant, and the time for which an axis keeps them apart from then on.
+//! Two pieces at one instant, and the time for which an axis keeps them apart from that instant on.
 
 use super::heights::{Heights, Point, least_free, least_free_of_many};
 use super::sweeping_piece::{Member, SweepingPiece};
@@ -26,7 +26,7 @@ pub(crate) struct Snapshot<'p> {
     pub(crate) frames: [Frame; 2],
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
-    /// The number of evaluations of a gap at a point.
+    /// The number of gap evaluations at a point.
     looks: Cell<u64>,
 }
 
@@ -62,7 +62,7 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Asks the oracle and checks its claim; none when it gave up.
+    /// Calls the oracle, and checks its claim; `None` if the oracle gave up.
     pub(crate) fn ask<O: DistanceOracle>(
         &self,
         oracle: &mut O,
@@ -90,9 +90,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Like [`Snapshot::free_time`] for two pieces that are looked at for the first time: if a fixed
-    /// plane across the axis of the claim keeps them apart for a while, no other one is tried. Most
-    /// pairs are not looked at again.
+    /// Like [`Snapshot::free_time`], for the first visit of two pieces: if a fixed plane perpendicular to the axis of
+    /// the claim keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
     pub(crate) fn first_free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
         let direct = self.direct(checked, kept);
         match self.free_along(direct.normal, direct.slack)? {
@@ -101,16 +100,16 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns a time for which the pieces certainly stay farther apart than `kept`, or none when
-    /// they do for good. It tries the axis of the claim, and the one along which the witnesses pass
-    /// each other, with planes that are fixed or turn with one of the bodies.
+    /// Returns a time for which the pieces certainly stay farther apart than `kept`; `None` if they always do. The
+    /// function tries the axis of the claim, and the one along which the witnesses pass each other, with planes that
+    /// are fixed or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
         let direct = self.direct(checked, kept);
         let free = self.free_along(direct.normal, direct.slack)?;
         self.longest_time(checked, kept, &direct, free)
     }
 
-    /// Returns the longest time by any plane; `free` is that of the fixed one across the claim's axis.
+    /// Returns the longest time by any plane; `free` is the time of the fixed plane across the claim's axis.
     fn longest_time(
         &self,
         checked: &Checked,
@@ -129,9 +128,8 @@ impl<'p> Snapshot<'p> {
         Some(free)
     }
 
-    /// Like [`Snapshot::free_time`], along the axis of the claim alone, by a bound of each body's
-    /// advance along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their
-    /// body's axis of rotation.
+    /// Like [`Snapshot::free_time`], along the axis of the claim alone, by a bound of each body's advance along it
+    /// `[FAST06 §4.2]`; `reaches` are the distances of the pieces' points from their body's axis of rotation.
     ///
     /// # Guarantee
     /// No guarantee with [`Bound::Published`].
@@ -170,9 +168,8 @@ impl<'p> Snapshot<'p> {
         (!(free >= self.horizon())).then_some(free)
     }
 
-    /// Returns how far two hulls of many points reach into each other along the axis between their
-    /// middles, in units of the smaller one's radius; negative when they are apart along it, none when a
-    /// hull has few points.
+    /// Returns how deeply two hulls of many points overlap along the axis between their middles, in units of the
+    /// smaller one's radius. The depth is negative when they are apart along it; `None` if a hull has few points.
     #[cfg(feature = "hull-tree")]
     pub(crate) fn depth_between_middles(&self) -> Option<f64> {
         let pair = &self.pieces;
@@ -182,11 +179,10 @@ impl<'p> Snapshot<'p> {
         Some(-gap / lesser(radius_a, radius_b))
     }
 
-    /// Like [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
+    /// Like [`Snapshot::free_time`], for two pieces with these indices that rest on each other.
     ///
-    /// Triangles in one plane are kept apart by it on either side, and may still be about to pass
-    /// into each other. If one of them bounds a solid, the plane keeps them apart on the outside
-    /// only.
+    /// A plane keeps triangles in it apart on either side, though they may be about to pass into each other. If one
+    /// of them bounds a solid, the plane keeps them apart on the outside only.
     pub(crate) fn resting_time(
         &self,
         checked: &Checked,
@@ -195,7 +191,7 @@ impl<'p> Snapshot<'p> {
     ) -> Option<f64> {
         let rounding = self.problem.rounding;
         let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
-        // Written so that NaN counts as nothing left.
+        // Written so that NaN counts as no slack.
         let is_left = |slack: f64| slack > RESTED * rounding;
         let anyhow = || {
             if is_left(checked.lower - kept) {
@@ -204,7 +200,7 @@ impl<'p> Snapshot<'p> {
                 Some(0.0)
             }
         };
-        // This includes pieces that have just passed the plane by the rounding of resting.
+        // This includes pieces that have passed the plane by the rounding of resting.
         let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
         if !in_one_plane {
             return anyhow();
@@ -215,10 +211,10 @@ impl<'p> Snapshot<'p> {
             _ => Some(0.0),
         };
         match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
-            // The side to keep to is unknown: they are not let go.
+            // The side to keep to is unknown, and the pieces are not let go.
             (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
             (Facing::Out(n), Facing::Out(m)) => match -(turn * m) {
-                // Solids on one side of the plane: their faces slide, and cannot meet.
+                // The solids are on the same side of the plane: their faces slide, and cannot meet.
                 into_b if n.dot(into_b) < 0.0 => longer(along(n), along(into_b)),
                 _ => along(n),
             },
@@ -228,8 +224,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns a time for which a plane certainly keeps the pieces apart, or none when it does for good: fixed, or
-    /// turning with one of the bodies.
+    /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is
+    /// fixed, or turns with one of the bodies.
     pub(super) fn free_beside(&self, plane: &Plane) -> Option<f64> {
         let free = self.free_along(plane.normal, plane.slack)?;
         Some(greater(
@@ -238,14 +234,14 @@ impl<'p> Snapshot<'p> {
         ))
     }
 
-    /// Returns the gap of the pieces along a unit vector, rounding deducted; both it and the point from which heights
-    /// are measured are in A's frame.
+    /// Returns the gap of the pieces along a unit vector, minus rounding. The vector, and the point from which
+    /// heights are measured, are in A's frame.
     pub(super) fn gap_along(&self, axis: DVec3, from: DVec3) -> f64 {
         let radii = self.pieces.a.radius + self.pieces.b.radius;
         separation::support_gap(&self.pieces, axis, from) - radii - self.problem.rounding
     }
 
-    /// Returns the plane across the axis of the claim.
+    /// Returns the plane perpendicular to the axis of the claim.
     fn direct(&self, checked: &Checked, kept: f64) -> Plane {
         Plane {
             normal: self.frames[0].rotation * checked.axis,
@@ -253,8 +249,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns the plane across the vector between the witnesses when they are nearest, assuming
-    /// constant velocities; none when it does not keep the pieces apart now.
+    /// Returns the plane perpendicular to the vector between the witnesses at the time when they are nearest, for
+    /// constant velocities; `None` if it does not keep the pieces apart now.
     fn passing(&self, checked: &Checked, kept: f64) -> Option<Plane> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
@@ -267,8 +263,8 @@ impl<'p> Snapshot<'p> {
         (slack > 0.0).then_some(Plane { normal, slack })
     }
 
-    /// Like [`Snapshot::free_along`], with planes that turn with one of the bodies, if that body's
-    /// turning uses up the slack within `free`; 0 otherwise.
+    /// Like [`Snapshot::free_along`], with planes that turn with one of the bodies, if the turning of that body uses
+    /// up the slack within `free`; 0 otherwise.
     pub(super) fn free_attached(
         &self,
         members: &[Member<'_>; 2],
@@ -299,7 +295,7 @@ impl<'p> Snapshot<'p> {
         ]
     }
 
-    /// Returns the number of evaluations of a gap at a point so far.
+    /// Returns the number of gap evaluations at a point so far.
     pub(crate) fn looks(&self) -> u64 {
         self.looks.get()
     }
@@ -312,8 +308,8 @@ impl<'p> Snapshot<'p> {
         1.0 - self.clock
     }
 
-    /// Returns a time for which a fixed axis certainly keeps the required gap, or none when it does
-    /// for good; `slack` is the excess over that gap now.
+    /// Returns a time for which a fixed axis certainly keeps the required gap; `None` if it always does. The `slack`
+    /// is the excess over that gap now.
     ///
     /// Every point's height along the axis is known exactly
     /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
@@ -331,7 +327,7 @@ impl<'p> Snapshot<'p> {
         } else {
             AXIS_ROUNDS
         };
-        // The offset of heights makes the nearest two points `slack` apart.
+        // The offset of the heights makes the nearest two points `slack` apart.
         let free = |above: &Point, below: &Point| {
             let gap = Gap {
                 gap: slack + (above.height - b.least()) + (below.height - a.least()),
@@ -363,8 +359,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns whether the points keep a slack for good although they turn: the steps towards the time at which
-    /// they are nearest become ever shorter.
+    /// Returns whether the points always keep a slack although they turn. The steps towards the time at which they
+    /// are nearest become ever shorter.
     fn turn_past(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.horizon();
         let drift = least_drift(a.drift() + b.drift(), a.pull() + b.pull(), horizon);
@@ -380,9 +376,9 @@ impl<'p> Snapshot<'p> {
 
 /// A plane that keeps two pieces apart.
 pub(super) struct Plane {
-    /// From A to B, in the problem's coordinates.
+    /// The unit normal from A to B, in the problem's coordinates.
     pub(super) normal: DVec3,
-    /// The excess over the gap that it must keep, now.
+    /// The present excess over the required gap.
     pub(super) slack: f64,
 }
 
@@ -397,7 +393,7 @@ fn least_drift(rate: f64, pull: f64, horizon: f64) -> f64 {
     }
 }
 
-/// Returns the longer of two free times; none is for good.
+/// Returns the longer of two free times; `None` is unbounded.
 fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
 }

@@ -1,8 +1,8 @@
 //! A plane that turns with the body of one of the pieces.
 //!
-//! For a fixed plane the full speed of a turning piece's far rim counts, however small the other
-//! piece is. For a plane that turns with the body it does not: the heights of the body's own piece
-//! are constant, and only the other piece sweeps towards it.
+//! For a fixed plane the full speed of a turning piece's far rim counts, however small the other piece is. For a
+//! plane that turns with the body it does not count: the heights of the body's own piece are constant, and only the
+//! other piece sweeps towards the plane.
 //!
 //! A point of the other piece is at `D + r` from the turning body's centre: `D` leads to a point of
 //! reference that moves at `V`, and `r` turns about that point at `ω_s`. With `n' = ω×n`
@@ -26,7 +26,7 @@ pub(super) struct Member<'p> {
     pub(super) frame: &'p Frame,
     pub(super) piece: Piece<'p>,
     pub(super) clock: f64,
-    /// An upper bound of how fast any point rises relative to the first one, along any fixed axis.
+    /// An upper bound of the rate at which any point rises relative to the first one, along any fixed axis.
     pub(super) swing: f64,
 }
 
@@ -46,7 +46,7 @@ impl<'p> Member<'p> {
         }
     }
 
-    /// Returns the same bound along one axis.
+    /// Returns the bound of `swing` along one axis.
     pub(super) fn swing_about(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
         self.swing * path.spin.cross(normal).length() / path.rate
@@ -55,20 +55,20 @@ impl<'p> Member<'p> {
 
 /// The moving piece of one body, seen from a plane that turns with the other body.
 pub(super) struct SweepingPiece<'p> {
-    /// `n`, and the `ω` at which it turns.
+    /// The vector `n`, and the `ω` at which it turns.
     normal: Spinning,
     unit: DVec3,
     omega: f64,
-    /// `D` and `V` now, and a bound of `|V|` at all times.
+    /// The vectors `D` and `V` now, and a bound of `|V|` at all times.
     way: DVec3,
     velocity: DVec3,
     speed: f64,
-    /// `V'`, which is constant.
+    /// The vector `V'`, which is constant.
     acceleration: DVec3,
-    /// `ω_s`
+    /// The vector `ω_s`.
     own_unit: DVec3,
     own_omega: f64,
-    /// `Δ`
+    /// The vector `Δ`.
     relative: DVec3,
     piece: Piece<'p>,
     frame: &'p Frame,
@@ -93,8 +93,8 @@ struct Turned {
 }
 
 impl<'p> SweepingPiece<'p> {
-    /// Prepares the piece that sweeps past a plane that turns with the body of `holder`; `normal`
-    /// points from there to the other piece, and `rounding` is the problem's.
+    /// Creates the piece that sweeps past a plane which turns with the body of `holder`. The `normal` points from
+    /// that body to the other piece, and `rounding` is the problem's.
     pub(super) fn new(
         holder: &Member<'_>,
         other: &Member<'p>,
@@ -102,7 +102,7 @@ impl<'p> SweepingPiece<'p> {
         rounding: f64,
     ) -> Self {
         let (path, own) = (&holder.side.path, &other.side.path);
-        // All points of a body that does not turn move straight: one of the piece's own is nearest.
+        // All points of a body that does not turn move alike, and one of the piece's own points is nearest.
         let reference = if own.turns() {
             own.centre
         } else {
@@ -134,8 +134,8 @@ impl<'p> SweepingPiece<'p> {
         }
     }
 
-    /// Returns a time for which the plane certainly keeps the required gap, or none when it does up
-    /// to the horizon; `slack` is the excess over that gap now.
+    /// Returns a time for which the plane certainly keeps the required gap; `None` if it does up to the horizon. The
+    /// `slack` is the excess over that gap now.
     pub(super) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least();
@@ -158,7 +158,7 @@ impl<'p> SweepingPiece<'p> {
                     .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
                     .fold(f64::INFINITY, lesser),
             };
-            // The bend is a bound for that long only.
+            // The bound of the second derivative holds for that long only.
             lesser(f64::from(ATTACHED_TIME), least)
         })
     }
@@ -202,7 +202,7 @@ impl<'p> SweepingPiece<'p> {
         let axis = self.normal.at(angle);
         let (way, velocity) = self.moved(tau);
         let turning = self.normal.slope_at(angle) * self.omega;
-        // Turns the vectors that the arms are multiplied with backwards, rather than every arm.
+        // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
             let turned = Spinning::new(-self.own_unit, v).at(own);
             self.frame.inverse_vector(turned)

@@ -1,4 +1,4 @@
-//! The queue against a sorted list.
+//! The queue, compared with a sorted list.
 
 use super::Queue;
 use crate::math::order::greater;
@@ -6,7 +6,7 @@ use crate::schedule::waiting::{Rank, Waiting};
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;
 
-/// Takes out all items, in order.
+/// Removes all items, in order.
 fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
     let mut out = Vec::new();
     while let Some((_, item)) = queue.next() {
@@ -93,11 +93,11 @@ proptest! {
     fn any_sequence_comes_out_as_a_sorted_list_would(seed in any::<u64>()) {
         let mut rng = rng(seed);
         let mut queue = Queue::default();
-        // Clock, rank, and age, newest first.
+        // The items of the list are clock, rank, and age, newest first.
         let mut list: Vec<(f64, u8, i32, u32)> = Vec::new();
         let mut peak = 0;
         for step in 0..300 {
-            // Few clocks, so that many are equal.
+            // There are few different clocks, so that many are equal.
             let clock = f64::from(rng.random_range(0..8)) / 8.0;
             list.sort_by(|x, y| x.partial_cmp(y).unwrap());
             let rank = [Rank::PiecePair, Rank::Siblings][rng.random_range(0..2)];

@@ -1,4 +1,4 @@
-//! Bodies that turn many times, against exact distances at all their passes.
+//! Bodies that turn many times, compared with exact distances at all their passes.
 
 use super::*;
 use crate::answer::Answer;
@@ -20,20 +20,20 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// A ball of radius 1 that turns at a distance of 5 about a centre, from an angle at time 0 on.
+/// Returns the motion of a ball of radius 1 that turns at a distance of 5 about a centre, from an angle at time 0 on.
 fn crank(centre: DVec3, velocity: DVec3, spin: f64, angle: f64) -> Motion {
     let at = centre + 5.0 * DVec3::new(angle.cos(), angle.sin(), 0.0);
     let start = Pose::new(at, DQuat::from_rotation_z(angle)).unwrap();
     Motion::about(start, velocity, spin * DVec3::Z, -5.0 * DVec3::X).unwrap()
 }
 
-/// The distance of two balls of radius 1 at a time.
+/// Returns the distance of two balls of radius 1 at a time.
 fn gap([a, b]: [&Motion; 2], time: f64) -> f64 {
     let [a, b] = [a, b].map(|motion| motion.pose(time).translation());
     a.distance(b) - 2.0
 }
 
-/// Checks a contact of two balls on cranks: it is one, and there was none before; returns its time.
+/// Checks that a contact of two balls on cranks is one, and the first, and returns its time.
 fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
     let ball = Body::ball(1.0).unwrap();
     let [a, b] = motions.map(|motion| (&ball, *motion));
@@ -66,7 +66,7 @@ fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f6
     until
 }
 
-/// The wheel drifts by a millionth in a turn, and touches in turn 500.
+/// A wheel drifts by a millionth in a turn, and touches in turn 500.
 #[test]
 fn a_slow_drift_ends_in_a_late_turn() {
     let config = Settings {
@@ -81,7 +81,7 @@ fn a_slow_drift_ends_in_a_late_turn() {
     }
 }
 
-/// Two cranks whose rates are nearly one to two: they miss each other for many turns, by ever less.
+/// The rates of two cranks are nearly one to two: they miss each other for many turns, by ever less.
 #[test]
 fn rates_that_are_nearly_a_fraction_jam_late() {
     let config = Settings::DEFAULT;
@@ -99,7 +99,7 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
     }
 }
 
-/// Two soups that turn many times, one or both, near each other.
+/// Returns two soups near each other, of which one or both turn many times.
 fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let count = rng.random_range(1..4);
     let bodies = [0; 2].map(|_| body(&soup(rng, Look::Plump, count, 0.7)));
@@ -108,7 +108,7 @@ fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let axis = direction(rng);
     let other = [axis, direction(rng)][rng.random_range(0..2)];
     let spins = [axis * turns * TAU, other * ratio * turns * TAU];
-    // One passes the other on its way about the axis, at a distance of nothing to well apart.
+    // One soup passes the other on its path about the axis, at a distance from nothing to well apart.
     let (x, y) = axis.any_orthonormal_pair();
     let arm = rng.random_range(0.0..2.0);
     let apart = y * (arm + rng.random_range(0.3..1.3));
@@ -182,7 +182,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
     );
 }
 
-/// A reference that knows of no periods finds the same.
+/// A reference without periods finds the same contacts.
 #[test]
 fn the_naive_schedule_agrees() {
     let mut rng = rng(4);
@@ -195,7 +195,7 @@ fn the_naive_schedule_agrees() {
         match (solve(&problem).outcome, twin) {
             (Outcome::Contact { time, .. }, Outcome::Contact { time: other, .. }) => {
                 hits += 1;
-                // Each is a contact: neither saw one before the other's tolerance.
+                // Each time is that of a contact: neither search found one before the other's tolerance.
                 let (first, last) = (lesser(time, other), greater(time, other));
                 assert!(
                     near(first) <= config.tolerance + 1e-9 && near(last) <= config.tolerance + 1e-9
@@ -246,7 +246,7 @@ fn steps_lead_to_the_same_answer() {
     assert!(steps > 1_000, "{steps}");
 }
 
-/// What nothing new happens in costs nothing.
+/// A thousand turns without a change cost as much as one.
 #[test]
 fn a_thousand_turns_cost_what_one_does() {
     let mut rng = rng(6);
@@ -274,7 +274,7 @@ fn a_thousand_turns_cost_what_one_does() {
     assert!(free > 15, "{free}");
 }
 
-/// The first of a thousand periods tells the least distance of all.
+/// The first of a thousand periods gives the least distance of all.
 #[test]
 fn closest_approaches_of_many_turns_hold_at_sampled_times() {
     let mut rng = rng(7);

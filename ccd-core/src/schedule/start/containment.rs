@@ -25,8 +25,8 @@ pub(crate) enum Containment {
     Undecided,
 }
 
-/// Searches for a point of one body inside the other one's solid at the start. `touching` are the
-/// pairs of pieces without a separating axis; no pair intersects. The list `pieces` is for use within.
+/// Searches for a point of one body inside the other one's solid at the start. `touching` are the pairs of pieces
+/// without a separating axis; no pair intersects. The list `pieces` is scratch memory.
 ///
 /// # Guarantee
 /// A point that is found is inside, by more than rounding. If none is found, the following parts
@@ -90,7 +90,7 @@ impl Placed<'_> {
     }
 }
 
-/// Looks for points of one body in the solid of the other.
+/// A search for points of one body in the solid of the other.
 struct Search<'a> {
     outer: &'a Placed<'a>,
     inner: &'a Placed<'a>,
@@ -113,7 +113,7 @@ impl Found {
 }
 
 impl Search<'_> {
-    /// Returns the result; `touching` names pieces of the inner and of the outer body.
+    /// Returns the result of the search; `touching` names pieces of the inner and of the outer body.
     fn answer(
         &self,
         touching: impl Iterator<Item = [u32; 2]> + Clone,
@@ -134,7 +134,7 @@ impl Search<'_> {
                 Found::Nothing => {}
             }
         }
-        // Once for each piece: a hull of many facets may touch many pieces.
+        // Each piece is tested once: a hull of many facets may touch many pieces.
         pieces.retain(|&piece| self.has_sides(piece) && !self.is_thick(piece));
         let thin = touching.filter(|[inner, _]| pieces.binary_search(inner).is_ok());
         let inside = thin.map(|pair| self.edges(pair)).find(Found::is_inside);
@@ -152,15 +152,15 @@ impl Search<'_> {
         }
     }
 
-    /// Examines points in turn, until one decides.
+    /// Examines points one by one, until one decides.
     fn any_of(&self, points: impl IntoIterator<Item = DVec3>) -> Found {
         let mut answers = points.into_iter().map(|p| self.point(p));
         let told = answers.find(|found| !matches!(found, Found::Undecided));
         told.unwrap_or(Found::Undecided)
     }
 
-    /// Examines the extreme points of a part. A part with all of them on the outer surface is left
-    /// to the pieces that touch.
+    /// Examines the extreme points of a part. If all of them are on the outer surface, the touching pieces decide
+    /// about the part.
     fn part(&self, shell: &Shell, touching: &[u32]) -> Found {
         let found = self.any_of(*shell);
         let pieces = self.inner.body.pieces();
@@ -176,7 +176,7 @@ impl Search<'_> {
     fn piece(&self, piece: u32) -> Found {
         let body = self.inner.body;
         let corners = match body.pieces().get(piece as usize) {
-            // A piece that is alone shares no corner: the middle of a thick one decides.
+            // A single piece shares no corner: the middle decides if it is thick.
             _ if body.pieces().len() == 1 && self.is_thick(piece) => &[],
             piece => piece.points,
         };
@@ -186,7 +186,7 @@ impl Search<'_> {
         }
         match body.point_inside(piece) {
             Some(point) => self.any_of([point]),
-            // No point of a surface that is on the other's surface is inside.
+            // A point of a surface that is on the other's surface is not inside.
             None => match self.point(body.middle(piece)) {
                 Found::Undecided => Found::Nothing,
                 found => found,
@@ -200,8 +200,8 @@ impl Search<'_> {
         piece.is_flat() || !piece.facets.is_empty()
     }
 
-    /// Returns whether the middle of a piece is in its depth: a face that passes there would intersect it by more
-    /// than rounding.
+    /// Returns whether the middle of a piece is inside by more than rounding: a face that passes there would
+    /// intersect the piece by more than that.
     fn is_thick(&self, piece: u32) -> bool {
         let middle = self.inner.body.middle(piece);
         let piece = self.inner.body.pieces().get(piece as usize);
@@ -212,8 +212,7 @@ impl Search<'_> {
         piece.facets.len() > 2 && piece.facets.iter().all(is_above)
     }
 
-    /// Examines points of a thin piece next to edges that are on it. Some of them are next to
-    /// faces.
+    /// Examines points of a thin piece next to edges that are on it. Some of the points are next to faces.
     fn edges(&self, [inner, outer]: [u32; 2]) -> Found {
         let piece = self.inner.body.pieces().get(inner as usize);
         let other = self.outer.body.pieces().get(outer as usize);
@@ -224,8 +223,8 @@ impl Search<'_> {
     }
 }
 
-/// Returns whether the closed faces of a body wind about a point in its frame; none when the point
-/// is not certainly farther than `reach` from them.
+/// Returns whether the closed faces of a body wind about a point in its frame; `None` when the point is not certainly
+/// farther than `reach` from them.
 fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !body.tree().may_contain(point) {
         return Some(false);

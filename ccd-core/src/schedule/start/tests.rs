@@ -1,5 +1,4 @@
-//! Bodies that begin within the margin: against all pairs of triangles, with every budget and every
-//! schedule.
+//! Bodies that begin within the margin, compared with all pairs of triangles, with every budget and every schedule.
 
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
@@ -22,7 +21,7 @@ use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude,
 use glam::DVec3;
 use std::time::Duration;
 
-/// All schedules.
+/// Returns all schedules.
 fn schedules() -> Vec<Box<dyn Solve<Exhaustive>>> {
     vec![
         Box::new(BestFirst::default()),
@@ -36,7 +35,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// Two tori with the same cuts, one at the origin, the other at `x`.
+/// Poses two tori with the same cuts, one at the origin, the other at `x`.
 fn tori<R>(cuts: Cuts, x: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let torus = body(&torus(cuts.around, cuts.about));
     let moving = |x: f64| Moving::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
@@ -60,7 +59,7 @@ const COARSE: Cuts = Cuts {
     about: 6,
 };
 
-/// A scene, the margin up to a hundred times its size; most begin within it.
+/// Returns a scene with a margin of up to a hundred times its size. Most scenes begin within the margin.
 fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
     let mut scene = scene(rng, Kind::Any, most);
     let size = scene.bodies.each_ref().map(|body| body.tree().radius());
@@ -204,7 +203,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
             assert_eq!((safe_until, reason), (0.0, Limit::Deadline));
         }
     }
-    // Enough time changes nothing.
+    // A deadline that is long enough changes nothing.
     let mut rng = rng(33);
     for _ in 0..50 {
         let mut scene = within_margin(&mut rng, 8);
@@ -243,7 +242,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
     assert!(touching > 50, "{touching}");
 }
 
-/// One piece each: there is only one pair.
+/// Each body has one piece, and there is only one pair.
 #[test]
 fn single_pieces_are_measured_once() {
     let ball = Body::ball(1.0).unwrap();

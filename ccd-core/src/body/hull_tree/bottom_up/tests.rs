@@ -34,7 +34,7 @@ fn results_do_not_depend_on_the_number_of_parts() {
     }
 }
 
-/// Every node has one leaf and the rest: as deep as there are pieces.
+/// Every node has one leaf and the rest, so that the tree is as deep as there are pieces.
 #[test]
 fn chains_take_no_more_stack_than_other_trees() {
     const PIECES: u32 = 100_000;

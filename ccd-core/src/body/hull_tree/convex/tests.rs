@@ -36,7 +36,7 @@ const SLOPES: [&[u32]; 5] = [
 #[test]
 fn polytopes_are() {
     assert!(convex(&ROOF, &SLOPES));
-    // A facet in two parts of one plane.
+    // One facet is divided into two parts of one plane.
     let parts: [&[u32]; 6] = [
         &[3, 2, 1],
         &[3, 1, 0],
@@ -76,8 +76,7 @@ fn dented_turned_or_open_surfaces_are_not_convex() {
     assert!(!convex(&spare, &SLOPES));
 }
 
-/// A pyramid over a five-pointed star: it bends outward at every edge, but goes around its middle
-/// twice.
+/// A pyramid over a five-pointed star bends outward at every edge, but goes around its middle twice.
 #[test]
 fn a_star_that_winds_twice_is_not() {
     let rim = [
@@ -92,7 +91,7 @@ fn a_star_that_winds_twice_is_not() {
     let sides = |step: u32| -> Vec<Vec<u32>> {
         (0..5)
             .flat_map(|k| {
-                // Clockwise numbers, so backwards.
+                // The numbers are clockwise, so the edges are reversed.
                 let (from, to) = ((k + step) % 5, k);
                 [vec![from, to, 5], vec![to, from, 6]]
             })
@@ -107,7 +106,7 @@ fn a_star_that_winds_twice_is_not() {
     assert!(!check(2));
 }
 
-/// A box whose lid is cut into an L and a square: flat, but climbing along the L's outline ends in its
+/// The lid of the box is cut into an L and a square. It is flat, but climbing along the L's outline ends in its
 /// reflex corner.
 #[test]
 fn facets_that_are_not_convex_are_not() {
@@ -135,7 +134,7 @@ fn facets_that_are_not_convex_are_not() {
     assert!(with(&[&[4, 5, 6, 7], &[4, 7, 8, 9], &[7, 6, 10, 8]]));
 }
 
-/// A spindle with a second, lower roof over the same rim.
+/// A spindle has a second, lower roof over the same rim.
 #[test]
 fn surfaces_that_share_a_rim_are_not() {
     let points = [

@@ -1,4 +1,4 @@
-//! Stored trees are read again, and checked.
+//! Tests that stored trees can be read again, and are checked.
 
 use super::*;
 use crate::body::hierarchy::Hierarchy;
@@ -48,7 +48,7 @@ fn trees_are_checked_when_read() {
     assert!(pieces(1.0).is_some());
     assert!(pieces(f64::NAN).is_none());
     assert!(read::<Pieces>(&bytes(&(variant, Vec::<Polytope>::new()))).is_none());
-    // Triangles: as many numbers as corners and faces.
+    // Triangles need as many numbers as corners and faces.
     let soup = |corners: usize, vertices: usize, faces: usize| {
         let raw = (
             0u32,

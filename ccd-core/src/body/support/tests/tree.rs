@@ -1,4 +1,4 @@
-//! The tree against a scan of every point.
+//! The tree, compared with a scan of every point.
 
 use super::looks;
 use crate::body::support::{Support, SupportTree};
@@ -29,7 +29,7 @@ fn searching_agrees_with_a_scan() {
         1, 2, 7, 8, 9, 63, 64, 65, 100, 511, 513, 1_000, 4_097, 5_000,
     ];
     for (number, count) in counts.into_iter().cycle().take(140).enumerate() {
-        // All sizes, at up to a million times their size from the origin.
+        // The clouds have all sizes, at up to a million times their size from the origin.
         let size = magnitude(&mut rng, -30.0, 11.0);
         let offset = direction(&mut rng) * size * magnitude(&mut rng, -3.0, 6.0);
         let offset = if number % 3 == 0 { DVec3::ZERO } else { offset };
@@ -49,7 +49,7 @@ fn searching_agrees_with_a_scan() {
             let highest = points.iter().map(height);
             let highest = highest.fold(f64::NEG_INFINITY, crate::math::order::greater);
             let found = height(&points[tree.extremal(look) as usize]);
-            // The tree's own rounding, and that of the heights here.
+            // The slack is the tree's own rounding, and that of the heights here.
             let slack = 4.0 * HEIGHT_F64 * reach * look.abs().element_sum();
             assert!(found >= highest - slack, "{count}: {:e}", highest - found);
         }
@@ -77,7 +77,7 @@ fn invalid_directions_give_some_point() {
     }
 }
 
-/// Points too close to each other to differ in f32, and points whose sizes are out of range of f32.
+/// The points are too close to each other to differ in f32, or their sizes are out of range of f32.
 #[test]
 fn the_finest_points_are_all_looked_at() {
     for size in [1e-320, 1e-300, 1e-60, 1e12] {

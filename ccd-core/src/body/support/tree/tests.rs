@@ -1,4 +1,5 @@
-//! Discs in f32 against the points in them, in f64: its error is a five hundred millionth of that of f32.
+//! Discs in f32, compared with the points in them, in f64. The error of f64 is a five hundred millionth of that of
+//! f32.
 
 use super::{Disc, Discs, LANES, SupportTree};
 use crate::math::order::greater;
@@ -8,8 +9,8 @@ use crate::tests::scene::direction;
 use crate::tests::worst::{Tape, Worst, share};
 use glam::{DVec3, Vec3};
 
-/// Points in a ball of radius 1, and a direction along which one at the rim of their disc is farthest, or
-/// next to it.
+/// Points in a ball of radius 1, and a direction along which a point at the rim of their disc is farthest, or next to
+/// it.
 fn points(tape: &mut Tape) -> (Vec<DVec3>, DVec3) {
     let half = direction(tape) * tape.size(-10..=-1);
     let middle = direction(tape) * (tape.fraction() * (1.0 - half.length()));
@@ -20,7 +21,7 @@ fn points(tape: &mut Tape) -> (Vec<DVec3>, DVec3) {
     (shares.into_iter().enumerate().map(point).collect(), along)
 }
 
-/// A direction whose largest component is 1, as it is and as it is rounded.
+/// A direction whose largest component is 1, exact and rounded.
 fn unit(d: DVec3) -> (DVec3, Vec3) {
     let d = d / d.abs().max_element();
     (d, d.as_vec3())
@@ -45,7 +46,7 @@ fn worst_tilt() {
     let found = Worst::of("DISC_TILT_F32", 40_000).search(|tape| {
         let (exact, d) = unit(direction(tape));
         let aside = direction(tape) * tape.size(-30..=0);
-        // Near the direction itself: what is across it is a difference of equal squares.
+        // The direction is near the normal: the component across it is a difference of equal squares.
         let toward = (exact.normalize() + aside).normalize();
         let Disc { normal: m, .. } = Disc::about(&[toward, DVec3::ZERO]);
         let m = if tape.pick(2) == 0 {
@@ -63,7 +64,7 @@ fn worst_tilt() {
     found.is_within(20.0);
 }
 
-/// The farthest point of points that are level up to rounding, anywhere: two heights of the guarantee.
+/// Points at any place that are level up to rounding: the guarantee allows two roundings of heights.
 #[test]
 fn worst_farthest() {
     let found = Worst::of("HEIGHT_F64, twice: the farthest point", 6_000).search(|tape| {

@@ -13,7 +13,7 @@ fn layers_grow_evenly_up_to_all_pieces() {
                 "{layers:?}"
             );
         }
-        // A node of all pieces is at most one layer above the last.
+        // A node of all pieces is at most one layer above the last one.
         assert!(layers[layers.len() - 1] * LANES >= pieces, "{layers:?}");
     }
 }

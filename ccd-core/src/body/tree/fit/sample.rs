@@ -6,29 +6,29 @@ use crate::math::order::{greater, lesser};
 use crate::tuning::SAMPLED_TRIANGLES;
 use glam::{DMat3, DVec3, Vec3};
 
-/// The numbers that are compared at once.
+/// The number of values that are compared at once.
 const LANES: usize = 8;
 
 const POINTS: usize = 3 * SAMPLED_TRIANGLES;
 
-/// Points, moved and scaled so that they fill a unit. One sample after the other uses the same room.
+/// Points, moved and scaled so that they fill a unit. The memory is reused by one sample after the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Sample {
     list: [DVec3; POINTS],
     count: usize,
-    /// The same by coordinate; the last block repeats the last point.
+    /// The points by coordinate; the last block repeats the last point.
     blocks: [[[f32; LANES]; 3]; POINTS / LANES],
 }
 
 impl Sample {
-    /// No points.
+    /// A sample of no points.
     pub(crate) const EMPTY: Sample = Sample {
         list: [DVec3::ZERO; POINTS],
         count: 0,
         blocks: [[[0.0; LANES]; 3]; POINTS / LANES],
     };
 
-    /// Takes all points, or as many as there is room for at even steps; triangles are taken whole.
+    /// Takes all points, or as many as there is room for, at even steps. Triangles are taken whole.
     pub(in super::super) fn take(&mut self, cloud: &Cloud<'_>) {
         self.count = 0;
         let size = if cloud.triangles { 3 } else { 1 };
@@ -42,7 +42,7 @@ impl Sample {
         self.fill_unit();
     }
 
-    /// The points.
+    /// Returns the points.
     pub(super) fn points(&self) -> &[DVec3] {
         &self.list[..self.count]
     }
@@ -71,7 +71,7 @@ impl Sample {
     fn fill_unit(&mut self) {
         let (low, high) = bounds(self.points().iter().copied());
         let middle = 0.5 * (low + high);
-        // Too short a length has no reciprocal.
+        // If the length is too short, it has no reciprocal.
         let scale = Some((high - low).max_element().recip()).filter(|s| s.is_finite());
         for point in &mut self.list[..self.count] {
             *point = (*point - middle) * scale.unwrap_or(1.0);

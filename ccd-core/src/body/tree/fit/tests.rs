@@ -1,4 +1,4 @@
-//! Boxes against those of a slow fit, which tries every frame on all points in f64.
+//! Fitted boxes, compared with those of a slow fit that tries every frame on all points in f64.
 
 use super::*;
 use crate::math::order::lesser;
@@ -6,7 +6,7 @@ use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use crate::tuning::SAMPLED_TRIANGLES;
 use glam::DQuat;
 
-/// The least surface of the boxes along all frames.
+/// Returns the least surface of the boxes along all frames.
 fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
     let mut frames = vec![DMat3::IDENTITY];
     frames.push(principal_axes(|| points.iter().map(|&p| (p, 1.0))));
@@ -28,7 +28,7 @@ fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
     surfaces.fold(f64::INFINITY, lesser)
 }
 
-/// Half the surface of the box along a frame.
+/// Returns half the surface of the box along a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
     let Fitted { low, high, .. } = Fitted::along(frame, points);
     let size = high - low;
@@ -57,8 +57,8 @@ fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
         .collect()
 }
 
-/// Equally wound triangles in a rectangle. In a square no principal axes stand out, so that turns about the normal
-/// fit best; where half of them are a cluster of tiny ones, principal axes by area do.
+/// Triangles with the same winding in a rectangle. In a square no principal axes stand out, and frames turned about
+/// the normal fit best. If half of the triangles are a cluster of tiny ones, principal axes by area fit best.
 fn rectangle(rng: &mut Pcg64, count: usize, [long, cluster]: [f64; 2]) -> Vec<DVec3> {
     let turn = DQuat::from_axis_angle(direction(rng), 1.0);
     let corner = DVec3::new(0.95 * long, 0.95, 0.0);
@@ -118,7 +118,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                 let surface = x * y + y * z + z * x;
                 let least = least_surface(&points, triangles);
                 let most = match count {
-                    // The middles of two triangles are on a line: rounding chooses the axes across.
+                    // The middles of two triangles are on a line, and rounding chooses the axes across it.
                     1 | 2 => 1.5,
                     _ if points.len() <= 3 * SAMPLED_TRIANGLES => 1.0 + 1e-4,
                     _ => 1.25,
@@ -158,14 +158,14 @@ fn degenerate_points_have_a_box() {
     }
 }
 
-/// A box along axes that are not orthonormal would not hold its points.
+/// A box along axes that are not orthonormal would not contain its points.
 #[test]
 fn only_orthonormal_frames_are_frames() {
     let turned = DMat3::from_quat(DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0));
     assert!(is_frame(&turned));
     for column in 0..3 {
         let next = turned.col((column + 1) % 3);
-        // Of the right length, but tilted.
+        // The column has the right length, but is tilted.
         let tilted = (turned.col(column) + 1e-6 * next).normalize();
         let [long, nan, infinite] =
             [1e-9, f64::NAN, f64::INFINITY].map(|fault| turned.col(column) + DVec3::splat(fault));
@@ -177,7 +177,7 @@ fn only_orthonormal_frames_are_frames() {
     }
 }
 
-/// Samples fill a unit about the origin, and nothing is left of an earlier one.
+/// Samples fill a unit about the origin, and nothing of an earlier sample remains.
 #[test]
 fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut rng = rng(9);

@@ -5,7 +5,7 @@ use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// Half of the distance of the planes without the 16u that are added.
+/// Compares half the distance of the planes, without the added 16u, with the exact one.
 #[test]
 fn worst_slab() {
     let found = Worst::of("Slab::about: 16u", 20_000).search(|tape| {

@@ -1,4 +1,4 @@
-//! What is found of the closest approach along trajectories.
+//! The results found so far in a search for the closest approach along trajectories.
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::error::InputError;
@@ -12,7 +12,7 @@ use crate::settings::Terms;
 use crate::tuning::LEAST_CUT;
 
 impl Query<'_> {
-    /// Returns the query that asks for distances: the margin plays no role.
+    /// Returns the query for distances: the margin plays no role in it.
     pub(in crate::schedule::along) fn measuring(&self) -> Self {
         Query {
             terms: Terms {
@@ -25,7 +25,7 @@ impl Query<'_> {
         }
     }
 
-    /// Returns the query that asks for contacts with a margin and a tolerance, within a budget.
+    /// Returns the query for contacts with a margin and a tolerance, within a budget.
     pub(super) fn asking(&self, rung: Rung) -> Self {
         let Rung {
             margin,
@@ -43,26 +43,26 @@ impl Query<'_> {
     }
 }
 
-/// What a stretch shows: bounds of the distance of its motions.
+/// The result of one stretch: bounds of the distance of its motions.
 pub(super) struct Seen {
     pub(super) lower: f64,
     pub(super) upper: f64,
-    /// By how much strays widen these bounds.
+    /// The amount by which the deviations widen these bounds.
     pub(super) blur: f64,
-    /// The time in the stretch at which they are nearest.
+    /// The time in the stretch at which the motions are nearest.
     pub(super) time: f64,
-    /// The rate at which they approach then.
+    /// The rate at which the motions approach each other at that time.
     pub(super) approach: f64,
 }
 
 impl Seen {
-    /// Returns true if f64 does not certify the tolerance for the motions: then cutting does not help.
+    /// Returns true if f64 does not certify the tolerance for the motions. Cutting the stretch does not help then.
     pub(super) fn is_loose(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
         width > tolerance && self.blur <= width
     }
 
-    /// Returns the end of the leg beyond which they get nearer by more than they stray.
+    /// Returns the end of the leg beyond which the motions get nearer by more than the deviations.
     pub(super) fn falls_beyond(&self, leg: &Leg) -> Option<f64> {
         let Span { from, to, .. } = leg.span;
         let (near, falls) = (
@@ -82,10 +82,10 @@ impl Seen {
 
 /// The least distance found so far.
 pub(super) struct Found {
-    /// A lower bound on all stretches that are done.
+    /// A lower bound of the distance on all finished stretches.
     pub(super) lower: f64,
     pub(super) best: Option<(f64, Contact)>,
-    /// What is proven of all stretches.
+    /// The lower bound that is proven for all stretches.
     pub(super) ladder: Ladder,
 }
 
@@ -95,7 +95,7 @@ impl Found {
         self.best.map_or(f64::INFINITY, upper)
     }
 
-    /// Takes what the motions of a leg show.
+    /// Records the result of the motions of a leg.
     ///
     /// # Errors
     /// The limit that was reached.
@@ -151,8 +151,8 @@ impl Found {
         self.answer(query, stretches, nearest)
     }
 
-    /// Returns the answer when a limit is reached at a stretch. Those that wait, and this one, are apart as far as
-    /// balls about the bodies show.
+    /// Returns the answer when a limit is reached at a stretch. For this stretch and the waiting ones, bounding balls
+    /// of the bodies give the lower bound.
     pub(super) fn unresolved(
         &self,
         query: &Query<'_>,
@@ -173,7 +173,7 @@ impl Found {
         self.answer(query, stretches, self.known(lower, reason))
     }
 
-    /// Returns what is known when a limit is reached; `lower` is proven of each stretch.
+    /// Returns the outcome when a limit is reached; `lower` is proven for each stretch.
     fn known(&self, lower: f64, limit: Limit) -> Outcome {
         let lower = lesser(greater(self.ladder.lower, lower), self.upper());
         let seen = |(time, contact): (f64, Contact)| (time, contact.no_nearer_than(lower));

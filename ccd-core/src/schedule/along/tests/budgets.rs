@@ -1,4 +1,4 @@
-//! Answers along trajectories with every budget: each part between two corners has one.
+//! Answers along trajectories with every budget: each part between two corners has its own.
 
 use super::*;
 use crate::answer::Limit;
@@ -40,7 +40,7 @@ fn budgets_end_a_journey_with_a_time_that_is_safe() {
     assert!(ended > 300, "{ended}");
 }
 
-/// Passes the origin back and forth along x, beside it, with a corner at each turn.
+/// A trajectory that passes beside the origin back and forth along x, with a corner at each turn.
 struct Shuttle {
     laps: u32,
     beside: f64,
@@ -112,7 +112,7 @@ fn each_part_between_two_corners_has_a_budget() {
         )
     };
     let free = |beside: f64| matches!(ask(1, beside, u64::MAX).0.outcome, Outcome::Free { .. });
-    // As near as it comes: found by halves.
+    // The nearest time is found by halving.
     let (mut near, mut far) = (0.0, 9.0);
     while far - near > 1e-5 {
         let middle = 0.5 * (near + far);
@@ -138,7 +138,7 @@ fn each_part_between_two_corners_has_a_budget() {
         matches!(interval.outcome, Outcome::Free { .. }),
         "{interval:?}"
     );
-    // It is a cap all the same.
+    // The budget is nevertheless a limit.
     let (first, any, closest, interval) = ask(laps, far, 2);
     assert!(matches!(
         first.outcome,
@@ -171,7 +171,7 @@ fn each_part_between_two_corners_has_a_budget() {
     assert!(first.stats.work() <= 4 * u64::from(laps) * 2, "{first:?}");
 }
 
-/// Strays without bounds, and has a corner near the end of all times, or bounds that are none.
+/// A trajectory with unbounded deviations, a corner near the end of every stretch, or bounds that are none.
 struct Hostile {
     stray: Stray,
     step: f64,

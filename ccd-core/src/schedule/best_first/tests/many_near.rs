@@ -3,8 +3,8 @@
 use super::*;
 use glam::DQuat;
 
-/// All pairs of triangles of two plates meet at the same time, at a tolerance that f32 cannot tell
-/// from contact: few of them are looked at.
+/// All pairs of triangles of two plates meet at the same time, at a tolerance that f32 cannot distinguish from
+/// contact. Few of the pairs are visited.
 #[test]
 fn plates_that_fall_flat_meet_at_little_cost() {
     const SQUARES: usize = 24;
@@ -66,7 +66,7 @@ fn thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
     (0..turns * SEGMENTS).flat_map(strip).collect()
 }
 
-/// A bolt in a nut stays as near as it is all the way.
+/// A bolt in a nut keeps its distance all the time.
 #[test]
 fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
     let (bolt, nut) = (body(&thread(2.0, 2.4, 5)), body(&thread(2.15, 2.55, 3)));
@@ -79,11 +79,11 @@ fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
         let screwing = Motion::new(Pose::IDENTITY, advance * DVec3::Z, spin).unwrap();
         solve(&Problem::about((&bolt, screwing), (&nut, Motion::STILL), 1.0, &config).unwrap())
     };
-    // Two turns at its pitch. Without profiles it takes 680,000 visits.
+    // Two turns at the bolt's pitch. Without profiles this takes 680,000 visits.
     let right = answer(2.0);
     assert!(matches!(right.outcome, Outcome::Free { .. }), "{right:?}");
     assert!(right.stats.iterations < 60_000, "{:?}", right.stats);
-    // A thread that gains on the other one meets it before long.
+    // A thread that advances relative to the other one meets it before long.
     let wrong = answer(2.5);
     let Outcome::Contact { time, .. } = wrong.outcome else {
         panic!("{wrong:?}");
@@ -92,7 +92,7 @@ fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
     assert!(problem(time) < 0.15, "{time}");
 }
 
-/// Needles along the axis that they turn about: their turning uses up no gap, though they are long.
+/// Needles turn about an axis along their own direction: their turning uses up no gap, though they are long.
 #[test]
 fn long_needles_that_turn_about_their_own_direction_meet_at_little_cost() {
     for (length, tolerance) in [(10.0, 1e-5), (1.0, 1e-9), (10.0, 1e-9)] {

@@ -9,7 +9,7 @@ use crate::tests::scene::body;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The triangles of a surface of revolution about z; a ring of corners at each radius and height.
+/// Returns the triangles of a surface of revolution about z, with a ring of corners at each radius and height.
 fn revolved(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
     let at = |[r, z]: [f64; 2], k: u32| {
         let (sin, cos) = (TAU * f64::from(k % count) / f64::from(count)).sin_cos();
@@ -26,7 +26,7 @@ fn revolved(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
     outline.windows(2).flat_map(strip).collect()
 }
 
-/// A wheel on its axle: the closest approach takes at most twenty times the work of the first contact.
+/// The closest approach of a wheel on its axle takes at most twenty times the work of the first contact.
 #[test]
 fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
     let wheel = body(&revolved(&[[5.2, 0.0], [5.2, 8.0]], 192));

@@ -1,4 +1,4 @@
-//! Required distances on either side of the least one, and bounds where a search does not end.
+//! Required distances above and below the least one, and bounds if a search does not end.
 
 use super::*;
 
@@ -69,7 +69,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     );
 }
 
-/// Bodies that keep a distance cost as much as with a margin; others at most twice.
+/// Bodies that keep a distance cost as much as with a margin, and others at most twice as much.
 #[test]
 fn a_required_distance_costs_little_more_than_a_margin() {
     let mut rng = rng(12);

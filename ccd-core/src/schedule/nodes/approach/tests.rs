@@ -1,4 +1,4 @@
-//! Rates and bends of two triangles against double-double arithmetic.
+//! Rates and second derivatives of two triangles, compared with double-double arithmetic.
 
 use super::Approach;
 use crate::math::vector::{length, unit};
@@ -13,14 +13,15 @@ use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
 use glam::DVec3;
 
-/// A motion of any speed and turn, about a centre near the body or far from it.
+/// Returns a motion of any speed and turn, about a centre near the body or far from it.
 fn motion(tape: &mut Tape) -> Option<Motion> {
     let start = Pose::new(tape.vector(-20..=4), rotation(tape)).ok()?;
     let [velocity, spin, centre] = [-20..=6, -20..=6, -20..=10].map(|range| tape.vector(range));
     Motion::about(start, velocity, spin, centre).ok()
 }
 
-/// What both sides add to a rate and to a bend: without allowances and exactly, and the allowances.
+/// The contributions of both sides to a rate and to a second derivative: without allowances and exact, and the
+/// allowances.
 struct Sums {
     rate: Double,
     bend: Double,
@@ -48,7 +49,7 @@ impl Sums {
         let spin = Double3::from(motion.spin());
         let axis = Double3::from(n);
         let arms = side.body.pieces().triangle(0);
-        // The corners as they are placed, and as the node has them.
+        // The corners are in their rounded positions, relative to the node's centre.
         let placed = arms.map(|x| Double3::from(frame.point(x) - node.centre));
         let arms = placed.map(|x| x + Double3::from(node.centre) - centre);
         let speeds = arms.map(|arm| axis.dot(spin.cross(arm)));
@@ -75,7 +76,7 @@ impl Sums {
     }
 }
 
-/// Returns the shares of the allowances that the rate and the bend of two triangles take.
+/// Returns the shares of the allowances that the errors of rate and second derivative of two triangles take.
 fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
     let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
     let bodies = triangles.map(|triangle| body(&[triangle]));

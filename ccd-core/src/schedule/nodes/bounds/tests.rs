@@ -1,4 +1,4 @@
-//! The planes alone: every gap, rate and time in f32 against f64, along the same axis.
+//! The planes alone: every gap, rate and time in f32, compared with f64 along the same axis.
 
 mod setting;
 mod shares;
@@ -28,21 +28,21 @@ struct Solid {
 }
 
 impl Solid {
-    /// `max n·x(τ)`, or `min` with a negative sign, at `τ` on.
+    /// Returns `max n·x(τ)`, or `min` with a negative sign, at `τ` on.
     fn highest(&self, n: DVec3, tau: f64) -> f64 {
         let turn = DQuat::from_scaled_axis(self.spin * tau);
         let heights = self.points.iter().map(|&x| n.dot(turn * (x - self.centre)));
         heights.fold(f64::NEG_INFINITY, greater) + n.dot(self.centre)
     }
 
-    /// The fastest that a point rises along `n` now, due to turning.
+    /// Returns the greatest rate at which a point rises along `n` now, due to turning.
     fn fastest(&self, n: DVec3) -> f64 {
         let m = n.cross(self.spin);
         let rates = self.points.iter().map(|&x| m.dot(x - self.centre));
         rates.fold(f64::NEG_INFINITY, greater)
     }
 
-    /// The largest second derivative along `n` at any time.
+    /// Returns the largest second derivative along `n` at any time.
     fn bend(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
@@ -59,13 +59,14 @@ struct Sample<C, P> {
     group: C,
     other: P,
     motion: RelativeMotionF32,
-    /// The gap to be kept: the slack less the rounding of a gap.
+    /// The gap to be kept: the slack minus the rounding of a gap.
     kept: f64,
     /// The error of a gap for which the slack allows.
     allowed: f32,
     children: Vec<Solid>,
     far: Solid,
-    /// The velocity of the children's centre of rotation relative to the other's, and its derivative.
+    /// The velocity of the children's centre of rotation relative to the other's, and the derivative of that
+    /// velocity.
     velocity: DVec3,
     acceleration: DVec3,
 }
@@ -77,13 +78,12 @@ struct Worst {
     rate: f64,
     across: f64,
     clock: f64,
-    /// The smallest excess of a gap over the kept one at the end of a free time, relative to the
-    /// start.
+    /// The smallest excess of a gap over the gap to be kept at the end of a free time, relative to that at the start.
     tightest: f64,
     /// The number of free times of fixed planes, and of turning ones.
     still: usize,
     attached: usize,
-    /// Those of them beside bodies that accelerate, and the ones for good.
+    /// The number of free times beside bodies that accelerate, and of infinite ones.
     accelerating: usize,
     for_good: usize,
 }
@@ -112,7 +112,7 @@ fn planes_hold_and_allowances_suffice_for_triangles() {
     worst.assert();
 }
 
-/// What the bounds compute along one axis, before it becomes eight free times: one number for each child.
+/// The values that the bounds compute along one axis, before they become eight free times: one number for each child.
 #[derive(Clone, Copy, Debug)]
 struct Found {
     axis: [[f32; LANES]; 3],
@@ -129,7 +129,7 @@ impl Found {
         DVec3::from_array(self.axis.map(|row| row[lane].into()))
     }
 
-    /// Returns all numbers; those that are not numbers count as equal.
+    /// Returns all numbers; NaN values count as equal.
     fn numbers(&self) -> Vec<Option<f32>> {
         let rows = [
             &self.axis[..],
@@ -157,16 +157,16 @@ impl Worst {
         assert!(self.rate < 1.0, "{self:?}");
         assert!(self.across < 1.0, "{self:?}");
         assert!(self.clock < 1.0, "{self:?}");
-        // Samples that are nowhere near the bounds would prove nothing.
+        // Samples that come nowhere near the bounds would prove nothing.
         assert!(self.tightest < 0.01, "{self:?}");
         assert!(self.still > 20_000 && self.attached > 2_000, "{self:?}");
         assert!(self.accelerating > 5_000 && self.for_good > 500, "{self:?}");
     }
 }
 
-/// Computes along three axes: those that the bounds try, and some other one.
+/// Computes along three axes: two that the bounds try, and an arbitrary one.
 ///
-/// Nothing is inlined, as the compiler takes minutes for all of it in one function without vectors.
+/// Nothing is inlined: in one function without vectors, the compiler would take minutes.
 fn find<L: Simd, C: Children, P: OtherNode>(
     level: L,
     sample: &Sample<C, P>,
@@ -237,7 +237,7 @@ fn free_with_other<L: Simd, C: Children, P: OtherNode>(
     *pairs.free_with_other(axis)
 }
 
-/// Returns the free times of the rates, for other bends.
+/// Returns the free times for the rates, with other second derivatives.
 fn clocks(
     level: Level,
     aparts: &[f32; LANES],
@@ -276,7 +276,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// All vector instructions of this machine compute the same as none.
+    /// Checks that all vector instructions of this machine compute the same as none.
     fn found_on_all_levels(&self, some: Vec3) -> [Found; 3] {
         let [best, baseline] = [Instructions::Best, Instructions::Baseline]
             .map(|instructions| vectorize!(instructions.level(), level => find(level, self, some)));
@@ -286,7 +286,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         best
     }
 
-    /// Each rounded quantity against the same in f64.
+    /// Compares each rounded quantity with the same in f64.
     fn sample_allowances(&self, found: &Found, worst: &mut Worst) {
         let frees = self.clocks(found);
         for lane in 0..self.children.len() {
@@ -302,7 +302,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         (self.velocity + self.acceleration * (0.5 * tau)) * tau
     }
 
-    /// A fixed plane keeps the pair apart for its whole free time.
+    /// Checks that a fixed plane keeps the pair apart for its whole free time.
     fn check_still(&self, found: &Found, worst: &mut Worst) {
         let [free, ..] = found.free;
         for (lane, free) in free.into_iter().enumerate() {
@@ -315,7 +315,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// A plane that turns with one of the bodies does so too.
+    /// Checks that a plane that turns with one of the bodies keeps the pair apart, too.
     fn check_attached(&self, found: &Found, with: Larger, worst: &mut Worst) {
         let [_, with_split, with_other] = found.free;
         let free = match with {

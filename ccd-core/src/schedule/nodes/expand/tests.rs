@@ -1,4 +1,4 @@
-//! Every free time of every lane is checked against samples, in f64, vertex by vertex.
+//! Every free time of every lane is compared with samples, in f64, vertex by vertex.
 
 use super::*;
 use crate::math::order::{greater, lesser};
@@ -12,14 +12,14 @@ const SAMPLES: usize = 17;
 /// The counts of an audit, which show that a test covers its cases.
 #[derive(Debug, Default)]
 struct Tally {
-    /// Lanes with a free time, all checked, and lanes without.
+    /// The lanes with a free time, which are all checked, and the lanes without.
     free: usize,
     none: usize,
-    /// Free times that only planes turning with a body yield.
+    /// The free times that only planes turning with a body give.
     attached: usize,
-    /// Lanes whose pieces are not apart at the clock.
+    /// The lanes whose pieces are not apart at the clock.
     overlapping: usize,
-    /// Samples proven apart by one axis, and else by comparing all triangles.
+    /// The samples proven apart by one axis, and those proven by comparing all triangles.
     by_axis: usize,
     by_pieces: usize,
     /// The split roles, by kind and by the other node.
@@ -106,8 +106,7 @@ struct Lane {
 }
 
 impl Audit<'_> {
-    /// Descends from the roots to a pair of pieces, splitting either side, each time at another
-    /// clock.
+    /// Descends from the roots to a pair of pieces, splitting either side, each time at another clock.
     fn descend(&self, rng: &mut Pcg64, tally: &mut Tally) {
         let mut ids = [0, 0];
         let (a, b) = (self.problem.a.body.tree(), self.problem.b.body.tree());
@@ -137,7 +136,7 @@ impl Audit<'_> {
         }
     }
 
-    /// Returns a clock at which the bodies are near each other, or any.
+    /// Returns a clock at which the bodies are near each other, or an arbitrary one.
     fn clock(&self, rng: &mut Pcg64) -> f64 {
         let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.window;
         match rng.random_range(0..8) {
@@ -218,8 +217,8 @@ impl Audit<'_> {
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
-    /// Checks that every triangle below the child stays farther than the gap of all clocks from every one
-    /// below the other node, at every sampled time.
+    /// Checks that every triangle below the child is farther than the gap of all clocks from every one below the
+    /// other node, at every sampled time.
     fn verify(&self, lane: &Lane, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
@@ -278,7 +277,7 @@ impl Audit<'_> {
     }
 }
 
-/// All pieces below a node.
+/// Visits all pieces below a node.
 fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     let tree = side.body.tree();
     let members = match tree.get(id) {
@@ -294,7 +293,7 @@ fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     }
 }
 
-/// Searches for one axis that separates two sets of triangles, starting with the last one that did.
+/// A search for one axis that separates two sets of triangles, starting with the last one that did.
 #[derive(Default)]
 struct Prover {
     axis: Option<DVec3>,
@@ -339,7 +338,7 @@ fn lowest(triangles: &[Triangle], n: DVec3) -> DVec3 {
         .1
 }
 
-/// The bounds of [`expand`] without planes that turn with a body.
+/// Returns the bounds of [`expand`] without planes that turn with a body.
 fn planes_that_stand_still(
     problem: &Problem<'_>,
     split: Which,
@@ -370,8 +369,8 @@ fn planes_that_stand_still(
     })
 }
 
-/// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller
-/// than the other node's excludes them.
+/// Bounds a group without planes that turn. These turn only with much larger nodes: a reach that is neither much
+/// larger nor much smaller than the other node's excludes them.
 #[inline(always)]
 fn still<L: Simd, C: Children>(
     motion: &RelativeMotion<'_, L>,

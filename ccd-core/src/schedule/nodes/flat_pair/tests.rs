@@ -1,4 +1,4 @@
-//! Times for which flat nodes are said to stay apart, against distances at sampled times.
+//! Free times of flat nodes, compared with distances at sampled times.
 
 mod worst;
 
@@ -56,6 +56,6 @@ fn flat_nodes_stay_apart_for_their_free_time() {
             );
         }
     }
-    // Most of those that are near are known in f64 only.
+    // Most of the near pairs are proven in f64 only.
     assert!(proven > 800 && close > 200, "{proven} {close}");
 }

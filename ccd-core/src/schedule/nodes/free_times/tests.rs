@@ -1,4 +1,4 @@
-//! Free times against a sorted list.
+//! Free times, compared with a sorted list.
 
 use super::super::lanes::load;
 use super::{FreeTimes, LANE_BITS};
@@ -7,7 +7,7 @@ use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;
 
-/// Times with many equal ones and extremes.
+/// Returns times with many equal ones and extremes.
 fn time(rng: &mut Pcg64) -> f32 {
     match rng.random_range(0..7) {
         0 => 0.0,

@@ -11,7 +11,7 @@ use crate::tests::scene::{direction, long_box};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// The reach of a box as it stands against its points, without the allowance.
+/// Compares the reach of a box at its position, without the allowance, with the box's points.
 #[test]
 fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);

@@ -1,4 +1,4 @@
-//! Nodes said to stay apart along a screw, against distances at sampled times.
+//! Nodes that are proven apart along a screw, compared with distances at sampled times.
 
 mod worst;
 
@@ -19,12 +19,13 @@ fn patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
 }
 
-/// A body that moves along a screw, at times for thousands of turns, and one beside its way: it passes by after a share of the turn.
+/// A body that moves along a screw, in some cases for thousands of turns, and one beside its path. The moving body
+/// passes the other after a share of the turn.
 struct Passage {
     bodies: [Body; 2],
     screwing: Motion,
     still: Motion,
-    /// The time at which they are near.
+    /// The time at which the bodies are near each other.
     near: f64,
 }
 
@@ -119,7 +120,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         if number % 2 == 1 {
             std::mem::swap(&mut first, &mut second);
         }
-        // Both fall alike, or nearly.
+        // Both bodies have the same acceleration, or nearly.
         let pull = direction(&mut rng) * [0.0, 3.0][number / 2 % 2];
         let pulls = [pull, pull * (1.0 + [0.0, 1e-3][number / 4 % 2])];
         let bodies = [first, second];
@@ -147,12 +148,12 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
     );
 }
 
-/// The same point of a screw's way comes by after every turn.
+/// A body on a screw passes the same place again after later turns.
 #[test]
 fn later_turns_count() {
     let triangle = |at: DVec3| [at, at + 0.02 * DVec3::Z, at + 0.02 * DVec3::X];
     let moving = body(&[triangle(DVec3::X)]);
-    // Where it is after a turn and a half.
+    // The triangle is at the place that is reached after a turn and a half.
     let still = body(&[triangle(DVec3::new(-1.0, 0.0, 0.3))]);
     let turn = |turns: f64| {
         Motion::new(
@@ -176,8 +177,8 @@ fn later_turns_count() {
     }
 }
 
-/// Turns without an advance are all alike; with one, a node that is as tall as many pitches is apart from what is
-/// outside of all of them, and meets what is not.
+/// Turns without an advance are all alike. With one, a node as tall as many pitches is apart from a node outside of
+/// all of them, and meets others.
 #[test]
 fn any_number_of_turns_is_one_look() {
     let triangle = |r: f64, tall: f64| {
@@ -191,7 +192,7 @@ fn any_number_of_turns_is_one_look() {
         (1e-3, 1e3, 1.1, 0.8, true),
         (1e-3, 1e3, 1.0, 0.8, false),
         (-1e-2, 1e3, 1.1, 20.0, true),
-        // Between the turns of a thread there is room for what is flat.
+        // Between the turns of a thread there is room for a flat node.
         (0.5, 1e3, 1.0, 0.01, true),
         (0.5, 1e3, 1.0, 0.6, false),
     ] {
@@ -248,7 +249,7 @@ fn what_is_no_screw_has_no_profiles() {
     assert!(!falls([DVec3::ZERO, 9.8 * DVec3::Z]));
 }
 
-/// Rounding of the height of nodes far up an oblique axis must not tilt tall ones.
+/// Rounding of the height of nodes far along an oblique axis must not tilt tall nodes.
 #[test]
 fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
     const COUNT: usize = 8;
@@ -262,7 +263,7 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
             r * (angle.cos() * x + angle.sin() * y) + (high + z * length) * axis
         };
         let azimuth = |k: usize| 0.3 * k as f64 / COUNT as f64;
-        // Their tips are at a distance of 1 from the axis, those of the others' bases a little less.
+        // Their tips are at a distance of 1 from the axis, and the others' bases at a little less.
         let tall = |k: usize| {
             let angle = -azimuth(k);
             let foot = |side: f64| at(angle + side * 1e-3, 0.99, -1.0);
@@ -292,7 +293,7 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
         let problem = problem.unwrap();
         let mut profiles = Profiles::default();
         let screw = Screw::of(&problem, &mut profiles).unwrap();
-        // Each of the tall ones passes each of the others on its way.
+        // Each of the tall nodes passes each of the others on its path.
         for pair in all_pairs(&problem) {
             assert_ne!(
                 screw.keeps_apart(&problem, &mut profiles, pair, 0.0),

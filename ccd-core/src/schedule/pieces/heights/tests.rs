@@ -1,4 +1,4 @@
-//! Bounds of many points at once against tracks of all of them.
+//! Bounds of many points at once, compared with the tracks of all of them.
 
 mod worst;
 
@@ -12,7 +12,7 @@ use crate::settings::Settings;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DQuat;
 
-/// 4 to 5,000 points: in space, on a ball, in a plane, on a line.
+/// Returns 4 to 5,000 points: in space, on a ball, in a plane, on a line.
 fn points(rng: &mut Pcg64, kind: usize, size: f64) -> Vec<DVec3> {
     let count = magnitude(rng, 0.6, 3.7) as usize;
     let [u, v] = [direction(rng), direction(rng)];
@@ -60,14 +60,14 @@ fn many_points_are_bounded_like_all_of_them() {
         let twin = Heights::new(side, &bare, &frame, normal, clock);
         many += usize::from(piece.ball().is_some());
         assert!(heights.speed() >= twin.speed() * (1.0 - 1e-15));
-        // A ball about the points reaches no farther than that, except by its own slack.
+        // A ball about the points extends no farther than that, except by its own slack.
         assert!(
             heights.speed() <= 1.5 * twin.speed(),
             "{} {}",
             heights.speed(),
             twin.speed()
         );
-        // Rounding of heights about the centre, and of the positions that they are computed from.
+        // The rounding is that of heights about the centre, and of the positions from which they are computed.
         let span = problem.a.body.tree().span() + side.path.centre.length();
         let slack = 128.0 * crate::rounding::U64 * (span + velocity.length() + pull.length());
         assert!((heights.least() - twin.least()).abs() <= slack);
@@ -99,7 +99,7 @@ fn many_points_are_bounded_like_all_of_them() {
     assert!(tight.into_iter().all(|count| count > 900), "{tight:?}");
 }
 
-/// Heights, rates and bends of few points and of many, against the points turned.
+/// Heights, rates and second derivatives of few points and of many, compared with the rotated points.
 #[test]
 fn points_rise_and_sink_as_their_body_turns() {
     let mut rng = rng(32);
@@ -144,7 +144,7 @@ fn points_rise_and_sink_as_their_body_turns() {
     assert!(many > 50, "{many}");
 }
 
-/// The points, as seen from the centre.
+/// The points, relative to the centre.
 struct Twin {
     arms: Vec<DVec3>,
     normal: DVec3,
@@ -154,7 +154,7 @@ struct Twin {
 }
 
 impl Twin {
-    /// The height of a point, its rate, and what its turning adds to the second derivative.
+    /// Returns the height of a point, its rate, and the second derivative due to its turning.
     fn point(&self, k: usize, tau: f64) -> Point {
         let arm = DQuat::from_scaled_axis(self.spin * tau) * self.arms[k];
         let turning = self.spin.cross(arm);
@@ -167,7 +167,7 @@ impl Twin {
         }
     }
 
-    /// How far all points rise, apart from their turning.
+    /// Returns the rise that all points share, without their turning.
     fn drift(&self, tau: f64) -> f64 {
         self.normal
             .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
@@ -201,7 +201,7 @@ impl Twin {
             let Some(few) = heights.few() else { continue };
             assert!(is(least, self.least(tau, both)));
             for (k, point) in few.at(heights.angle(tau), tau).into_iter().enumerate() {
-                // The last one is repeated.
+                // The last point is repeated.
                 let twin = self.point(lesser(k as u32, self.arms.len() as u32 - 1) as usize, tau);
                 assert!(is(point.height, twin.height) && is(point.rate, twin.rate));
             }
@@ -209,7 +209,7 @@ impl Twin {
         self.check_descent(heights, 0.7);
     }
 
-    /// What their turning does to the lowest point, sampled.
+    /// Compares the descent of the lowest point by turning with samples.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
         let many = heights.piece.ball().is_some();
         let Some(descent) = heights.descent_until(horizon) else {

@@ -1,4 +1,4 @@
-//! A pair of pieces on its own: its clock, and the time of its contact.
+//! A single pair of pieces: its clock, and the time of its contact.
 
 use super::*;
 use crate::body::Body;
@@ -10,7 +10,7 @@ use crate::query::Moving;
 use crate::settings::Settings;
 use crate::tests::oracle::{Always, Exhaustive};
 
-/// A ball of radius 1 at `x`, moving along −x by `speed`, and one at the origin at rest.
+/// Poses a ball of radius 1 at `x`, moving along −x by `speed`, and one at the origin at rest.
 fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let ball = Body::ball(1.0).unwrap();
     let start = Pose::at(x * DVec3::X).unwrap();
@@ -22,7 +22,7 @@ fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_
     then(&Problem::about(a, b, 1.0, config).unwrap())
 }
 
-/// Advances a new pair, clock by clock, until any other step.
+/// Advances a new pair, clock by clock, until another kind of step.
 fn run(problem: &Problem<'_>) -> (f64, Step) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
@@ -43,7 +43,7 @@ fn two_balls_meet_when_they_do() {
     let config = Settings::DEFAULT;
     let (s, step) = balls(4.0, 4.0, &config, run);
     assert!(matches!(step, Step::Contact(_)), "two balls meet");
-    // The gap of 2 is closed at half the duration; they stop within the tolerance of it.
+    // The gap of 2 is closed at half the duration. The balls stop within the tolerance of it.
     assert!(s <= 0.5 && s > 0.5 - config.tolerance / 4.0, "{s}");
 }
 
@@ -79,7 +79,7 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
         start: StartPolicy::Leave,
         ..Settings::DEFAULT
     };
-    // Pairs that begin with a gap are left to the search, which uses half of it.
+    // Pairs that begin with a gap are handled by the search, which uses half of the gap.
     let x = 2.0;
     let (_, step) = balls(x, -1.0, &config, run);
     assert!(matches!(step, Step::FreeUntil(_)), "parting");
@@ -87,7 +87,7 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     assert!(matches!(step, Step::FreeUntil(_)), "resting");
     let (s, step) = balls(x, 1.0, &config, run);
     assert!(matches!(step, Step::Contact(_)), "approaching");
-    // Never late, except for the rounding of resting.
+    // The contact is never late, except for the rounding of resting.
     assert!(s <= 1e-12, "{s}");
     // A second touch after parting is a contact at the query's own tolerance.
     let (s, step) = returning(&config, run);
@@ -96,12 +96,12 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");
 }
 
-/// A bar that turns about z away from the one it touches, and back to it from the other side.
+/// Poses a bar that turns about z away from the one it touches, and back to it from the other side.
 fn returning<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let bar = Body::capsule(0.1, 1.0).unwrap();
     let ball = Body::ball(0.1).unwrap();
     let turn = std::f64::consts::TAU;
-    // Its other end comes around.
+    // The other end of the bar comes around.
     let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap();
     let a = Moving::from((&bar, turns));
     let beside = Pose::at(DVec3::new(-0.2, 0.0, 0.9)).unwrap();
@@ -145,7 +145,7 @@ fn a_dishonest_oracle_cannot_make_a_pair_late() {
                 0.0,
             )
         });
-        // A pair of points has only one axis: the check finds it for any claim.
+        // A pair of points has only one axis, which the check finds for any claim.
         match step {
             Step::FreeUntil(clock) => assert!(clock <= 0.5, "{axis}: {clock}"),
             Step::Stalled => {}

@@ -1,4 +1,4 @@
-//! Free times of pieces against samples, along the axis and in distance.
+//! Free times of pieces, compared with samples, along the axis and in distance.
 
 mod directed;
 mod planes;
@@ -31,7 +31,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
             normal = -normal;
         }
         let gap = heights(clock, normal);
-        // The part of the gap that may be used up.
+        // The slack is the part of the gap that may be used up.
         let slack = gap.abs() * magnitude(&mut rng, -3.0, 0.0);
         let free = snapshot.free_along(normal, slack);
         let until = free.map_or(1.0, |free| clock + free);

@@ -1,5 +1,4 @@
-//! Planes that turn with a body against samples, and their rounding against double-double
-//! arithmetic.
+//! Planes that turn with a body, compared with samples, and their rounding, compared with double-double arithmetic.
 
 mod worst;
 
@@ -25,9 +24,9 @@ const SAMPLES: u32 = 48;
 struct Seen {
     some: usize,
     forever: usize,
-    /// Free times at whose end most of the slack was used up.
+    /// The free times at whose end most of the slack was used up.
     used: usize,
-    /// The samples with both bodies turning, with many turns, with more points than three.
+    /// The samples with both bodies turning, those with many turns, and those with more points than three.
     both: usize,
     fast: usize,
     many: usize,
@@ -52,7 +51,7 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
     assert!(4 * seen.used > seen.some, "{seen:?}");
 }
 
-/// Pieces of 1 to 300 points, some of them rounded, at up to a thousand radians.
+/// Returns a scene with pieces of 1 to 300 points, some of them rounded, at up to a thousand radians.
 fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
     let mut scene = scene(rng, kind, 2);
     for (body, motion) in scene.bodies.iter_mut().zip(&mut scene.motions) {
@@ -141,7 +140,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     for number in 0..3_000 {
         let scene = crowded(&mut rng, [Kind::Any, Kind::Rim][number % 2]);
         let problem = scene.problem();
-        // Sums of these are exact.
+        // Sums of these numbers are exact.
         let grain = f64::from(1 << 20);
         let [clock, tau] =
             [0.5, 0.5].map(|most| (rng.random_range(0.0..most) * grain).floor() / grain);
@@ -177,8 +176,8 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     assert!(height > 1e-3 && rate > 1e-3, "{height} {rate}");
 }
 
-/// Returns the height of a point of the second body along an axis that turns with the first one,
-/// from its centre, and its rate.
+/// Returns the height of a point of the second body along an axis that turns with the first one, from its centre, and
+/// the rate of that height.
 fn exact(
     motions: [&Motion; 2],
     normal: DVec3,
@@ -199,8 +198,8 @@ fn exact(
     (normal.dot(way), rate)
 }
 
-/// A plate of size 200 turns about one of its edges' directions past a ball near that axis: its rim
-/// is fast, but stays far away.
+/// A plate of size 200 turns about an axis along one of its edges, past a ball near that axis. Its rim is fast, but
+/// stays far away.
 #[test]
 fn a_large_plate_turns_past_a_small_ball_at_once() {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);

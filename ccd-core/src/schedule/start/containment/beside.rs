@@ -1,4 +1,4 @@
-//! Points of a thin piece on either side of another piece's edges on it.
+//! Points of a thin piece on both sides of another piece's edges on it.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -23,7 +23,7 @@ pub(super) fn beside_edges(
     let flat = Flat::of(piece);
     let placed = move |k: u32| place(other.points[k as usize]);
     let is_level = move |flat: &Flat<'_>, at: DVec3| flat.height(at).abs() <= reach;
-    // The faces beyond the edges decide about a piece within the plane.
+    // For a piece within the plane, the faces beyond the edges decide.
     let passes = move |flat: &Flat<'_>| {
         let mut all = 0..other.points.len() as u32;
         !all.all(|k| is_level(flat, placed(k)))
@@ -38,17 +38,17 @@ pub(super) fn beside_edges(
     })
 }
 
-/// A thin piece: its largest facet, or its points in their order.
+/// A thin piece, by its largest facet, or by its points in their order.
 #[derive(Clone, Copy)]
 struct Flat<'a> {
     points: &'a [DVec3],
-    /// The corners, by the points; none if they are all points in their order.
+    /// The indices of the corners among the points; `None` if the corners are all points in their order.
     corners: Option<&'a [u32]>,
     normal: DVec3,
 }
 
 impl<'a> Flat<'a> {
-    /// Returns none for a piece without three corners.
+    /// Returns `None` for a piece without three corners.
     fn of(piece: &Piece<'a>) -> Option<Self> {
         let spread = |corners: &[u32]| match *corners {
             [a, b, c, ..] => {
@@ -87,7 +87,7 @@ impl<'a> Flat<'a> {
         self.normal.dot(point - self.corner(0))
     }
 
-    /// Returns for each side of the piece a point on it, and the inward direction.
+    /// Returns a point on each side of the piece, and the inward direction there.
     fn sides(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let count = self.count();
         (0..count).map(move |k| {
@@ -101,7 +101,7 @@ impl<'a> Flat<'a> {
             .all(|(from, inward)| inward.dot(point - from) > 0.0)
     }
 
-    /// Returns points on either side of the middle of the common part with an edge.
+    /// Returns points on both sides of the middle of the common part with an edge.
     fn beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let way = to - from;
         let (mut enter, mut leave) = (0.0, 1.0);
@@ -122,13 +122,13 @@ impl<'a> Flat<'a> {
     }
 }
 
-/// Returns the edges of a piece, by its points, each at least once.
+/// Returns the edges of a piece as indices of its points, each at least once.
 fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
     let around = |corners: &'a [u32]| {
         let ends = move |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
         (0..corners.len()).map(ends)
     };
-    // Without facets, its points are in their order.
+    // Without facets, the points are in their order.
     let points = if piece.facets.is_empty() {
         piece.points.len() as u32
     } else {

@@ -1,4 +1,4 @@
-//! Inside and outside of solids, points on the surface, shells within shells.
+//! The inside and outside of solids, points on the surface, and shells within shells.
 
 use super::{Containment, at_start};
 use crate::answer::Overlap;
@@ -71,7 +71,7 @@ fn a_point_on_the_surface_is_not_inside() {
     }
 }
 
-/// Rays that pass exactly through corners and edges are not miscounted.
+/// Rays that pass exactly through corners and edges are counted correctly.
 #[test]
 fn regular_points_in_line_with_edges_are_decided() {
     let body = solid(&cube(1.0, 8));
@@ -100,7 +100,7 @@ fn a_cavity_is_outside_and_a_solid_in_it_inside() {
         let point = DVec3::new(x, 0.1 * x, 0.03 * x);
         assert_eq!(contains(&body, point), Some(inside), "{x}");
     }
-    // Something in the cavity is no overlap; something in the core or the wall is.
+    // A body in the cavity is no overlap. A body in the core or the wall is one.
     let part = |x: f64| solid(&moved(&cube(0.1, 1), x * DVec3::X));
     for (x, inside) in [(0.0, true), (1.5, false), (2.5, true), (3.5, false)] {
         let overlap = contained(&part(x), &body);
@@ -135,13 +135,13 @@ fn a_surface_contains_nothing() {
     let surface = Body::new(&pieces(&cube(1.0, 2)), Volume::Surface).unwrap();
     let small = solid(&cube(0.1, 1));
     assert_eq!(contained(&small, &surface), None);
-    // But a surface may be inside of a solid.
+    // A surface, however, may be inside a solid.
     let inner = Body::new(&pieces(&cube(0.1, 2)), Volume::Surface).unwrap();
     let overlap = contained(&solid(&cube(1.0, 1)), &inner);
     assert!(matches!(overlap, Some(Overlap::BInsideA(_))));
 }
 
-/// All extreme points of the triangle are on the cube: the pieces that touch decide, if there are any.
+/// All extreme points of the triangle are on the cube: the touching pieces decide, if there are any.
 #[test]
 fn a_part_on_the_surface_is_left_to_its_pieces() {
     let on_top = [[0.5, 0.0, 1.0], [0.75, 0.25, 1.0], [0.5, 0.25, 1.0]].map(DVec3::from);
@@ -184,7 +184,7 @@ fn placement_and_size_do_not_matter() {
     }
 }
 
-/// Two pyramids on one square, with corners on a large triangle: no face passes through it.
+/// Two pyramids on one square have corners on a large triangle, and no face passes through the triangle.
 #[test]
 fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let tip = |k: usize| match k % 2 {
@@ -215,18 +215,18 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
         found(&sheet),
         Containment::Inside(Overlap::BInsideA(_))
     ));
-    // Resting on a tip, it is not.
+    // A triangle that rests on a tip is not inside.
     let above = Body::new(&pieces(&moved(&[plate], DVec3::Z)), Volume::Surface).unwrap();
     assert_eq!(found(&above), Containment::Outside);
 }
 
-/// Found by the fuzz target `query`: no face meets it but at an edge, and its end is inside.
+/// The fuzz target `query` found this case: no face meets the needle but at an edge, and its end is inside.
 #[test]
 fn a_lone_needle_through_an_edge_is_inside() {
     let needle = [-4.0 * DVec3::Z, DVec3::ZERO, DVec3::ZERO];
     let needle = Body::new(&pieces(&[needle]), Volume::Surface).unwrap();
     let cube = cube(1.0, 1);
-    // The faces whose diagonal it passes through.
+    // These are the faces whose diagonal the needle passes through.
     let below = |face: &Triangle| face.iter().all(|corner| corner.z < 0.0);
     let touching: Vec<[u32; 2]> = (0..12)
         .filter(|&k| below(&cube[k as usize]))
@@ -239,8 +239,8 @@ fn a_lone_needle_through_an_edge_is_inside() {
     ));
 }
 
-/// Found by the fuzz target `query`: the ways to the corners are long, and the volumes of them are off by
-/// more than the height of the face.
+/// The fuzz target `query` found this case: the vectors to the corners are long, and the errors of their volumes
+/// exceed the height of the face.
 #[test]
 fn points_near_very_long_faces_are_decided() {
     let long = cube(1.0, 1).into_iter().map(|face| {
@@ -253,7 +253,7 @@ fn points_near_very_long_faces_are_decided() {
     assert_eq!(contains(&beam, DVec3::X * 3.75), Some(true));
 }
 
-/// A plate along the plane y = 0, of half extents x and z, so thin that no face shows it to intersect.
+/// Tests a plate along the plane y = 0, of half extents x and z, so thin that no face proves an intersection.
 fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Containment {
     let cube = solid(&cube(1.0, n));
     let plate = Body::cuboid([x, 1e-33, z]).unwrap();
@@ -270,7 +270,7 @@ fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Containment {
 
 #[test]
 fn a_thin_piece_is_examined_at_its_corners() {
-    // Its middle is outside, and half of its corners are inside.
+    // The middle of the plate is outside, and half of its corners are inside.
     let found = plate_in_cube(1, 1.5 * DVec3::X, [1.5, 0.25]);
     assert!(
         matches!(found, Containment::Inside(Overlap::AInsideB(p)) if p.x == 0.0),
@@ -282,7 +282,7 @@ fn a_thin_piece_is_examined_at_its_corners() {
 
 #[test]
 fn a_thin_piece_is_examined_beside_edges_on_it() {
-    // All of its corners are outside, and so is its middle: two faces of the cube meet on it.
+    // All corners of the plate are outside, and so is its middle: two faces of the cube meet on it.
     let found = plate_in_cube(2, 2.0 * DVec3::X, [2.5, 3.0]);
     assert!(
         matches!(found, Containment::Inside(Overlap::AInsideB(p)) if p.abs().max_element() < 1.0),
@@ -292,7 +292,8 @@ fn a_thin_piece_is_examined_beside_edges_on_it() {
     assert_eq!(beside, Containment::Outside);
 }
 
-/// A thick piece is not: a face that passes through it intersects it. Nor is one without known sides.
+/// A thick piece is not examined: a face that passes through it intersects it. A piece without known sides is not
+/// examined either.
 #[test]
 fn only_thin_pieces_are_examined_beside_edges() {
     let cube = solid(&cube(1.0, 1));
@@ -307,7 +308,7 @@ fn only_thin_pieces_are_examined_beside_edges() {
         );
         pieces
     };
-    // Aside of the origin; no corner of a facet is opposite to another one.
+    // The prism is aside of the origin, and no corner of a facet is opposite to another one.
     let prism = |height: f64| {
         let corners = [[5.0, 5.0], [8.0, 5.0], [5.0, 7.0]];
         let at = |y: f64| corners.map(|[x, z]| DVec3::new(x, y, z));

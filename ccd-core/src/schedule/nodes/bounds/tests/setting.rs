@@ -20,7 +20,7 @@ fn spin(rng: &mut impl RngExt) -> DVec3 {
     }
 }
 
-/// The centre of rotation of a body with nodes of this size at a place.
+/// Returns the centre of rotation of a body with nodes of this size at a place.
 fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
     let reach = size * magnitude(rng, -1.0, 4.0);
     if rng.random_bool(0.3) {
@@ -37,7 +37,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// A box of any proportions, or a needle, or next to nothing.
+    /// Creates a box of any proportions, a needle, or a tiny one.
     pub(super) fn new(rng: &mut impl RngExt) -> Self {
         let size = magnitude(rng, -4.0, 4.0);
         Shape::of_size(rng, size, DVec3::ZERO)
@@ -74,7 +74,7 @@ impl Shape {
         Shape { points, node }
     }
 
-    /// Three corners of it; the node stays around them.
+    /// Returns the triangle of three of the shape's corners, about their mean. The node still contains it.
     pub(super) fn triangle(mut self) -> Self {
         self.points.truncate(3);
         let mean = (self.points[0] + self.points[1] + self.points[2]) / 3.0;
@@ -87,7 +87,7 @@ impl Shape {
 
 /// The pose of the other node, and the motions of both bodies.
 pub(super) struct Setting {
-    /// Takes the other body's frame to the split one's.
+    /// The rotation from the other body's frame to the split body's.
     turn: DMat3,
     place: DVec3,
     /// The children's size, and the position of the group in the split body's frame.
@@ -103,7 +103,7 @@ impl Setting {
     pub(super) fn new(rng: &mut impl RngExt, other: &Shape) -> Self {
         let radius = f64::from(other.node.radius);
         let size = radius * magnitude(rng, -3.0, 3.0);
-        // Mostly near; otherwise so near, or so far, that one kind of rounding dominates.
+        // The distance is mostly near; otherwise so near, or so far, that one kind of rounding dominates.
         let far = match rng.random_range(0..5) {
             0 => magnitude(rng, -3.0, 0.0),
             1 => magnitude(rng, 0.0, 4.0),
@@ -130,12 +130,12 @@ impl Setting {
         }
     }
 
-    /// The size of the children.
+    /// Returns the size of the children.
     pub(super) fn size(&self) -> f64 {
         self.size
     }
 
-    /// The same, with the other node at a distance in units of both sizes.
+    /// Returns the setting with the other node at a distance in units of both sizes.
     pub(super) fn at_distance(self, far: f64, other: &Shape) -> Self {
         let far = far * (f64::from(other.node.radius) + self.size);
         Setting {
@@ -144,7 +144,7 @@ impl Setting {
         }
     }
 
-    /// The same, with nothing but the other node turning, about a point that is so far from its middle.
+    /// Returns the setting in which only the other node turns, about a point at `arm` from its middle.
     pub(super) fn turning_in_place(self, spin: DVec3, arm: DVec3) -> Self {
         Setting {
             velocity: DVec3::ZERO,
@@ -226,7 +226,7 @@ impl Setting {
         self.sample(group, triangle, reach, children, far)
     }
 
-    /// The allowances as in an expansion.
+    /// Returns a sample with the allowances of an expansion.
     fn sample<C, P: OtherNode>(
         &self,
         group: C,

@@ -8,7 +8,7 @@ use crate::schedule::nodes::shape::{Children, OtherNode};
 use crate::settings::Instructions;
 use crate::tests::worst::share;
 
-/// What an axis gives for eight pairs: the gaps, bends and free times.
+/// The values of an axis for eight pairs: the gaps, second derivatives and free times.
 pub(super) struct Clocks {
     pub(super) apart: [f32; LANES],
     pub(super) bend: [f32; LANES],
@@ -38,7 +38,7 @@ pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
 }
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
-    /// The free times for the gaps and rates of an axis, and exact bends.
+    /// Returns the free times for the gaps and rates of an axis, with exact second derivatives.
     pub(super) fn clocks(&self, found: &Found) -> Clocks {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
         let bend = std::array::from_fn(|lane| {

@@ -1,4 +1,5 @@
-//! Which pairs wait for a second look, and which node of a pair is split, against the same in f64.
+//! The choice of the pairs that wait for a second visit, and of the node of a pair to split, compared with the same
+//! in f64.
 
 use super::setting::{Setting, Shape};
 use super::{Sample, find, widest};
@@ -14,7 +15,7 @@ use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
-/// What eight pairs have, one number for each.
+/// The values of eight pairs, one number for each.
 struct Rows {
     radius: [f32; LANES],
     /// The distances from the other body's centre of rotation.
@@ -22,7 +23,7 @@ struct Rows {
     split_reach: [f32; LANES],
     other_reach: [f32; LANES],
     gap: [f32; LANES],
-    /// The times of the two fixed planes, and of those that turn with the split and the other body.
+    /// The times of the two fixed planes, and of the planes that turn with the split and the other body.
     free: [[f32; LANES]; 4],
     pieces: u8,
     found: Bounds,
@@ -52,7 +53,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         })
     }
 
-    /// The same with the larger of the nodes' bodies turning, if one is much larger.
+    /// Returns the setting with the much larger side recorded, if there is one.
     fn beside_a_larger_one(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
@@ -67,7 +68,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 }
 
-/// Returns whether one number is greater than another; none within rounding.
+/// Returns whether one number is greater than another; `None` within rounding.
 fn exceeds(one: f64, other: f64) -> Option<bool> {
     let near = 1e-4 * (one.abs() + other.abs());
     ((one - other).abs() > near).then_some(one > other)

@@ -19,7 +19,7 @@ use crate::tests::worst::{Tape, Worst, share};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
 
-/// What a search looks at: one share, in settings that it draws.
+/// A search for the worst share of one allowance, in settings that it draws.
 #[derive(Clone, Copy)]
 struct Search {
     name: [&'static str; 2],
@@ -29,7 +29,7 @@ struct Search {
 }
 
 impl Search {
-    /// Looks at nodes with boxes, and at triangles.
+    /// Searches nodes with boxes, and then triangles.
     fn run(self) {
         let boxes = Worst::of(self.name[0], 3_000).search(|tape| {
             let other = Shape::new(tape);
@@ -45,7 +45,7 @@ impl Search {
         triangles.is_within(self.looseness);
     }
 
-    /// The largest share among eight pairs and three axes.
+    /// Returns the largest share among eight pairs and three axes.
     fn share_of<C: Children, P: OtherNode>(self, tape: &mut Tape, sample: &Sample<C, P>) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
         let of = |found: &Found, lane: usize| {
@@ -59,7 +59,7 @@ impl Search {
     }
 }
 
-/// Far nodes: what their size adds is less than a hundredth of the allowance.
+/// The nodes are far: the contribution of their size is less than a hundredth of the allowance.
 #[test]
 fn way_f32() {
     Search {
@@ -74,7 +74,7 @@ fn way_f32() {
     .run();
 }
 
-/// Near nodes: what their distance adds is less than a hundredth of the allowance.
+/// The nodes are near: the contribution of their distance is less than a hundredth of the allowance.
 #[test]
 fn reach_f32() {
     Search {
@@ -100,8 +100,7 @@ fn rate_f32() {
     .run();
 }
 
-/// A node that turns about its own middle far from the group: its speed is next to nothing but for the
-/// share of its place.
+/// A node turns about its own middle far from the group. Its speed is tiny, except for the share of its position.
 #[test]
 fn places() {
     Search {
@@ -118,14 +117,14 @@ fn places() {
     .run();
 }
 
-/// Returns what a function of eight numbers each gives, with all instructions alike.
+/// Returns the values of a function of eight numbers each, and checks that all instructions give the same.
 fn on_all_levels<T: PartialEq + std::fmt::Debug>(of: impl Fn(fearless_simd::Level) -> T) -> T {
     let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(|set| of(set.level()));
     assert_eq!(best, baseline);
     best
 }
 
-/// The products of two vectors, and their lengths.
+/// Returns the lengths of the cross products of two vectors.
 fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     let rows = [0, 1, 2].map(|k| n.map(|n| n[k]));
     on_all_levels(|level| {
@@ -135,13 +134,13 @@ fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     })
 }
 
-/// Eight axes, rounded, and a spin.
+/// Returns eight rounded axes, and an angular velocity.
 fn turned(tape: &mut Tape) -> Option<([DVec3; LANES], DVec3)> {
     let spin = DVec3::from(tape.vector(-20..=5));
     let aside = tape.size(-30..=0);
     let axes = [(); LANES].map(|()| match tape.pick(2) {
         0 => direction(tape),
-        // Next to parallel.
+        // The axis is next to parallel.
         _ => (spin.normalize_or(DVec3::X) + direction(tape) * aside).normalize(),
     });
     (spin.length() > 1e-6).then_some((axes, spin))
@@ -160,7 +159,7 @@ fn across_f32() {
     found.is_within(8.0);
 }
 
-/// The product of two lengths, neither of which is much shorter than it might be.
+/// The product has two factors, neither of which is much shorter than the greatest possible length.
 #[test]
 fn bend_f32() {
     let found = Worst::of("BEND_F32", 40_000).search(|tape| {
@@ -194,8 +193,8 @@ fn clock_f32() {
     found.is_within(16.0);
 }
 
-/// What underflows of a gap just above the least takes less than what rounding takes of its time: the gap
-/// that is used up at the end of a free time, or of the duration.
+/// The underflow of a gap just above the least one takes less than the rounding of its time. The gap is that used up
+/// at the end of a free time, or of the duration.
 #[test]
 fn least_gap_f32() {
     let found = Worst::of("LEAST_GAP_F32", 40_000).search(|tape| {
@@ -212,7 +211,7 @@ fn least_gap_f32() {
             let until = if free[k] < 1.0 { free[k] } else { 1.0 };
             let [until, apart, rate, bend] = [until, apart[k], rate[k], bend[k]].map(f64::from);
             let used = (rate * until + 0.5 * bend * until * until) / apart;
-            // The time at which nothing is left is later by the factor; a gap that bends by twice of it.
+            // The time at which no gap is left is later by the factor; a curved gap by twice the factor.
             share(
                 used - 1.0 + 2.0 * f64::from(1.0 - CLOCK_F32),
                 2.0 * f64::from(1.0 - CLOCK_F32),
@@ -223,7 +222,7 @@ fn least_gap_f32() {
     found.is_within(16.0);
 }
 
-/// Lengths of vectors that are just long enough for an axis: off by no more than those of longer ones.
+/// The vectors are just long enough for an axis: their lengths are off by no more than those of longer ones.
 #[test]
 fn least_axis_f32() {
     let found = Worst::of("LEAST_AXIS_F32", 40_000).search(|tape| {

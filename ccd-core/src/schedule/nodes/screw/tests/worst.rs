@@ -1,4 +1,4 @@
-//! What the motion along a rounded screw differs from the given one, against double-double arithmetic.
+//! The deviation of the motion along a rounded screw from the given motion, by double-double arithmetic.
 
 use crate::math::vector::length;
 use crate::motion::Motion;
@@ -20,7 +20,7 @@ fn worst_advance() {
         if !path.turns() {
             return None;
         }
-        // As a screw takes them: the advance along the axis, and what is left of the velocity.
+        // The advance is along the axis, and the rest of the velocity is drift, as in a screw.
         let along = path.velocity.dot(path.axis);
         let drift = length(path.velocity - along * path.axis);
         let per_radian = along / path.rate;

@@ -1,7 +1,7 @@
-//! Heights along a fixed axis against double-double arithmetic, in the worst cases that a search finds.
+//! Heights along a fixed axis, compared with double-double arithmetic, in the worst cases that a search finds.
 //!
-//! The reference takes the axis and the body's rounded frame as they are, and everything from there on
-//! exactly: what rounds before is the rounding of distances.
+//! The reference takes the axis and the body's rounded frame as given, and computes everything from there on exactly.
+//! Earlier rounding is that of distances.
 
 use super::super::{Heights, Point};
 use crate::body::Body;
@@ -19,7 +19,7 @@ use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
 use glam::DVec3;
 
-/// A body's rotation from a frame on, exactly.
+/// The exact rotation of a body, from a frame on.
 struct Turning {
     frame: Frame,
     spin: Double3,
@@ -27,7 +27,7 @@ struct Turning {
 }
 
 impl Turning {
-    /// The vector from the centre to a point after a turn by an angle.
+    /// Returns the vector from the centre to a point after a turn by an angle.
     fn arm(&self, point: DVec3, angle: f64) -> Double3 {
         let local = Double3::from(point) - self.centre;
         let rotation = self.frame.rotation;
@@ -37,7 +37,7 @@ impl Turning {
     }
 }
 
-/// A motion about the body's origin or a centre, over a time of 1; up to 1e5 radians.
+/// Returns a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
 fn motion(tape: &mut Tape) -> Option<Motion> {
     let [velocity, spin, centre] = [-20..=6, -20..=15, -20..=8].map(|range| tape.vector(range));
     let start = Pose::new(DVec3::ZERO, rotation(tape)).ok()?;
@@ -78,7 +78,7 @@ fn worst_rate() {
     found.is_within(10.0);
 }
 
-/// A bound of distances by a ball about many points.
+/// Compares a bound of distances by a ball with many points.
 #[test]
 fn worst_farthest() {
     let found = Worst::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
@@ -91,8 +91,8 @@ fn worst_farthest() {
     found.is_within(16.0);
 }
 
-/// Returns the shares of [`TURNED_SUPPORT`] by which the lowest of many points, and the one that sinks
-/// fastest, are missed: points that are equally low up to rounding, far from each other.
+/// Returns the shares of [`TURNED_SUPPORT`] by which the lowest of many points, and the one with the least rate, are
+/// missed. The points are equally low up to rounding, and far from each other.
 fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.fraction());
     let ball = Body::ball(0.1).ok()?;
@@ -113,7 +113,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let (middle, wide) = (DVec3::from(tape.vector(-20..=4)), tape.size(-10..=4));
     let fixed = tape.pick(4);
     let points = (0..COUNT).map(|k| {
-        // A few points are drawn, the others are between them.
+        // A few points are drawn, and the others are between them.
         let [x, y] = if k < 4 {
             [tape.any(-3..=0), tape.any(-3..=0)]
         } else {
@@ -161,7 +161,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     Some([share(height, allowed), share(rate, path.rate * allowed)])
 }
 
-/// The points of a piece that has many: more than are scanned.
+/// The number of points of a piece with many points: more than are scanned.
 const COUNT: usize = 36;
 
 #[test]

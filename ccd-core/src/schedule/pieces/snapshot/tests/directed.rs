@@ -1,10 +1,10 @@
-//! Times by a bound of each body's advance, against the bounds of both bodies, added up.
+//! Free times by a bound of each body's advance, compared with the sum of the bounds of both bodies.
 
 use super::super::*;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, RngExt, rng, scene};
 
-/// The rate at which two pieces approach along a normal from A to B, by a bound.
+/// Returns the rate at which two pieces approach along a normal from A to B, by a bound.
 fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: Bound, reaches: [f64; 2]) -> f64 {
     let Problem { a, b, .. } = snapshot.problem;
     let sides = [
@@ -31,7 +31,7 @@ fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: Bound, reaches: [f64; 2])
     sum
 }
 
-/// The fastest that the pieces' points can be, added up: what the rates' rounding is a share of.
+/// Returns the greatest speed of the pieces' points, added up: the rounding of rates is a share of it.
 fn speed(problem: &Problem<'_>, reaches: [f64; 2]) -> f64 {
     let sides = [&problem.a, &problem.b];
     let speeds = sides.iter().zip(reaches).map(|(side, reach)| {

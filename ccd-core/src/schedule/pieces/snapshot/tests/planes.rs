@@ -1,4 +1,4 @@
-//! The planes that are tried, and what is counted.
+//! The planes that are tried, and the work that is counted.
 
 use super::super::*;
 use crate::body::Body;
@@ -14,7 +14,7 @@ use crate::tests::scene::{
 };
 use glam::DQuat;
 
-/// An oracle that tells its steps.
+/// An oracle that counts its steps.
 struct Telling {
     steps: u64,
 }
@@ -66,7 +66,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
 }
 
-/// The time of a plane; infinite if it keeps the pieces apart for good.
+/// Returns the time of a plane; infinite if the plane keeps the pieces apart for good.
 fn time(free: Option<f64>) -> f64 {
     free.unwrap_or(f64::INFINITY)
 }
@@ -100,7 +100,7 @@ fn the_plane_of_the_longest_time_counts() {
             |plane: &&Plane| time(snapshot.free_attached(&members, plane, f64::INFINITY));
         let fixed = planes.iter().map(along).fold(0.0, greater);
         let all = planes.iter().map(attached).fold(fixed, greater);
-        // A plane that turns is tried only where a body's turning uses up the slack.
+        // A plane that turns is tried only if a body's turning uses up the slack.
         let free = snapshot.free_time(&checked, kept);
         assert!(
             (fixed..=all).contains(&time(free)),
@@ -142,7 +142,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
     assert!((100..500).contains(&planes), "{planes}");
 }
 
-/// The allowance is a share of all speeds, not of the rate of approach, of which little may be left.
+/// The allowance is a share of all speeds, not of the rate of approach, which may be much less.
 #[test]
 fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     let [a, b] = [0.5, 0.25].map(|size| body(&[[DVec3::ZERO, size * DVec3::X, size * DVec3::Y]]));
@@ -170,7 +170,8 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     }
 }
 
-/// The least slack with which turning points pass is what they descend by, and what drift and rounding take.
+/// The least slack with which turning points pass is the sum of their descent and of the parts that drift and
+/// rounding take.
 #[test]
 fn points_that_turn_pass_with_all_the_slack_they_need() {
     let mut rng = rng(13);
@@ -229,7 +230,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
 
-/// What a drift that changes takes most of a slack, against samples.
+/// Compares the part of a slack that a changing drift takes with samples.
 #[test]
 fn a_drift_is_least_at_an_end_or_where_it_turns() {
     let mut rng = rng(14);
@@ -242,7 +243,7 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
         let samples = (0..=2_000).map(|k| way(horizon * f64::from(k) / 2e3));
         let sampled = samples.fold(0.0, lesser);
         let least = least_drift(rate, pull, horizon);
-        // Next to the least, a sample is off by half of a step at most.
+        // Next to the least value, a sample is off by half a step at most.
         let missed = pull.abs() * (horizon / 2e3) * (horizon / 2e3);
         let rounding = 1e-15 * (rate.abs() + pull.abs());
         assert!((-rounding..=missed + rounding).contains(&(sampled - least)));
@@ -251,13 +252,13 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
     assert!(within.iter().all(|&count| count > 200), "{within:?}");
 }
 
-/// The plane between the witnesses, as they are nearest on straight ways.
+/// Checks the plane between the witnesses at the time when they are nearest on straight paths.
 fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: Option<&Plane>) {
     let Problem { a, b, .. } = snapshot.problem;
     let [x, y] = [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].point(p));
     let [v, w] = [(a, x), (b, y)].map(|(side, p)| side.path.velocity_at(p, snapshot.clock));
     let way = |tau: f64| (y - x) + (w - v) * tau;
-    // The distance of two points on straight ways falls, and then rises.
+    // The distance of two points on straight paths falls, and then rises.
     let (mut low, mut high) = (0.0, 1.0 - snapshot.clock);
     for _ in 0..200 {
         let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
@@ -268,13 +269,13 @@ fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: O
         }
     }
     let nearest = way(0.5 * (low + high));
-    // At rest relative to each other, the plane across the axis of the claim is all there is.
+    // If the points are at rest relative to each other, the plane across the axis of the claim is the only one.
     let travel = way(0.0).length() + way(1.0).length();
     if v == w || nearest.length() < 1e-3 * travel {
         return;
     }
     let exact = nearest.normalize();
-    // The slack is that of the plane's own normal.
+    // The slack is that along the plane's own normal.
     let normal = plane.map_or(exact, |plane| plane.normal);
     let tilt = 1e-4 + 4.0 * snapshot.problem.rounding / nearest.length();
     assert!(normal.cross(exact).length() < tilt, "{normal} {exact}");

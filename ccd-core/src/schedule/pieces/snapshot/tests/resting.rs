@@ -1,4 +1,4 @@
-//! Triangles in one plane: which side each is kept to, and for how long.
+//! Triangles in one plane: the side on which each is kept, and the time.
 
 use super::super::*;
 use crate::body::{Body, Volume};
@@ -25,7 +25,7 @@ impl Resting {
             let points = body.pieces().get(*k).points;
             points.iter().filter(|p| p.z == 0.0).count()
         };
-        // The first of several.
+        // Of several pieces, the first is taken.
         let piece = (0..body.pieces().len()).rev().max_by_key(in_plane);
         Resting {
             piece: piece.unwrap() as u32,
@@ -33,12 +33,12 @@ impl Resting {
         }
     }
 
-    /// A solid on that side of the plane.
+    /// Creates a solid on this side of the plane.
     fn solid(side: f64) -> Self {
         Resting::new(&moved(&cube(0.5, 1), 0.5 * side * DVec3::Z), Volume::Solid)
     }
 
-    /// A cube that stands on an edge, along an axis, on that side of the plane.
+    /// Creates a cube that stands on an edge along an axis, on this side of the plane.
     fn on_edge(side: f64, along: DVec3) -> Self {
         let tilt = DQuat::from_axis_angle(along, std::f64::consts::FRAC_PI_4);
         let level = |p: DVec3| {
@@ -55,7 +55,7 @@ impl Resting {
         Resting::new(&[triangle], Volume::Surface)
     }
 
-    /// A shell whose cross section is an eight: the solid is above one half of a face, and below the other.
+    /// Creates a shell whose cross section is an eight: the solid is above one half of a face, and below the other.
     fn unclear() -> Self {
         let eight = [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, -1.0)];
         let at = |k: usize, y: f64| DVec3::new(eight[k % 4].0, y, eight[k % 4].1);
@@ -71,11 +71,11 @@ impl Resting {
     }
 }
 
-/// The time of B's triangle on A's, which keeps a gap of minus `k` roundings; B moves away along z by
-/// `speed` in the whole duration. Both are turned as a whole.
+/// Returns the free time of B's triangle on A's, which keeps a gap of minus `k` roundings. B moves away along z by
+/// `speed` in the whole duration. Both are rotated together by `whole`.
 fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
     let pose = Pose::new(DVec3::ZERO, whole).unwrap();
-    // B's own frame is not A's.
+    // B's own frame differs from A's.
     let tilted = Pose::new(DVec3::ZERO, whole * DQuat::from_rotation_z(0.3)).unwrap();
     let velocity = whole * DVec3::new(0.01, 0.02, speed);
     let sides = (
@@ -88,7 +88,7 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
     let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
     let checked = sharpened(&snapshot.pieces, &checked, problem.rounding);
     let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
-    // In units of the time in which B moves by a rounding.
+    // The unit is the time in which B moves by a rounding.
     free.map(|free| free * speed.abs() / problem.rounding)
 }
 
@@ -118,7 +118,7 @@ fn solids_keep_to_their_sides_of_the_plane() {
             let free = ask(a, b, 0.5).unwrap();
             check(free, k);
         }
-        // Faces of solids on one side slide, whichever of them sinks.
+        // Faces of solids on one side slide, whichever of them moves down.
         for (side, speed) in [(&below, 0.5), (&below, -0.5), (&above, 0.5), (&above, -0.5)] {
             assert_eq!(ask(side, side, speed), None);
         }
@@ -165,7 +165,7 @@ fn what_is_left_of_the_rounding_is_no_time() {
             };
             assert!(ask(0.5 * RESTED).all(|free| free == Some(0.0)));
             let more: Vec<_> = ask(2.0 * RESTED).collect();
-            // The plane of two sheets lets one of both directions go.
+            // The plane of two sheets lets them part in one of both directions.
             assert!(more.iter().any(|free| *free > Some(RESTED)), "{more:?}");
         }
     }
@@ -178,7 +178,7 @@ fn surfaces_in_one_plane_are_kept_apart_by_it_on_either_side() {
     for _ in 0..100 {
         let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
         for speed in [-0.5, 0.5] {
-            // The claim's axis is on one side. A plane through both lets one of them part.
+            // The claim's axis is on one side. A plane through both sheets lets one of them part.
             match time([&sheet, &sheet], whole, speed, k) {
                 None => parted += 1,
                 Some(free) => check(free, k),

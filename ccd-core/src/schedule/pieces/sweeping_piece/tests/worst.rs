@@ -1,7 +1,7 @@
 //! Heights and rates along an axis that turns with a body, in the worst cases that a search finds.
 //!
-//! The reference takes the axis, the rounded frame and the way between the bodies as they are, and
-//! everything from there on exactly: what rounds before is the rounding of distances, which counts apart.
+//! The reference takes the axis, the rounded frame and the offset between the bodies as given, and computes
+//! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
 
 use super::super::{SweepingPiece, Turned};
 use crate::math::vector::unit;
@@ -17,14 +17,14 @@ use crate::tests::worst::{Tape, Worst, share};
 use crate::tuning::ATTACHED_TIME;
 use glam::DVec3;
 
-/// A motion about the body's origin or a centre, over a time of 1; up to 1e5 radians.
+/// Returns a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
 fn motion(tape: &mut Tape) -> Option<Motion> {
     let ranges = [-20..=6, -20..=15, -20..=8, -20..=6];
     let [velocity, spin, centre, at] = ranges.map(|range| tape.vector(range));
     Motion::about(Pose::new(at, rotation(tape)).ok()?, velocity, spin, centre).ok()
 }
 
-/// A sweep after some time, and what it is exactly.
+/// A sweep after some time, as computed and exact.
 struct Setting<'s> {
     sweep: &'s SweepingPiece<'s>,
     motions: [Motion; 2],
@@ -33,7 +33,7 @@ struct Setting<'s> {
 }
 
 impl Setting<'_> {
-    /// The height of the point, and its rate.
+    /// Returns the height of the point, and its rate.
     fn found(&self, tau: f64) -> [Double; 2] {
         let Turned {
             height,
@@ -67,8 +67,7 @@ impl Setting<'_> {
         [normal.dot(way), rate]
     }
 
-    /// The largest second derivative that the motion allows, as its bound has it, and the bound as it is
-    /// without allowances.
+    /// Returns the bound of the second derivative twice: exact, and as computed without allowances.
     fn bends(&self, tau: f64) -> [Double; 2] {
         let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
         let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
@@ -89,7 +88,7 @@ impl Setting<'_> {
     }
 }
 
-/// Returns the shares that a change of height, a rate and a bend take.
+/// Returns the shares of the allowances that the errors of a change of height, a rate and a second derivative take.
 fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
     let bodies = triangles.map(|triangle| body(&[triangle]));

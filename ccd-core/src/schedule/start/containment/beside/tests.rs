@@ -1,5 +1,5 @@
-//! Points beside edges, against edges that are sampled densely. Coordinates are whole numbers, so that edges
-//! run along sides, and end on them, exactly.
+//! Points beside edges, compared with densely sampled edges. Coordinates are whole numbers, so that edges run along
+//! sides, and end on them, exactly.
 
 use super::beside_edges;
 use crate::body::Body;
@@ -8,7 +8,7 @@ use crate::rounding::BESIDE_EDGE;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use glam::{DVec2, DVec3};
 
-/// The samples of an edge.
+/// The number of samples of an edge.
 const SAMPLES: usize = 1 << 14;
 
 const REACH: f64 = 1e-9;
@@ -40,7 +40,7 @@ impl Placement {
     }
 }
 
-/// A vector of whole numbers below `most`.
+/// Returns a vector of whole numbers below `most`.
 fn whole(rng: &mut Pcg64, most: i32) -> DVec3 {
     DVec3::from([0; 3].map(|_| f64::from(rng.random_range(-most..=most))))
 }
@@ -49,7 +49,7 @@ fn in_plane(rng: &mut Pcg64) -> DVec2 {
     whole(rng, 7).truncate()
 }
 
-/// The corners of a plate, counterclockwise: a triangle, or the two large faces of a box of no height.
+/// Returns the corners of a plate, counterclockwise: a triangle, or the two large faces of a box of no height.
 fn outline(rng: &mut Pcg64) -> Vec<DVec2> {
     loop {
         let (a, b, c) = (in_plane(rng), in_plane(rng), in_plane(rng));
@@ -63,7 +63,7 @@ fn outline(rng: &mut Pcg64) -> Vec<DVec2> {
     }
 }
 
-/// The ends of any edge, or of one along a side.
+/// Returns the ends of an arbitrary edge, or of one along a side.
 fn ends(rng: &mut Pcg64, outline: &[DVec2]) -> [DVec2; 2] {
     if rng.random_bool(0.2) {
         let k = rng.random_range(0..outline.len());
@@ -83,7 +83,7 @@ fn plate(outline: &[DVec2], placement: &Placement) -> Body {
     let corners = outline.iter().map(|p| placement.place(p.extend(0.0)));
     let facets: &[&[u32]] = match outline.len() {
         3 => &[&[0, 1, 2], &[2, 1, 0]],
-        // Sides of no area come first.
+        // Sides without an area come first.
         _ => &[
             &[0, 1, 5, 4],
             &[1, 2, 6, 5],
@@ -110,7 +110,7 @@ fn polytope(points: Vec<DVec3>, facets: &[&[u32]]) -> Body {
     .unwrap()
 }
 
-/// A triangle or a tetrahedron with one edge; its other corners are not in the plane of the edge.
+/// Returns a triangle or a tetrahedron with one edge. Its other corners are not in the plane of the edge.
 fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> Body {
     let mut apex = |height: f64| in_plane(rng).extend(from.z + height);
     let (mut points, facets): (Vec<DVec3>, &[&[u32]]) = if apex(0.0).x > 0.0 {
@@ -131,7 +131,7 @@ fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> 
     )
 }
 
-/// The distance of a point from the nearest side; negative outside.
+/// Returns the distance of a point from the nearest side; negative outside.
 fn depth(outline: &[DVec2], p: DVec2) -> f64 {
     let side = |k: usize| {
         let (from, to) = (outline[k], outline[(k + 1) % outline.len()]);
@@ -142,7 +142,7 @@ fn depth(outline: &[DVec2], p: DVec2) -> f64 {
         .fold(f64::INFINITY, crate::math::order::lesser)
 }
 
-/// Returns the points that are expected, and by how much each may be off; none if samples cannot tell.
+/// Returns the expected points, and by how much each may be off; `None` if samples cannot decide.
 fn sampled(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec2>> {
     let at = |k: usize| from + (to - from) * (k as f64 / SAMPLES as f64);
     let held: Vec<usize> = (0..=SAMPLES)
@@ -178,11 +178,11 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
         let placement = Placement::new(&mut rng);
         let outline = outline(&mut rng);
         let ends = ends(&mut rng, &outline);
-        // One in ten is above the plane.
+        // One edge in ten is above the plane.
         let height = if rng.random_bool(0.1) { 1.0 } else { 0.0 };
         let edge = ends.map(|p| p.extend(height));
         let plate = plate(&outline, &placement);
-        // The other body has a place of its own.
+        // The other body has another placement.
         let elsewhere = Placement {
             shift: whole(&mut rng, 9),
             ..placement
@@ -212,7 +212,7 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
     assert!(none > 300 && one > 100 && two > 300, "{counts:?}");
 }
 
-/// The faces beyond its edges decide.
+/// For pieces in one plane, the faces beyond the edges decide.
 #[test]
 fn pieces_in_one_plane_have_no_points() {
     let [a, b] = [DVec3::ZERO, DVec3::ONE.with_z(0.0)].map(|p| {
