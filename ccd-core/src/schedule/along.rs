@@ -6,11 +6,13 @@
 
 pub(super) mod any;
 pub(super) mod closest;
+mod contacts;
+mod drive;
 pub(super) mod farthest;
 pub(super) mod first;
 pub(super) mod interval;
-mod leg;
 mod lengths;
+mod motions;
 mod stretches;
 
 #[cfg(test)]

@@ -2,19 +2,21 @@
 
 mod found;
 
-use super::leg::Leg;
+use super::drive::{Question, drive};
+use super::motions::{Motions, Span};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
+use crate::problem::Problem;
 use crate::query::Query;
 use crate::schedule::DepthFirst;
-use crate::schedule::closest_approach::ladder::Ladder;
 use crate::schedule::closest_approach::required::Required;
 use crate::schedule::closest_approach::{Beyond, meets_later};
 use crate::tuning::{COARSE, STRAY_SHARE};
 use found::{Found, Seen};
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
@@ -38,85 +40,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let mut stretches = Stretches::new(query);
-        let ladder = Ladder::new(0.0, query.terms.budget);
-        let mut found = Found {
-            lower: f64::INFINITY,
-            best: None,
-            ladder: if query.terms.deadline.is_some() || query.terms.stop.is_some() {
-                ladder.timed()
-            } else {
-                ladder
-            },
+        let mut closest = Closest {
+            schedule: self,
+            query,
+            found: Found::new(query),
         };
-        while let Some(span) = {
-            self.climb_along(&mut found, &mut stretches, oracle)?;
-            stretches.next()
-        } {
-            let (leg, terms) = match stretches.leg(span, true)? {
-                Ok(leg) => leg,
-                Err(reason) => return Ok(found.unresolved(query, &stretches, span, reason)),
-            };
-            if let Some(time) = stretches.looks_too_long(&leg)
-                && let Some(doubt) = self.doubt(oracle, time, &mut found, &mut stretches)?
-                && doubt.rises_into(&leg, time)
-            {
-                let length = doubt.length(&leg);
-                if leg.is_worth_a_cut(length) && stretches.cut_about(leg.span, time, 2.0 * length) {
-                    continue;
-                }
-            }
-            let problem = leg.problem(query, &terms)?;
-            // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added
-            // to the upper bound.
-            let beyond = found.upper() + leg.stray + 2.0 * problem.tolerance();
-            let answer = self.approach_below(&problem, beyond, oracle);
-            stretches.add(&answer.stats);
-            let seen = match answer.found {
-                Err(Beyond { lower }) => Seen {
-                    lower,
-                    upper: lower,
-                    // Bodies whose motions are farther apart than the least distance found so far are so despite
-                    // their deviations.
-                    blur: 0.0,
-                    time: 0.0,
-                    approach: 0.0,
-                },
-                Ok(Outcome::Overlapping { .. }) if stretches.look_at_start(&leg)? => {
-                    continue;
-                }
-                Ok(outcome @ Outcome::Overlapping { .. }) if stretches.begins_at_start(&leg)? => {
-                    return Ok(found.answer(query, &stretches, outcome));
-                }
-                Ok(outcome) => match found.see(&leg, &outcome) {
-                    Ok(seen) => seen,
-                    Err(reason) => {
-                        return Ok(found.unresolved(query, &stretches, leg.span, reason));
-                    }
-                },
-            };
-            let lower = greater(0.0, leg.at_least(seen.lower));
-            let (upper, tolerance) = (found.upper(), query.terms.tolerance);
-            let is_loose = seen.is_loose(tolerance);
-            if lower >= upper - tolerance || is_loose || stretches.is_fine(&leg)? {
-                found.lower = lesser(found.lower, lower);
-                stretches.prove(&leg);
-            } else {
-                if !self.cut_where_nearest(oracle, &leg, &seen, &mut found, &mut stretches)? {
-                    return Ok(found.unresolved(query, &stretches, leg.span, Limit::Stalled));
-                }
-            }
-            if found.upper() <= tolerance {
-                found.lower = 0.0;
-                break;
-            }
-        }
-        let nearest = found.nearest(query, &stretches);
-        if meets_later(&nearest.outcome, nearest.tolerance) {
-            self.or_overlap_along(query, oracle, nearest, &mut stretches)
-        } else {
-            Ok(nearest)
-        }
+        drive(&mut closest, query, oracle)
     }
 
     /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
@@ -142,23 +71,31 @@ impl<O: DistanceOracle> DepthFirst<O> {
             self.any_contact_along(&query, oracle)
         })
     }
+}
 
+struct Closest<'s, 'q, 'a, O: DistanceOracle> {
+    schedule: &'s mut DepthFirst<O>,
+    query: &'q Query<'a>,
+    found: Found,
+}
+
+impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
     /// Proves a lower bound of the whole query's least distance, as a part of the least distance seen, if one is due.
-    fn climb_along(
+    fn prepare(
         &mut self,
-        found: &mut Found,
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
     ) -> Result<(), InputError> {
+        let found = &mut self.found;
         let work = stretches.stats.work();
         let (Some(rung), Ok(left)) = (found.ladder.due(work, found.upper()), stretches.terms())
         else {
             return Ok(());
         };
-        let mut query = stretches.query().asking(rung);
+        let mut query = self.query.asking(rung);
         query.terms.budget = rung.budget;
         query.terms.deadline = left.deadline;
-        let answer = self.any_contact_along(&query, oracle)?;
+        let answer = self.schedule.any_contact_along(&query, oracle)?;
         stretches.add_for_no_part(&answer.stats);
         let proven = match answer.outcome {
             Outcome::Free { proven_gap } => Some(proven_gap),
@@ -172,18 +109,102 @@ impl<O: DistanceOracle> DepthFirst<O> {
         Ok(())
     }
 
-    /// Returns the answer for bodies that meet, unless they overlap at the start as well.
-    fn or_overlap_along(
+    fn cut_at_once(
         &mut self,
-        query: &Query<'_>,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        oracle: &mut O,
+    ) -> Result<bool, InputError> {
+        let Some(time) = stretches.looks_too_long(motions) else {
+            return Ok(false);
+        };
+        let doubt = self.doubt(stretches, oracle, time)?;
+        let Some(doubt) = doubt.filter(|doubt| doubt.rises_into(motions, time)) else {
+            return Ok(false);
+        };
+        let length = doubt.length(motions);
+        Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
+    }
+
+    fn examine(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+    ) -> Result<ControlFlow<Answer>, InputError> {
+        let (found, query) = (&mut self.found, self.query);
+        // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
+        // the upper bound.
+        let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance();
+        let answer = self.schedule.approach_below(problem, beyond, oracle);
+        stretches.add(&answer.stats);
+        let seen = match answer.found {
+            Err(Beyond { lower }) => Seen::beyond(lower),
+            Ok(Outcome::Overlapping { .. }) if stretches.look_at_start(motions)? => {
+                return Ok(ControlFlow::Continue(()));
+            }
+            Ok(outcome @ Outcome::Overlapping { .. }) if stretches.begins_at_start(motions)? => {
+                return Ok(ControlFlow::Break(found.answer(query, stretches, outcome)));
+            }
+            Ok(outcome) => match found.see(motions, &outcome) {
+                Ok(seen) => seen,
+                Err(limit) => {
+                    let stopped = found.unresolved(query, stretches, motions.span, limit);
+                    return Ok(ControlFlow::Break(stopped));
+                }
+            },
+        };
+        let lower = greater(0.0, motions.at_least(seen.lower));
+        let tolerance = query.terms.tolerance;
+        let is_near_enough = lower >= found.upper() - tolerance || seen.is_loose(tolerance);
+        if is_near_enough || stretches.is_fine(motions)? {
+            found.lower = lesser(found.lower, lower);
+            stretches.prove(motions);
+        } else if !self.cut_where_nearest(stretches, oracle, motions, &seen)? {
+            let stalled = self
+                .found
+                .unresolved(query, stretches, motions.span, Limit::Stalled);
+            return Ok(ControlFlow::Break(stalled));
+        }
+        if self.found.upper() > tolerance {
+            return Ok(ControlFlow::Continue(()));
+        }
+        self.found.lower = 0.0;
+        self.done(stretches, oracle).map(ControlFlow::Break)
+    }
+
+    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+        self.found.unresolved(self.query, stretches, span, limit)
+    }
+
+    fn done(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        let nearest = self.found.nearest(self.query, stretches);
+        if meets_later(&nearest.outcome, nearest.tolerance) {
+            self.or_overlap(stretches, oracle, nearest)
+        } else {
+            Ok(nearest)
+        }
+    }
+}
+
+impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
+    /// Returns the answer for bodies that meet, unless they overlap at the start as well.
+    fn or_overlap(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
         nearest: Answer,
-        stretches: &mut Stretches<'_, '_>,
     ) -> Result<Answer, InputError> {
         let Ok((pose, terms)) = stretches.pose(0.0)? else {
             return Ok(nearest);
         };
-        let start = self.approach_of_bodies(&pose.problem(query, &terms)?, oracle);
+        let problem = pose.problem(self.query, &terms)?;
+        let start = self.schedule.approach_of_bodies(&problem, oracle);
         stretches.add(&start.stats);
         Ok(Answer {
             outcome: match start.outcome {
@@ -198,47 +219,49 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// Cuts a stretch at the time at which its motions are nearest. Returns false if it cannot be cut.
     fn cut_where_nearest(
         &mut self,
-        oracle: &mut O,
-        leg: &Leg,
-        seen: &Seen,
-        found: &mut Found,
         stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+        motions: &Motions,
+        seen: &Seen,
     ) -> Result<bool, InputError> {
-        let time = leg.time(seen.time);
+        let time = motions.time(seen.time);
         let Query {
             terms, duration, ..
-        } = stretches.query();
+        } = self.query;
         // Halves mostly suffice, and cost less than measuring the distance.
-        if leg.span.length() > COARSE * duration {
-            return Ok(stretches.cut_about(leg.span, time, f64::INFINITY));
+        if motions.span.length() > COARSE * duration {
+            return Ok(stretches.cut_about(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
-        if let Some(end) = seen.falls_beyond(leg)
+        if let Some(end) = seen.falls_beyond(motions)
             && let Some(beyond) = stretches.take_beside(end)
         {
-            let is_cut = stretches.cut_about(leg.span, time, f64::INFINITY);
+            let is_cut = stretches.cut_about(motions.span, time, f64::INFINITY);
             stretches.push(beyond);
             return Ok(is_cut);
         }
-        let length = match self.doubt(oracle, time, found, stretches)? {
-            Some(doubt) => greater(doubt.length(leg), leg.length_for_rate(doubt.rate.abs())),
-            None => leg.length_for(STRAY_SHARE * terms.tolerance),
+        let length = match self.doubt(stretches, oracle, time)? {
+            Some(doubt) => greater(
+                doubt.length(motions),
+                motions.length_for_rate(doubt.rate.abs()),
+            ),
+            None => motions.length_for(STRAY_SHARE * terms.tolerance),
         };
-        Ok(stretches.cut_about(leg.span, time, length))
+        Ok(stretches.cut_about(motions.span, time, length))
     }
 
     /// Measures the bodies at a time. Returns `None` if they overlap, or a limit is reached.
     fn doubt(
         &mut self,
+        stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
         time: f64,
-        found: &mut Found,
-        stretches: &mut Stretches<'_, '_>,
     ) -> Result<Option<Doubt>, InputError> {
         let Ok((pose, terms)) = stretches.pose(time)? else {
             return Ok(None);
         };
-        let answer = self.approach_of_bodies(&pose.problem(stretches.query(), &terms)?, oracle);
+        let problem = pose.problem(self.query, &terms)?;
+        let answer = self.schedule.approach_of_bodies(&problem, oracle);
         stretches.stats.add(&answer.stats);
         let Outcome::Measured {
             at: Some((_, contact)),
@@ -247,6 +270,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         else {
             return Ok(None);
         };
+        let found = &mut self.found;
         found.take(time, pose.contact(contact));
         let rounding = 2.0 * pose.stray;
         let least = greater(terms.tolerance, rounding);
@@ -266,13 +290,13 @@ struct Doubt {
 }
 
 impl Doubt {
-    fn length(&self, leg: &Leg) -> f64 {
-        leg.length_for(STRAY_SHARE * self.stray)
+    fn length(&self, motions: &Motions) -> f64 {
+        motions.length_for(STRAY_SHARE * self.stray)
     }
 
-    /// Returns true if the distance grows from an end of a leg on.
-    fn rises_into(&self, leg: &Leg, end: f64) -> bool {
-        if end > leg.span.from {
+    /// Returns true if the distance grows from an end of the stretch on.
+    fn rises_into(&self, motions: &Motions, end: f64) -> bool {
+        if end > motions.span.from {
             self.rate <= 0.0
         } else {
             self.rate >= 0.0

@@ -5,7 +5,7 @@
 //! velocities, up to half their acceleration times the square of the time. Two points that move straight are farthest
 //! apart at an end.
 
-use super::leg::{Leg, Span};
+use super::motions::{Motions, Span};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
@@ -126,7 +126,7 @@ struct Seen {
 
 impl Seen {
     /// Returns the nearest points and their bounds from a contact in a pose.
-    fn of(pose: &Leg, contact: Contact) -> Self {
+    fn of(pose: &Motions, contact: Contact) -> Self {
         let separation = contact.separation;
         let points = [separation.witness_a, separation.witness_b];
         Seen {
@@ -194,8 +194,8 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             Ok(seen) => seen,
             Err(reason) => return Ok(Err(reason)),
         };
-        let leg = Leg::new(self.stretches.query(), span)?;
-        let moved = leg.drift(seen.points, 0.5 * span.length());
+        let motions = Motions::new(self.stretches.query(), span)?;
+        let moved = motions.drift(seen.points, 0.5 * span.length());
         // Written so that NaN is no bound.
         let upper = match seen.upper + moved {
             upper if upper >= 0.0 => lesser(upper, above),
@@ -276,12 +276,12 @@ fn measured<O: DistanceOracle>(
     }
 }
 
-impl Leg {
+impl Motions {
     /// Returns a bound of the growth of the distance between two points, one of A and one of B, within `time` before
-    /// or after the middle of the leg. The points are given at the middle of the leg.
+    /// or after the middle of the stretch. The points are given at that middle.
     fn drift(&self, [on_a, on_b]: [DVec3; 2], time: f64) -> f64 {
         let middle = 0.5 * self.span.length();
-        let [a, b] = &self.motions;
+        let [a, b] = &self.stretches;
         let way = on_b - on_a;
         let velocity = b.velocity_at(on_b, middle) - a.velocity_at(on_a, middle);
         let ends = greater(length(way + time * velocity), length(way - time * velocity));

@@ -1,7 +1,7 @@
 //! The length of a stretch to try next: long enough for progress, and so short that the deviations are less than the
 //! bodies' distance.
 
-use super::leg::Leg;
+use super::motions::Motions;
 use super::stretches::Stretches;
 use crate::answer::Contact;
 use crate::distance::oracle::DistanceOracle;
@@ -16,45 +16,45 @@ use crate::tuning::{COARSE, STRAY_SHARE};
 /// one. Returns false if the stretch is worth a search.
 pub(super) fn cut_at_once<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
-    leg: &Leg,
+    motions: &Motions,
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<bool, InputError> {
-    let Some(time) = stretches.looks_too_long(leg) else {
+    let Some(time) = stretches.looks_too_long(motions) else {
         return Ok(false);
     };
     let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
         return Ok(false);
     };
     // Rates have the opposite sign backwards in time.
-    let approach = if time > leg.span.from {
+    let approach = if time > motions.span.from {
         -approach
     } else {
         approach
     };
-    let length = worthwhile(stretches.query(), leg, (contact, approach));
-    Ok(leg.is_worth_a_cut(length) && stretches.cut_about(leg.span, time, 2.0 * length))
+    let length = worthwhile(stretches.query(), motions, (contact, approach));
+    Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
 }
 
-/// Returns the length of a stretch worth a search after a contact of the motions at a time of a leg.
+/// Returns the length of a stretch worth a search after a contact of the motions at a time.
 pub(super) fn length<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
-    leg: &Leg,
+    motions: &Motions,
     (time, seen): (f64, Option<Contact>),
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<f64, InputError> {
     let query = stretches.query();
     let seen = match time > 0.0 {
-        true => seen.map(|contact| (contact, leg.approach(time, &contact))),
+        true => seen.map(|contact| (contact, motions.approach(time, &contact))),
         // Halves mostly suffice, and cost less.
-        false if leg.span.length() > COARSE * query.duration => return Ok(f64::INFINITY),
+        false if motions.span.length() > COARSE * query.duration => return Ok(f64::INFINITY),
         // The motions begin beside the bodies. They do not show the distance of the bodies, which is measured.
-        false => stretches.measure(leg.span.from, oracle, scratch)?,
+        false => stretches.measure(motions.span.from, oracle, scratch)?,
     };
     Ok(match seen {
-        Some(seen) => worthwhile(query, leg, seen),
-        None => leg.length_for(STRAY_SHARE * query.terms.tolerance),
+        Some(seen) => worthwhile(query, motions, seen),
+        None => motions.length_for(STRAY_SHARE * query.terms.tolerance),
     })
 }
 
@@ -64,7 +64,7 @@ pub(super) fn length<O: DistanceOracle>(
 ///
 /// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
 /// and pass each other closely, they are nearest after about `2 d/r`.
-fn worthwhile(query: &Query<'_>, leg: &Leg, (contact, approach): (Contact, f64)) -> f64 {
+fn worthwhile(query: &Query<'_>, motions: &Motions, (contact, approach): (Contact, f64)) -> f64 {
     let Terms {
         margin, tolerance, ..
     } = query.terms;
@@ -72,8 +72,8 @@ fn worthwhile(query: &Query<'_>, leg: &Leg, (contact, approach): (Contact, f64))
     let nearest = 2.0 * gap / approach;
     // Written so that NaN is no time.
     if nearest > 0.0 {
-        lesser(leg.length_for(STRAY_SHARE * gap), nearest)
+        lesser(motions.length_for(STRAY_SHARE * gap), nearest)
     } else {
-        leg.length_for((1.0 - STRAY_SHARE) * gap)
+        motions.length_for((1.0 - STRAY_SHARE) * gap)
     }
 }

@@ -1,6 +1,6 @@
 //! The stretches of time that are still to be examined, and the work left for them.
 
-use super::leg::{Leg, Span};
+use super::motions::{Motions, Span};
 use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
@@ -102,70 +102,75 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Returns the motions in a stretch with the settings, or the limit that was reached. The stretch is cut until
     /// the deviations are lengths that queries accept.
-    pub(super) fn leg(
+    pub(super) fn motions(
         &mut self,
         mut span: Span,
         accelerations: bool,
-    ) -> Result<Result<(Leg, Terms<'a>), Limit>, InputError> {
+    ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
         loop {
             self.turn_to(span);
             let terms = match self.terms() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
             };
-            let leg = Leg::new(self.query, span)?;
-            let leg = if accelerations { leg } else { leg.straight() };
-            if leg.is_in_range(self.query) || !self.cut(span, 0.5 * span.length()) {
-                return Ok(Ok((leg, terms)));
+            let motions = Motions::new(self.query, span)?;
+            let motions = if accelerations {
+                motions
+            } else {
+                motions.straight()
+            };
+            if motions.is_in_range(self.query) || !self.cut(span, 0.5 * span.length()) {
+                return Ok(Ok((motions, terms)));
             }
             self.stats.iterations += 1;
             span = self.waiting.pop().unwrap_or(span);
         }
     }
 
-    /// Returns true if a contact of a leg's motions is accepted as one of the bodies: the tolerance is met, or
+    /// Returns true if a contact of the motions in a stretch is accepted as one of the bodies: the tolerance is met, or
     /// cutting does not improve it.
-    pub(super) fn is_fine(&self, leg: &Leg) -> Result<bool, InputError> {
-        Ok(leg.stray <= STRAY_SHARE * self.query.terms.tolerance || self.is_shortest(leg)?)
+    pub(super) fn is_fine(&self, motions: &Motions) -> Result<bool, InputError> {
+        Ok(motions.stray <= STRAY_SHARE * self.query.terms.tolerance
+            || self.is_shortest(motions)?)
     }
 
     /// Returns true if the deviations are hardly larger than in a stretch of no length: only rounding remains.
-    fn is_shortest(&self, leg: &Leg) -> Result<bool, InputError> {
-        let least = Leg::new(self.query, leg.span.start())?;
-        Ok(leg.stray <= 2.0 * least.stray)
+    fn is_shortest(&self, motions: &Motions) -> Result<bool, InputError> {
+        let least = Motions::new(self.query, motions.span.start())?;
+        Ok(motions.stray <= 2.0 * least.stray)
     }
 
-    /// Returns true if the poses at the start of a leg's motions are those of the bodies at the start, up to
+    /// Returns true if the poses at the start of a stretch are those of the bodies at the start, up to
     /// rounding.
-    pub(super) fn begins_at_start(&self, leg: &Leg) -> Result<bool, InputError> {
-        Ok(leg.span.from == 0.0 && (leg.stray == 0.0 || self.is_shortest(leg)?))
+    pub(super) fn begins_at_start(&self, motions: &Motions) -> Result<bool, InputError> {
+        Ok(motions.span.from == 0.0 && (motions.stray == 0.0 || self.is_shortest(motions)?))
     }
 
-    /// Schedules the pose at the start, and then the leg again, if the leg's motions begin beside that pose: an
+    /// Schedules the pose at the start, and then the stretch again, if the motions begin beside that pose: an
     /// overlap of the motions at the start need not be one of the bodies. Returns false if the start was examined
-    /// already, and for legs that begin later.
-    pub(super) fn look_at_start(&mut self, leg: &Leg) -> Result<bool, InputError> {
-        if leg.span.from > 0.0 || self.looked_at_start || self.begins_at_start(leg)? {
+    /// already, and for stretches that begin later.
+    pub(super) fn look_at_start(&mut self, motions: &Motions) -> Result<bool, InputError> {
+        if motions.span.from > 0.0 || self.looked_at_start || self.begins_at_start(motions)? {
             return Ok(false);
         }
         self.looked_at_start = true;
-        self.waiting.extend([leg.span, leg.span.start()]);
+        self.waiting.extend([motions.span, motions.span.start()]);
         Ok(true)
     }
 
     /// Records that the bodies are apart in a stretch.
-    pub(super) fn prove(&mut self, leg: &Leg) {
-        self.proven = Some((leg.span, leg.stray));
+    pub(super) fn prove(&mut self, motions: &Motions) {
+        self.proven = Some((motions.span, motions.stray));
     }
 
     /// Returns the time at which a stretch begins or ends beside the one that was proven last, if its deviations are
     /// much larger: they are probably too large.
-    pub(super) fn looks_too_long(&mut self, leg: &Leg) -> Option<f64> {
+    pub(super) fn looks_too_long(&mut self, motions: &Motions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
-        let Span { from, to, .. } = leg.span;
+        let Span { from, to, .. } = motions.span;
         let beside = [(from, proven.to), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
-        (leg.stray > MUCH_LONGER * stray).then_some(time)
+        (motions.stray > MUCH_LONGER * stray).then_some(time)
     }
 
     /// Charges the following work to the part of the query that contains a stretch.
@@ -174,7 +179,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the pose at a time and the settings, or the limit that was reached.
-    pub(super) fn pose(&self, time: f64) -> Result<Result<(Leg, Terms<'a>), Limit>, InputError> {
+    pub(super) fn pose(
+        &self,
+        time: f64,
+    ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
         let terms = match self.terms() {
             Ok(terms) => terms,
             Err(reason) => return Ok(Err(reason)),
@@ -184,7 +192,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             to: time,
             part: self.budgets.part,
         };
-        Ok(Ok((Leg::new(self.query, span)?, terms)))
+        Ok(Ok((Motions::new(self.query, span)?, terms)))
     }
 
     /// Measures the bodies at a time, up to rounding. Returns the contact and the rate at which the bodies approach;
@@ -195,16 +203,16 @@ impl<'j, 'a> Stretches<'j, 'a> {
         oracle: &mut O,
         scratch: &mut Scratch,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Ok((leg, terms)) = self.pose(time)? else {
+        let Ok((motions, terms)) = self.pose(time)? else {
             return Ok(None);
         };
-        let problem = leg.problem(self.query, &terms)?.measuring();
+        let problem = motions.problem(self.query, &terms)?.measuring();
         let answer = metered(&problem, oracle, scratch, |oracle, meter| {
             (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
         });
         self.stats.add(&answer.stats);
         Ok(match answer.found {
-            Some(Outcome::Touching { contact }) => Some((contact, leg.approach(0.0, &contact))),
+            Some(Outcome::Touching { contact }) => Some((contact, motions.approach(0.0, &contact))),
             _ => None,
         })
     }

@@ -4,7 +4,7 @@ use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
-use crate::schedule::along::leg::{Leg, Span};
+use crate::schedule::along::motions::{Motions, Span};
 use crate::schedule::along::stretches::Stretches;
 use crate::schedule::closest_approach::ladder::{Ladder, Rung};
 use crate::schedule::out_of_reach::least_distance;
@@ -56,23 +56,35 @@ pub(super) struct Seen {
 }
 
 impl Seen {
+    /// Returns the result if the motions are farther apart than the least distance found so far. The bodies are so
+    /// despite their deviations.
+    pub(super) fn beyond(lower: f64) -> Self {
+        Seen {
+            lower,
+            upper: lower,
+            blur: 0.0,
+            time: 0.0,
+            approach: 0.0,
+        }
+    }
+
     /// Returns true if f64 does not certify the tolerance for the motions. Cutting the stretch does not help then.
     pub(super) fn is_loose(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
         width > tolerance && self.blur <= width
     }
 
-    /// Returns the end of the leg beyond which the motions get nearer by more than the deviations.
-    pub(super) fn falls_beyond(&self, leg: &Leg) -> Option<f64> {
-        let Span { from, to, .. } = leg.span;
+    /// Returns the end of the stretch beyond which the motions get nearer by more than the deviations.
+    pub(super) fn falls_beyond(&self, motions: &Motions) -> Option<f64> {
+        let Span { from, to, .. } = motions.span;
         let (near, falls) = (
-            LEAST_CUT * leg.span.length(),
-            self.approach * leg.span.length(),
+            LEAST_CUT * motions.span.length(),
+            self.approach * motions.span.length(),
         );
-        let time = leg.time(self.time);
-        if time - from <= near && -falls > leg.stray {
+        let time = motions.time(self.time);
+        if time - from <= near && -falls > motions.stray {
             Some(from)
-        } else if to - time <= near && falls > leg.stray {
+        } else if to - time <= near && falls > motions.stray {
             Some(to)
         } else {
             None
@@ -90,20 +102,30 @@ pub(super) struct Found {
 }
 
 impl Found {
+    pub(super) fn new(query: &Query<'_>) -> Self {
+        let ladder = Ladder::new(0.0, query.terms.budget);
+        let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
+        Found {
+            lower: f64::INFINITY,
+            best: None,
+            ladder: if is_timed { ladder.timed() } else { ladder },
+        }
+    }
+
     pub(super) fn upper(&self) -> f64 {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
         self.best.map_or(f64::INFINITY, upper)
     }
 
-    /// Records the result of the motions of a leg.
+    /// Records the result of the motions in a stretch.
     ///
     /// # Errors
     /// The limit that was reached.
-    pub(super) fn see(&mut self, leg: &Leg, outcome: &Outcome) -> Result<Seen, Limit> {
+    pub(super) fn see(&mut self, motions: &Motions, outcome: &Outcome) -> Result<Seen, Limit> {
         let mut seen = Seen {
             lower: 0.0,
             upper: 0.0,
-            blur: leg.stray,
+            blur: motions.stray,
             time: 0.0,
             approach: 0.0,
         };
@@ -113,20 +135,20 @@ impl Found {
                 at: Some((time, contact)),
                 ..
             } => {
-                self.take(leg.time(time), leg.contact(contact));
+                self.take(motions.time(time), motions.contact(contact));
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
                 seen.time = time;
-                seen.approach = leg.approach(time, &contact);
+                seen.approach = motions.approach(time, &contact);
             }
             Outcome::Overlapping { overlap, .. } => {
                 if let Overlap::Pieces(contact) = overlap {
-                    self.take(leg.span.from, leg.contact(contact));
+                    self.take(motions.span.from, motions.contact(contact));
                 }
             }
             Outcome::Unresolved(known) => {
                 if let Some((time, contact)) = known.at {
-                    self.take(leg.time(time), leg.contact(contact));
+                    self.take(motions.time(time), motions.contact(contact));
                 }
                 return Err(known.limit);
             }
@@ -161,9 +183,9 @@ impl Found {
         reason: Limit,
     ) -> Answer {
         let apart = |&span: &Span| {
-            let leg = Leg::new(query, span)?;
-            let problem = leg.problem(query, &query.terms)?;
-            Ok(leg.at_least(least_distance(&problem)))
+            let motions = Motions::new(query, span)?;
+            let problem = motions.problem(query, &query.terms)?;
+            Ok(motions.at_least(least_distance(&problem)))
         };
         let spans = stretches.waiting().iter().chain([&span]);
         // Written so that NaN is no bound.

@@ -11,7 +11,7 @@ use crate::query::Query;
 use crate::settings::Settings;
 
 #[test]
-fn budgets_end_a_journey_with_a_time_that_is_safe() {
+fn budgets_end_a_search_with_a_time_that_is_safe() {
     let mut rng = rng(6);
     let mut ended = 0;
     for number in 0..60 {

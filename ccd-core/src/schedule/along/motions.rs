@@ -44,22 +44,22 @@ impl Span {
 
 /// The motions of both bodies in a stretch of time, and the bodies' deviation from them.
 #[derive(Debug)]
-pub(super) struct Leg {
-    pub(super) motions: [Stretch; 2],
+pub(super) struct Motions {
+    pub(super) stretches: [Stretch; 2],
     /// The sum of both deviations.
     pub(super) stray: f64,
     pub(super) span: Span,
 }
 
-impl Leg {
+impl Motions {
     pub(super) fn new(query: &Query<'_>, span: Span) -> Result<Self, InputError> {
         let bodies = [&query.a, &query.b];
         let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.to));
-        let motions = [a?, b?];
-        let stray = |k: usize| motions[k].stray.at(reach(bodies[k], &motions[k]));
-        Ok(Leg {
+        let stretches = [a?, b?];
+        let stray = |k: usize| stretches[k].stray.at(reach(bodies[k], &stretches[k]));
+        Ok(Motions {
             stray: sum(stray(0), stray(1)),
-            motions,
+            stretches,
             span,
         })
     }
@@ -67,7 +67,7 @@ impl Leg {
     /// Returns the motions without accelerations. The displacement by these counts as a deviation.
     pub(super) fn straight(mut self) -> Self {
         let time = self.span.length();
-        for stretch in &mut self.motions {
+        for stretch in &mut self.stretches {
             let far = 0.5 * (time * (time * length(stretch.acceleration)));
             self.stray = sum(self.stray, far * (1.0 + STRETCH_F64));
             stretch.acceleration = DVec3::ZERO;
@@ -79,7 +79,7 @@ impl Leg {
     pub(super) fn is_in_range(&self, query: &Query<'_>) -> bool {
         let time = self.span.length();
         let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
-        let [a, b] = &self.motions;
+        let [a, b] = &self.stretches;
         let most = MAX_COORDINATE - query.terms.margin;
         // Written so that NaN is too much.
         self.stray >= 0.0 && self.stray <= most && far(a) <= most && far(b) <= most
@@ -99,7 +99,7 @@ impl Leg {
     /// Returns the power of the time with which deviations grow.
     fn order(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
-        if self.motions.iter().any(accelerates) {
+        if self.stretches.iter().any(accelerates) {
             3.0
         } else {
             2.0
@@ -119,7 +119,7 @@ impl Leg {
             normal,
             ..
         } = contact.separation;
-        let [a, b] = &self.motions;
+        let [a, b] = &self.stretches;
         normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
     }
 
@@ -139,7 +139,7 @@ impl Leg {
             start: StartPolicy::Report,
             ..*terms
         };
-        let [a, b] = &self.motions;
+        let [a, b] = &self.stretches;
         Problem::accelerated(
             [(query.a.body, a.motion), (query.b.body, b.motion)],
             [a.acceleration, b.acceleration],

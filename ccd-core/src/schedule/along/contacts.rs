@@ -1,0 +1,122 @@
+//! The facts that a search for contacts proves, stretch by stretch.
+
+use super::motions::Motions;
+use super::stretches::Stretches;
+use crate::answer::{Answer, Contact, Limit, Outcome};
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::query::Query;
+
+/// The facts proven for the stretches so far.
+pub(super) struct SoFar {
+    gap: f64,
+    margin: f64,
+    tolerance: f64,
+}
+
+/// The result of the search of a stretch.
+pub(super) enum Seen {
+    /// The bodies are apart in the stretch, or the stretch waits until the pose at the start is examined.
+    Done,
+    /// A limit was reached. The bodies are apart until the given time of the query.
+    Stopped(f64, Limit),
+    /// The motions are in contact at the given time of the stretch.
+    Near(f64, Option<Contact>),
+}
+
+impl SoFar {
+    pub(super) fn new(query: &Query<'_>) -> Self {
+        SoFar {
+            gap: f64::INFINITY,
+            margin: query.terms.margin,
+            tolerance: query.terms.tolerance,
+        }
+    }
+
+    /// Records that the motions of a stretch keep a gap.
+    pub(super) fn keep(&mut self, motions: &Motions, proven_gap: f64) {
+        self.gap = lesser(self.gap, motions.at_least(proven_gap));
+    }
+
+    /// Records the result of the motions of a stretch.
+    pub(super) fn see(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        answer: &Answer,
+    ) -> Result<Seen, InputError> {
+        stretches.add(&answer.stats);
+        Ok(match answer.outcome {
+            Outcome::Free { proven_gap } => {
+                self.keep(motions, proven_gap);
+                stretches.prove(motions);
+                Seen::Done
+            }
+            Outcome::Unresolved(known) => {
+                Seen::Stopped(motions.time(known.safe_until), known.limit)
+            }
+            Outcome::Contact { time, contact } => Seen::Near(time, Some(contact)),
+            Outcome::Touching { contact } => Seen::Near(0.0, Some(contact)),
+            Outcome::Overlapping { .. } if stretches.look_at_start(motions)? => Seen::Done,
+            Outcome::Overlapping { overlap, .. } => Seen::Near(0.0, overlap.contact()),
+            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+                unreachable!("no outcome of a search for contacts")
+            }
+        })
+    }
+
+    fn answer(&self, stretches: &Stretches<'_, '_>, outcome: Outcome) -> Answer {
+        Answer {
+            outcome,
+            tolerance: self.tolerance,
+            stats: stretches.stats,
+        }
+    }
+
+    pub(super) fn free(&self, stretches: &Stretches<'_, '_>) -> Answer {
+        let proven_gap = greater(self.gap, self.margin);
+        self.answer(stretches, Outcome::Free { proven_gap })
+    }
+
+    pub(super) fn unresolved(
+        &self,
+        stretches: &Stretches<'_, '_>,
+        safe_until: f64,
+        limit: Limit,
+    ) -> Answer {
+        self.answer(stretches, Outcome::unresolved(safe_until, limit))
+    }
+
+    /// Returns the answer for a contact of the motions of a stretch.
+    pub(super) fn found(
+        &mut self,
+        stretches: &Stretches<'_, '_>,
+        motions: &Motions,
+        outcome: Outcome,
+    ) -> Result<Answer, InputError> {
+        let at = |time: f64, contact: Contact| {
+            let contact = motions.contact(contact);
+            if time > 0.0 {
+                Outcome::Contact { time, contact }
+            } else {
+                Outcome::Touching { contact }
+            }
+        };
+        let outcome = match outcome {
+            Outcome::Contact { time, contact } => at(motions.time(time), contact),
+            Outcome::Touching { contact } => at(motions.span.from, contact),
+            Outcome::Overlapping { .. } if stretches.begins_at_start(motions)? => outcome,
+            // Bodies that were apart until then overlap by no more than their deviations.
+            Outcome::Overlapping { overlap, .. } => match overlap.contact() {
+                Some(contact) => at(motions.span.from, contact),
+                None => Outcome::unresolved(motions.span.from, Limit::Undecided),
+            },
+            _ => outcome,
+        };
+        if let Outcome::Contact { contact, .. } | Outcome::Touching { contact } = &outcome {
+            let shown = (contact.separation.upper - self.margin).next_up();
+            self.tolerance = greater(self.tolerance, shown);
+        }
+        Ok(self.answer(stretches, outcome))
+    }
+}
