@@ -50,33 +50,19 @@
 //! 5. **Same answer** whichever backend, schedule or order of the two bodies, within the tolerance. The same call
 //!    twice gives the same bits, unless a [deadline](Settings::deadline) ends it.
 //!
-//! # From the paper to the files
-//! | step | file |
+//! # The sources
+//! | folder | holds |
 //! |---|---|
-//! | the question: two bodies, their motions, a duration, settings | `query.rs`, `settings.rs` |
-//! | the same in units of its own, as schedules search it | `problem.rs` |
-//! | pieces of a body, and the wide tree over them `[FAST06 §5.1]` | `body/pieces.rs`, `body/tree.rs` |
-//! | tree of convex hulls `[FAST06 §3.3]` | `body/hull_tree.rs` |
-//! | farthest corner along a direction `[FAST06 §4.2]` | `body/support.rs` |
-//! | motion between two poses `[FAST06 §4.1]` | `motion.rs`, in a query's own units `motion/path.rs` |
-//! | bound of the rate at which a body advances `[FAST06 §4.2]` | `motion/bound.rs`, exact for a point `motion/track.rs` |
-//! | Δt = d / μ `[FAST06 Eq. 2]` | `motion/gap.rs` |
-//! | distance of two pieces, and its check | `distance/oracle.rs`, `distance/separation.rs` |
-//! | conservative advancement, best first | `schedule/best_first.rs` |
-//! | the steps that all searches take | `schedule/search.rs` |
-//! | any contact, the closest approach | `schedule/depth_first.rs`, `schedule/any_contact.rs`, `schedule/closest_approach.rs` |
-//! | motions of any kind, stretch by stretch | `motion/trajectory.rs`, `schedule/along.rs` |
-//! | the same in steps, for many pairs of bodies side by side | `schedule/first_contact.rs` |
-//! | boxes about moving bodies, for a broad phase | `swept_box.rs` |
-//! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
-//! | conservative advancement over hull trees `[FAST06 Alg. 2, §5.1]` | `schedule/fast.rs` |
-//! | eight pairs of nodes at once | `schedule/nodes/expand.rs`, `schedule/nodes/bounds.rs` |
-//! | one pair of pieces at one instant | `schedule/pieces/pair.rs`, `schedule/pieces/snapshot.rs` |
-//! | distance at one clock, nearest pairs first | `schedule/nearest.rs` |
-//! | contact at the start, one body inside the other | `schedule/start.rs`, `schedule/start/containment.rs` |
-//! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
-//! | the answer | `answer.rs` |
-//! | accepted ranges; allowances that proofs rely on; numbers that only cost time | [`limits`], [`rounding`], [`tuning`] |
+//! | `query.rs`, `settings.rs`, `problem.rs`, `answer.rs` | the question, in a user's units and in a search's own; the answer |
+//! | `body/` | convex pieces, the wide tree over them `[FAST06 §5.1]`, trees of hulls `[FAST06 §3.3]`, farthest corners `[FAST06 §4.2]` |
+//! | `motion/` | motions `[FAST06 §4.1]`, bounds of rates `[FAST06 §4.2]`, Δt = d / μ `[FAST06 Eq. 2]`, trajectories of any kind |
+//! | `distance/` | oracles, and the check of their claims |
+//! | `engine/` | the search: the first contact by conservative advancement, best first |
+//! | `accelerate/` | what makes the search faster and can be left out |
+//! | `questions/` | any contact, the closest approach, searches in steps, trajectories stretch by stretch |
+//! | `paper/` | all pairs on one clock `[FAST06 Alg. 1]`, hull trees and a front `[FAST06 Alg. 2, §5.1]` |
+//! | `contacts/` | the features of all contacts at a time `[FAST06 §5.2]` |
+//! | [`limits`], [`rounding`], [`tuning`] | accepted ranges; allowances that proofs rely on; numbers that only cost time |
 //!
 //! # Features
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
@@ -93,17 +79,20 @@ compile_error!(
      worth nothing then: remove `-C target-cpu=native` from the rustflags, or replace it by `x86-64-v3`; add \
      the feature `avx512` if your compiler is known to be free of the fault"
 );
+mod accelerate;
 mod answer;
 mod body;
 mod contacts;
 mod distance;
+mod engine;
 mod error;
 pub mod limits;
 mod math;
 mod motion;
-
+mod paper;
 mod problem;
 mod query;
+mod questions;
 pub mod rounding;
 pub mod schedule;
 mod settings;

@@ -91,7 +91,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Like [`Problem::new`], for bodies whose centres accelerate, and for schedules that take
-    /// [accelerations](crate::schedule::solve::Solve::takes_accelerations) into account.
+    /// [accelerations](crate::engine::solve::Solve::takes_accelerations) into account.
     pub(crate) fn accelerated(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],

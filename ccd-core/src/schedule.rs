@@ -1,45 +1,60 @@
 //! Schedules: the order in which the clocks of pairs are advanced.
-//!
-//! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one at a time, in
-//! f64). A schedule keeps the waiting pairs (`queue.rs`, `stack.rs`, `fast/front.rs`) and the proven facts
-//! (`proven.rs`). The steps of a search are in `search.rs`. Each question draws its own conclusions from them: the
-//! first contact (`best_first.rs`, in steps `first_contact.rs`), any contact (`any_contact.rs`), the closest approach
-//! (`closest_approach.rs`). `nearest.rs` measures the distance of the bodies at one clock, and `start.rs` that of
-//! bodies in contact at the start. `answer.rs` runs the schedule under the query's policy for the start. `along.rs`
-//! has the questions about trajectories. `rounds.rs` searches one period of bodies that turn many times, for all
-//! periods that repeat it. `out_of_reach.rs` proves that bodies far from each other never touch.
 
-mod along;
-mod answer;
-mod any_contact;
-mod best_first;
-mod capacity;
-mod closest_approach;
-mod contract;
-mod depth_first;
+use crate::answer::Answer;
+use crate::distance::oracle::DistanceOracle;
+pub use crate::engine::best_first::BestFirst;
+pub use crate::engine::depth_first::DepthFirst;
+use crate::engine::solve::Solve;
+use crate::error::InputError;
 #[cfg(feature = "hull-tree")]
-mod fast;
-mod first_contact;
-mod meter;
-mod naive;
-mod nearest;
-mod nodes;
-mod out_of_reach;
-mod pieces;
-mod proven;
-mod queue;
-mod rounds;
-mod scratch;
-mod search;
-pub(crate) mod solve;
-mod stack;
-mod start;
-mod waiting;
+pub use crate::paper::fast::Fast;
+pub use crate::paper::naive::Naive;
+use crate::query::Query;
+use crate::questions::along::first;
+pub use crate::questions::steps::{FirstContact, Progress};
 
-pub use best_first::BestFirst;
-pub use contract::Schedule;
-pub use depth_first::DepthFirst;
-#[cfg(feature = "hull-tree")]
-pub use fast::Fast;
-pub use first_contact::{FirstContact, Progress};
-pub use naive::Naive;
+/// An order in which a solver advances the pairs of two bodies until the first contact is certain.
+///
+/// A schedule owns its working memory. Keep the schedule and the oracle between queries.
+///
+/// ```
+/// use ccd_core::{schedule::{BestFirst, Naive, Schedule}, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// fn outcome(mut schedule: impl Schedule<Balls>, query: &Query<'_>) -> Result<Outcome, InputError> {
+///     Ok(schedule.first_contact(query, &mut Balls)?.outcome)
+/// }
+/// let ball = Body::ball(0.5)?;
+/// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
+/// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 1.0, &Settings::DEFAULT)?;
+/// assert!(matches!(outcome(BestFirst::default(), &query)?, Outcome::Free { .. }));
+/// assert!(matches!(outcome(Naive::default(), &query)?, Outcome::Free { .. }));
+/// # Ok::<(), InputError>(())
+/// ```
+pub trait Schedule<O: DistanceOracle> {
+    /// Answers when the bodies first touch.
+    ///
+    /// # Guarantee
+    /// [Never late](crate#guarantee); ends on every input; the same call gives the same bits, unless a
+    /// [deadline](crate::Settings::deadline) ends it.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range. Queries about two motions
+    /// have no errors.
+    fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError>;
+}
+
+impl<O: DistanceOracle, S: Solve<O>> Schedule<O> for S {
+    fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
+        match &query.problem {
+            Some(problem) => Ok(self.solve(problem, oracle)),
+            None => first::first_contact(self, query, oracle),
+        }
+    }
+}

@@ -2,8 +2,8 @@
 //! larger than necessary.
 
 use super::*;
+use crate::engine::solve::Solve;
 use crate::schedule::BestFirst;
-use crate::schedule::solve::Solve;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};
 use crate::tests::trajectories::Swing;

@@ -5,6 +5,7 @@ use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
 use crate::answer::{Outcome, Unresolved};
 use crate::body::Body;
+use crate::engine::solve::Solve;
 use crate::math::order::lesser;
 use crate::math::vector::unit;
 use crate::motion::Motion;
@@ -12,7 +13,6 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::Moving;
 use crate::schedule::BestFirst;
-use crate::schedule::solve::Solve;
 use crate::settings::Settings;
 use glam::DVec3;
 

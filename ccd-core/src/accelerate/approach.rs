@@ -1,0 +1,57 @@
+//! The rate of approach of two nodes across a fixed plane, in f64.
+
+use super::placed::Placed;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
+use crate::motion::gap::Gap;
+use crate::problem::Problem;
+use crate::rounding::RATE_F64;
+use glam::DVec3;
+
+/// Upper bounds of the approach of two nodes, of A and of B, from now on.
+pub(crate) struct Approach {
+    /// The rate at which the nodes' centres approach.
+    pub(crate) straight: f64,
+    /// The rate at which any two points of the nodes approach.
+    rate: f64,
+    /// The second derivative of the approach; negative if the nodes accelerate away from each other.
+    bend: f64,
+}
+
+impl Approach {
+    /// Bounds the approach along a unit vector that points from A to B, at clock `s`.
+    pub(crate) fn along(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> Self {
+        let (mut straight, mut turning, mut bend, mut speed) = (0.0, 0.0, 0.0, 0.0);
+        for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
+            let (path, radius) = (&side.path, node.radius);
+            let arm = node.centre - path.centre_at(s);
+            let across = n.cross(path.spin);
+            straight += n.dot(path.velocity_at(node.centre, s));
+            // n·(ω×w) = w·(n×ω) of points at w from the centre.
+            turning += greater(0.0, node.reach(across)) + RATE_F64 * path.rate * radius;
+            let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
+            let across = length(across) + RATE_F64 * path.rate;
+            bend += across * path.rate * from_axis * (1.0 + RATE_F64);
+            bend += n.dot(path.acceleration) + RATE_F64 * length(path.acceleration);
+            speed += path.speed() + path.rate * (length(arm) + radius);
+        }
+        Approach {
+            straight,
+            rate: straight + turning + 2.0 * RATE_F64 * speed,
+            bend,
+        }
+    }
+
+    /// Returns a time in which the nodes do not use up a gap.
+    pub(crate) fn free_time(&self, gap: f64) -> f64 {
+        let gap = Gap {
+            gap,
+            rate: self.rate,
+            bend: self.bend,
+        };
+        lesser(f64::MAX, gap.free_time())
+    }
+}
+
+#[cfg(test)]
+mod tests;

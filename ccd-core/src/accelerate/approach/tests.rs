@@ -1,0 +1,118 @@
+//! Rates and second derivatives of two triangles, compared with double-double arithmetic.
+
+use super::Approach;
+use crate::accelerate::placed::Placed;
+use crate::math::vector::{length, unit};
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::{Problem, Side};
+use crate::rounding::RATE_F64;
+use crate::settings::Settings;
+use crate::tests::double::{Double, Double3};
+use crate::tests::scene::{body, rotation};
+use crate::tests::worst::{Tape, Worst, share};
+use glam::DVec3;
+
+/// Returns a motion of any speed and turn, about a centre near the body or far from it.
+fn motion(tape: &mut Tape) -> Option<Motion> {
+    let start = Pose::new(tape.vector(-20..=4), rotation(tape)).ok()?;
+    let [velocity, spin, centre] = [-20..=6, -20..=6, -20..=10].map(|range| tape.vector(range));
+    Motion::about(start, velocity, spin, centre).ok()
+}
+
+/// The contributions of both sides to a rate and to a second derivative: without allowances and exact, and the
+/// allowances.
+struct Sums {
+    rate: Double,
+    bend: Double,
+    speed: f64,
+    size: f64,
+    plain_bend: f64,
+}
+
+impl Sums {
+    fn new() -> Self {
+        let zero = Double::ZERO;
+        Sums {
+            rate: zero,
+            bend: zero,
+            speed: 0.0,
+            size: 0.0,
+            plain_bend: 0.0,
+        }
+    }
+
+    fn add(&mut self, side: &Side<'_>, motion: &Motion, node: &Placed, n: DVec3, s: f64) {
+        let path = &side.path;
+        let frame = path.frame(s);
+        let centre = Double3::from(path.centre_at(s));
+        let spin = Double3::from(motion.spin());
+        let axis = Double3::from(n);
+        let arms = side.body.pieces().triangle(0);
+        // The corners are in their rounded positions, relative to the node's centre.
+        let placed = arms.map(|x| Double3::from(frame.point(x) - node.centre));
+        let arms = placed.map(|x| x + Double3::from(node.centre) - centre);
+        let speeds = arms.map(|arm| axis.dot(spin.cross(arm)));
+        let fastest = speeds
+            .into_iter()
+            .reduce(Double::max)
+            .expect("three corners");
+        let velocity = Double3::from(motion.velocity());
+        let velocity = velocity + Double3::from(path.acceleration).scale(Double::from(s));
+        self.rate = self.rate + axis.dot(velocity) + fastest;
+        let turning = arms.map(|arm| spin.cross(arm).length());
+        let farthest = turning
+            .into_iter()
+            .reduce(Double::max)
+            .expect("three corners");
+        self.bend = self.bend + axis.cross(spin).length() * farthest;
+        self.bend = self.bend + axis.dot(Double3::from(path.acceleration));
+        let arm = node.centre - path.centre_at(s);
+        self.speed += path.speed() + path.rate * (length(arm) + node.radius);
+        self.size += path.rate * node.radius;
+        let from_axis = length(path.axis.cross(arm)) + node.radius;
+        self.plain_bend += length(n.cross(path.spin)) * path.rate * from_axis;
+        self.plain_bend += n.dot(path.acceleration);
+    }
+}
+
+/// Returns the shares of the allowances that the errors of rate and second derivative of two triangles take.
+fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
+    let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
+    let bodies = triangles.map(|triangle| body(&[triangle]));
+    let motions = [motion(tape)?, motion(tape)?];
+    let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
+    let pulls = [(); 2].map(|()| match tape.pick(2) {
+        0 => DVec3::ZERO,
+        _ => DVec3::from(tape.vector(-20..=6)),
+    });
+    let bodies = [a, b];
+    let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).ok()?;
+    let (n, s) = (unit(tape.vector(-40..=0).into())?, tape.fraction());
+    let sides = [&problem.a, &problem.b];
+    let nodes = sides.map(|side| Placed::new(side, side.body.tree().nodes() as u32, s));
+    let [at, bt] = &nodes;
+    let found = Approach::along(&problem, [at, bt], n, s);
+    let mut sums = Sums::new();
+    for (k, n) in [(0, n), (1, -n)] {
+        sums.add(sides[k], &motions[k], &nodes[k], n, s);
+    }
+    let allowed = RATE_F64 * (2.0 * sums.speed + sums.size);
+    let rate = Double::from(found.rate) - Double::from(allowed);
+    let rate = share((sums.rate - rate).get(), allowed);
+    let allowed = found.bend - sums.plain_bend;
+    let bend = share((sums.bend - Double::from(sums.plain_bend)).get(), allowed);
+    Some([rate, bend])
+}
+
+#[test]
+fn worst_rate() {
+    let found = Worst::of("RATE_F64, rates of nodes", 20_000).search(|tape| Some(shares(tape)?[0]));
+    found.is_within(40.0);
+}
+
+#[test]
+fn worst_bend() {
+    let found = Worst::of("RATE_F64, bends of nodes", 20_000).search(|tape| Some(shares(tape)?[1]));
+    found.is_within(40.0);
+}

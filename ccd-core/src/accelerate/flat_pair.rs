@@ -1,0 +1,109 @@
+//! Flat nodes that approach each other face to face.
+//!
+//! In f32 the rounding of the gap between two large plates is that of their size. For a finer tolerance all of their
+//! nodes would be split before a single pair of pieces is near enough. Their slabs are known in f64.
+
+use super::approach::Approach;
+use super::placed::Placed;
+use crate::body::tree::{Named, NodeId, Slab};
+use crate::math::order::greater;
+use crate::math::vector::{length, unit};
+use crate::problem::{Problem, Side};
+use crate::rounding::{RATE_F64, REACH_F32};
+use crate::tuning::{CLOSED_GAP, COARSE_F32, TURNED_SHARE};
+use glam::DVec3;
+
+/// Returns a time for which two flat nodes, of A and of B, certainly stay apart by the gap of nodes from clock `s`
+/// on. The time is 0 if they are not flat, if f32 is fine enough for them, or if their turning uses up more of the
+/// gap than their approach.
+pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f64 {
+    let sides = [(&problem.a, a), (&problem.b, b)];
+    if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
+        return 0.0;
+    }
+    let [Some(a), Some(b)] = sides.map(|(side, id)| Flat::new(side, id, s)) else {
+        return 0.0;
+    };
+    let rounding = f64::from(REACH_F32) * (a.node.radius + b.node.radius);
+    if !(rounding > COARSE_F32 * problem.node_gap()) {
+        return 0.0;
+    }
+    let along = |n: DVec3| free_along(problem, &a, &b, n, s);
+    greater(along(a.normal), along(b.normal))
+}
+
+/// Returns whether a node is a triangle, or as thin as flat nodes are.
+fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
+    match side.body.tree().get(id) {
+        Named::Node(node) => node.is_thin(),
+        Named::Triangle(_) => true,
+    }
+}
+
+/// A flat node at its position in the problem's coordinates.
+struct Flat {
+    node: Placed,
+    /// The half thickness; `None` for a triangle, whose corners are known.
+    half: Option<f64>,
+    /// A unit vector.
+    normal: DVec3,
+}
+
+impl Flat {
+    fn new(side: &Side<'_>, id: NodeId, s: f64) -> Option<Self> {
+        let node = Placed::new(side, id, s);
+        let tree = side.body.tree();
+        let (normal, half) = match tree.get(id) {
+            Named::Node(_) => {
+                let &Slab { normal, half } = tree.slab(id)?;
+                (normal, Some(half))
+            }
+            Named::Triangle(piece) => {
+                let [a, b, c] = side.body.pieces().triangle(piece as usize);
+                (unit((b - a).cross(c - a))?, None)
+            }
+        };
+        Some(Flat {
+            normal: node.turned(normal),
+            node,
+            half,
+        })
+    }
+
+    /// Returns `max n·(x − centre)` over the points, for a unit vector.
+    fn reach(&self, n: DVec3) -> f64 {
+        match self.half {
+            Some(half) => {
+                let along = self.normal.dot(n).abs();
+                let across = length(n.cross(self.normal));
+                half * along + self.node.radius * (across + RATE_F64)
+            }
+            None => self.node.reach(n),
+        }
+    }
+}
+
+/// Returns the time for which a fixed plane keeps the nodes apart. The vector `n` is perpendicular to it, with either
+/// sign.
+fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f64 {
+    let way = b.node.centre - a.node.centre;
+    let n = if n.dot(way) < 0.0 { -n } else { n };
+    let kept = problem.rounding + problem.node_gap();
+    let gap = n.dot(way) - a.reach(n) - b.reach(-n) - kept;
+    // Written so that NaN gives no time.
+    if !(gap > CLOSED_GAP * problem.tolerance) {
+        return 0.0;
+    }
+    let approach = Approach::along(problem, [&a.node, &b.node], n, s);
+    let free = approach.free_time(gap);
+    // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
+    // time.
+    if free >= 1.0 - s || approach.straight * free >= (1.0 - TURNED_SHARE) * gap {
+        free
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests;

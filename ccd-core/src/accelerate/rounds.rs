@@ -1,0 +1,325 @@
+//! Rounds: for bodies that turn many times, one period is searched for all periods that repeat it.
+//!
+//! A *round* is a number of periods. The distances in each of them differ from those in the first by at most a known
+//! change, see `motion/period.rs`. Bodies that keep that change beyond the margin in the first period keep the margin
+//! in all of them. If they come nearer, but are not in contact, the next round has fewer periods. If even two periods
+//! differ by too much, some are searched in full, ever more of them in a row. The work therefore depends on how much
+//! the distances change, and not on the number of turns.
+
+use crate::answer::{Contact, Limit, Outcome, Separation};
+use crate::engine::meter::Meter;
+use crate::engine::proven::free_at_once;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
+use crate::motion::period::{Period, Reaching};
+use crate::problem::{Problem, Side};
+use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
+use crate::settings::StartPolicy;
+use crate::tuning::{LEAST_GAIN, REPEATED, SCREW_DRIFT};
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+
+/// Searches a problem round by round if it repeats itself, and as a whole otherwise.
+#[inline]
+pub(crate) fn in_rounds(
+    problem: &Problem<'_>,
+    meter: &mut Meter,
+    mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
+) -> Outcome {
+    let Some(mut rounds) = Rounds::of(problem) else {
+        return search(problem, meter);
+    };
+    loop {
+        let outcome = search(&rounds.part(), meter);
+        match rounds.conclude(&outcome, meter) {
+            ControlFlow::Continue(()) => {}
+            ControlFlow::Break(outcome) => return outcome,
+        }
+    }
+}
+
+/// A problem that repeats itself, and what is proven of it so far.
+#[derive(Debug)]
+pub(crate) struct Rounds<'a> {
+    whole: Problem<'a>,
+    period: Period,
+    /// The error of distances in a part of the time, in addition to the error in the whole.
+    rounding: f64,
+    /// The clock until which the bodies are proven apart.
+    from: f64,
+    round: Round,
+    /// The number of periods to search in a row while they differ by too much.
+    patience: f64,
+    /// A lower bound of the distance up to `from`.
+    gap: f64,
+}
+
+/// The periods of a round, by their number.
+#[derive(Clone, Copy, Debug)]
+enum Round {
+    /// The first period is searched for all of them.
+    Repeated(f64),
+    /// All periods are searched.
+    Each(f64),
+}
+
+impl<'a> Rounds<'a> {
+    /// Returns the rounds of a problem that repeats itself often enough for a gain; `None` for others.
+    #[inline]
+    pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
+        if turns_often(problem) && free_at_once(problem).is_none() {
+            Rounds::of_many_turns(problem)
+        } else {
+            None
+        }
+    }
+
+    #[cold]
+    fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
+        // Bodies that rest on each other are let go pair by pair, from the start on.
+        if problem.start == StartPolicy::Leave {
+            return None;
+        }
+        let tolerance = problem.tolerance;
+        let bodies = [&problem.a, &problem.b].map(reaching);
+        let [a, b] = bodies.map(|Reaching { path, reach }| {
+            let way = length(path.centre_at(0.0)) + path.speed();
+            place_rounding(reach, path.rate, way)
+        });
+        let rounding = a + b;
+        let known = REPEATED * tolerance;
+        // Written so that NaN is too much.
+        if !(rounding + least_tolerance(problem.rounding) <= 0.5 * known) {
+            return None;
+        }
+        let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
+        let size = lesser(a, b);
+        let period = cheapest(bodies, known).or_else(|| cheapest(bodies, SCREW_DRIFT * size))?;
+        let mut rounds = Rounds {
+            whole: problem.clone(),
+            period,
+            rounding,
+            from: 0.0,
+            round: Round::Each(1.0),
+            patience: 1.0,
+            gap: f64::INFINITY,
+        };
+        rounds.plan(f64::INFINITY);
+        Some(rounds)
+    }
+
+    /// Returns the problem to be searched in this round.
+    pub(crate) fn part(&self) -> Problem<'a> {
+        let tolerance = self.whole.tolerance;
+        // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
+        // distances is lost.
+        let room = (tolerance - 2.0 * self.change()) - 4.0 * self.rounding;
+        let left = greater(room, REPEATED * tolerance);
+        let to = match self.round {
+            Round::Repeated(_) => lesser(1.0, self.from + self.period.covering()),
+            Round::Each(_) => self.end(),
+        };
+        self.whole.part(
+            [self.from, to],
+            self.raised() + 0.5 * (tolerance - left),
+            left,
+        )
+    }
+
+    /// Draws the conclusion from the outcome of a round: another round, or the answer.
+    pub(crate) fn conclude(
+        &mut self,
+        outcome: &Outcome,
+        meter: &mut Meter,
+    ) -> ControlFlow<Outcome> {
+        let unresolved =
+            |rounds: &Self, reason| Outcome::unresolved(rounds.whole.time(rounds.from), reason);
+        match *outcome {
+            Outcome::Free { proven_gap } => self.prove(proven_gap)?,
+            Outcome::Contact { time, contact } => self.meet(time, contact)?,
+            Outcome::Touching { contact } => self.meet(self.whole.time(self.from), contact)?,
+            Outcome::Unresolved(_) => return ControlFlow::Break(*outcome),
+            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+                unreachable!("no outcome of a search for contacts")
+            }
+            Outcome::Overlapping { .. } if self.from == 0.0 => return ControlFlow::Break(*outcome),
+            // The bodies were proven apart until then, so an oracle contradicts itself.
+            Outcome::Overlapping { .. } => {
+                return ControlFlow::Break(unresolved(self, Limit::Undecided));
+            }
+        }
+        // A round counts as a visit, even if bounding balls prove the bodies apart at once.
+        match meter.visit(&self.whole) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(limit) => ControlFlow::Break(unresolved(self, limit)),
+        }
+    }
+
+    /// Records that the bodies keep a gap in a round.
+    fn prove(&mut self, gap: f64) -> ControlFlow<Outcome> {
+        self.gap = lesser(self.gap, (gap - self.raised()).next_down());
+        self.from = self.end();
+        if self.from >= 1.0 {
+            let proven_gap = greater(self.gap, self.whole.margin);
+            return ControlFlow::Break(Outcome::Free { proven_gap });
+        }
+        match self.round {
+            Round::Repeated(count) => {
+                self.patience = 1.0;
+                self.plan(2.0 * count);
+            }
+            Round::Each(count) => {
+                self.patience = 2.0 * count;
+                self.plan(2.0);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Records that the bodies come near each other in a round: they are in contact, or the round was too long.
+    fn meet(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
+        let within = self.whole.contact_distance();
+        let contact = loosened(contact, self.rounding);
+        let Separation { upper, .. } = contact.separation;
+        match self.round {
+            Round::Repeated(count) if !(upper <= within) => {
+                // More periods than this would give the same contact.
+                let fewer = (upper - within) / self.period.change;
+                match lesser(0.5 * count, fewer).floor() {
+                    fewer if fewer >= 2.0 => self.plan(fewer),
+                    _ => self.round = Round::Each(self.patience),
+                }
+                ControlFlow::Continue(())
+            }
+            _ => ControlFlow::Break(if time > 0.0 {
+                Outcome::Contact { time, contact }
+            } else {
+                Outcome::Touching { contact }
+            }),
+        }
+    }
+
+    /// Plans a round of some periods, or of all that are left.
+    fn plan(&mut self, count: f64) {
+        let left = ((1.0 - self.from) / self.period.length).ceil();
+        self.round = match lesser(count, left) {
+            count if count >= 2.0 => Round::Repeated(count),
+            _ => Round::Each(self.patience),
+        };
+    }
+
+    /// Returns the clock at which the round ends.
+    fn end(&self) -> f64 {
+        let (Round::Repeated(count) | Round::Each(count)) = self.round;
+        let end = self.from + count * self.period.length;
+        // A rest of the time that is only rounding is covered, too.
+        if end + 0.5 * TURNS_F64 * self.period.length < 1.0 {
+            end
+        } else {
+            1.0
+        }
+    }
+
+    /// Bounds the difference between the distances in a round and those that are searched.
+    fn change(&self) -> f64 {
+        match self.round {
+            Round::Repeated(count) => count * self.period.change,
+            Round::Each(_) => 0.0,
+        }
+    }
+
+    /// Returns the distance to be kept beyond the margin.
+    fn raised(&self) -> f64 {
+        self.change() + self.rounding
+    }
+}
+
+#[inline]
+fn turns_often(problem: &Problem<'_>) -> bool {
+    let turns = |side: &Side<'_>| side.path.rate >= 2.0 * TAU;
+    turns(&problem.a) || turns(&problem.b)
+}
+
+/// A period that represents the whole time, for questions about distances.
+#[derive(Debug)]
+pub(crate) struct Sample<'a> {
+    /// The problem in that period, with a tolerance that leaves room for the change.
+    pub(crate) part: Problem<'a>,
+    /// A bound of the difference between the distances of all other periods and those of this one.
+    pub(crate) change: f64,
+    /// The error of distances, in addition to that of the whole problem.
+    pub(crate) rounding: f64,
+}
+
+impl<'a> Sample<'a> {
+    /// Returns the first period of a problem that repeats itself, up to a part of the tolerance; `None` for others.
+    #[inline]
+    pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
+        if turns_often(problem) {
+            Sample::of_many_turns(problem)
+        } else {
+            None
+        }
+    }
+
+    #[cold]
+    fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
+        let rounds = Rounds::of_many_turns(problem)?;
+        let (change, rounding) = (rounds.change(), rounds.rounding);
+        // Written so that NaN is too much.
+        let stands_for_all = matches!(rounds.round, Round::Repeated(_)) && rounds.end() >= 1.0;
+        (stands_for_all && change <= REPEATED * problem.tolerance).then(|| Sample {
+            part: rounds.part().measuring(),
+            change,
+            rounding,
+        })
+    }
+
+    /// Returns the lower bound for the whole time that a lower bound of the distance in the period implies.
+    pub(crate) fn lower(&self, distance: f64) -> f64 {
+        greater(0.0, (distance - (self.change + self.rounding)).next_down())
+    }
+
+    /// Returns a contact in the period with bounds that hold for the whole problem.
+    pub(crate) fn contact(&self, contact: Contact) -> Contact {
+        loosened(contact, self.rounding)
+    }
+}
+
+/// Returns the contact with bounds that allow for an error.
+fn loosened(contact: Contact, rounding: f64) -> Contact {
+    let Separation { lower, upper, .. } = contact.separation;
+    Contact {
+        separation: Separation {
+            lower: (lower - rounding).next_down(),
+            upper: (upper + rounding).next_up(),
+            ..contact.separation
+        },
+        ..contact
+    }
+}
+
+fn reaching<'p>(side: &'p Side<'_>) -> Reaching<'p> {
+    let (centre, radius) = side.body.tree().ball();
+    Reaching {
+        path: &side.path,
+        reach: centre.distance(side.path.centre) * (1.0 + f64::EPSILON) + radius,
+    }
+}
+
+/// Returns the period with the least time to search, for rounds that end once distances have changed by `change`;
+/// `None` without a gain.
+fn cheapest(bodies: [Reaching<'_>; 2], change: f64) -> Option<Period> {
+    let searched = |period: &Period| {
+        let rounds = greater(1.0, period.change / (period.length * change));
+        lesser(1.0, period.length * rounds)
+    };
+    Period::all(bodies)
+        .map(|period| (searched(&period), period))
+        .reduce(|best, next| if next.0 < best.0 { next } else { best })
+        .filter(|(searched, _)| *searched <= LEAST_GAIN)
+        .map(|(_, period)| period)
+}
+
+#[cfg(test)]
+mod tests;

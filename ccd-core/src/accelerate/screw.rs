@@ -1,0 +1,194 @@
+//! Pairs of nodes of two bodies of which one turns about an axis that stands still for the other: a bolt in a nut, a
+//! shaft in a sleeve, a wheel, a hinge.
+//!
+//! With `r` the distance of a point from the axis, `φ` its azimuth, `z` its height along the axis
+//! and `p` the advance per radian, neither `r` nor `ζ = z − p φ` changes while the point moves. A
+//! surface `f = a r + b ζ = constant` is carried into itself, and keeps two nodes apart for good.
+//! Fixed planes do so only for as long as the curvature of the points' paths allows.
+//!
+//! The azimuth is known up to whole turns, and so is `ζ` up to whole pitches: for each number of
+//! pitches there has to be a surface that keeps the nodes apart.
+
+mod outline;
+mod profile;
+
+use super::placed::Placed;
+use super::screw::profile::{Profile, ScrewAxis, Way, keep_apart};
+use crate::body::tree::{Below, Members, Named, NodeId};
+use crate::engine::capacity::empty;
+use crate::math::order::lesser;
+use crate::math::vector::length;
+use crate::problem::{Problem, Side, Which};
+use crate::rounding::{ADVANCE_F64, RATE_F64};
+use crate::tuning::{CLOSED_GAP, LEAST_ADVANCE, SCREW_DRIFT};
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// The motion of one body relative to the other, along a screw, and the profiles of their nodes.
+#[derive(Debug)]
+pub(crate) struct Screw {
+    turning: Which,
+    axis: ScrewAxis,
+    /// The whole path. Two nodes that keep this distance on the screw are apart, whatever the drift.
+    way: Way,
+}
+
+/// The profiles of both bodies' nodes and triangles, computed at their first use.
+#[derive(Debug, Default)]
+pub(crate) struct Profiles([OfBody; 2]);
+
+#[derive(Debug, Default)]
+struct OfBody {
+    /// The index of each node's profile, by node id.
+    places: Vec<u32>,
+    known: Vec<Profile>,
+}
+
+/// The index of a profile that was not computed yet, and that of a node that has none.
+const UNKNOWN: u32 = u32::MAX;
+const NONE: u32 = u32::MAX - 1;
+
+impl Screw {
+    /// Returns the screw, and removes all profiles; `None` unless one body turns, and the axis hardly moves for the
+    /// other.
+    pub(crate) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
+        let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
+            (true, false) => Which::A,
+            (false, true) => Which::B,
+            _ => return None,
+        };
+        let (side, other) = (turning.of(problem), turning.other().of(problem));
+        let unit = side.path.axis;
+        let velocity = side.path.velocity - other.path.velocity;
+        let along = velocity.dot(unit);
+        let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
+        let size = lesser(a, b);
+        // A tiny advance would make a tiny pitch.
+        let along = if along.abs() > LEAST_ADVANCE * size {
+            along
+        } else {
+            0.0
+        };
+        // The advance is off by a few units in the last place, which counts as drift too.
+        let drift = length(velocity - along * unit) + ADVANCE_F64 * length(velocity);
+        // Bodies with the same acceleration do not accelerate relative to each other.
+        let acceleration = side.path.acceleration - other.path.acceleration;
+        let drift = drift + 0.5 * length(acceleration);
+        // Written so that NaN is no screw.
+        if !(drift <= SCREW_DRIFT * size) {
+            return None;
+        }
+        // Rounding counts once for the positions, and once for the axis.
+        let kept = problem.node_gap() + 2.0 * problem.rounding + CLOSED_GAP * problem.tolerance;
+        profiles.0[0].forget(&problem.a);
+        profiles.0[1].forget(&problem.b);
+        Some(Screw {
+            turning,
+            axis: ScrewAxis::new(side.path.centre_at(0.0), unit, along / side.path.rate),
+            way: Way {
+                pitch: TAU * (along / side.path.rate),
+                angles: [0.0, side.path.rate],
+                needed: kept + drift * (1.0 + RATE_F64),
+            },
+        })
+    }
+
+    /// Returns whether two nodes, of A and of B, certainly stay apart by the gap of nodes from clock `s` to the end;
+    /// `None` if one of them surrounds the axis, or nearly.
+    pub(crate) fn keeps_apart(
+        &self,
+        problem: &Problem<'_>,
+        profiles: &mut Profiles,
+        [a, b]: [NodeId; 2],
+        s: f64,
+    ) -> Option<bool> {
+        if self.keeps_whole_apart(problem, profiles, [a, b], s)? {
+            return Some(true);
+        }
+        let of_a = triangles(&problem.a, a);
+        let of_b = triangles(&problem.b, b);
+        let (Some(of_a), Some(of_b)) = (of_a, of_b) else {
+            return Some(false);
+        };
+        // In groups with overlapping outlines, hardly any two triangles have overlapping outlines. Comparing
+        // triangles costs less than splitting the groups.
+        let mut of_a = of_a;
+        Some(of_a.all(|x| {
+            let mut apart = |pair| self.keeps_whole_apart(problem, profiles, pair, s) == Some(true);
+            apart([x, b]) || of_b.clone().all(|y| apart([x, y]))
+        }))
+    }
+
+    /// Like `Screw::keeps_apart`, without a test of the triangles below the nodes.
+    fn keeps_whole_apart(
+        &self,
+        problem: &Problem<'_>,
+        Profiles([of_a, of_b]): &mut Profiles,
+        [a, b]: [NodeId; 2],
+        s: f64,
+    ) -> Option<bool> {
+        let a = of_a.of(&problem.a, a, &self.axis)?;
+        let b = of_b.of(&problem.b, b, &self.axis)?;
+        let (turning, still) = match self.turning {
+            Which::A => (a, b),
+            Which::B => (b, a),
+        };
+        let [_, end] = self.way.angles;
+        let way = Way {
+            angles: [s * end, end],
+            ..self.way
+        };
+        Some(keep_apart(turning, still, &self.axis, &way))
+    }
+}
+
+impl OfBody {
+    fn forget(&mut self, side: &Side<'_>) {
+        let count = side.body.tree().nodes() + side.body.pieces().len();
+        empty(&mut self.known);
+        empty(&mut self.places);
+        self.places.resize(count, UNKNOWN);
+    }
+
+    /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly.
+    fn of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
+        let place = &mut self.places[id as usize];
+        if *place == UNKNOWN {
+            *place = match profile(side, id, axis) {
+                Some(profile) if self.known.len() < NONE as usize => {
+                    self.known.push(profile);
+                    self.known.len() as u32 - 1
+                }
+                _ => NONE,
+            };
+        }
+        self.known.get(*place as usize)
+    }
+}
+
+/// Returns the profile of a node at the start. The profile of a few triangles is smaller than that of their box.
+fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
+    let place = |id: NodeId| Placed::new(side, id, 0.0);
+    match triangles(side, id) {
+        Some(few) => Profile::about(few.map(place), axis),
+        None => Profile::new(&place(id), axis),
+    }
+}
+
+/// Returns the triangle of an id, or the triangles of a node of a few; `None` for other nodes.
+fn triangles(side: &Side<'_>, id: NodeId) -> Option<Range<NodeId>> {
+    let tree = side.body.tree();
+    match tree.get(id) {
+        Named::Triangle(_) => Some(id..id + 1),
+        Named::Node(node) => match node.below {
+            Below::Triangles(group) => {
+                let &Members { first, count, .. } = tree.triangle_members(group);
+                Some(first..first + count)
+            }
+            _ => None,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,96 @@
+//! A triangle as seen from the axis of a screw: its corners by their distances from the axis and their heights on the
+//! screw.
+//!
+//! The distance `r` from the axis is a convex function. On a triangle, any `a r + b ζ` with a linear `ζ` is greatest
+//! at a corner. Everywhere `r` is at least `o·x`, with `x` from the axis and any unit vector `o` across it. The `o`
+//! in the middle of the triangle's azimuths loses least.
+
+use super::super::placed::Placed;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit};
+use crate::rounding::profile_rounding;
+use glam::{DVec2, DVec3};
+
+/// The corners of a triangle in the plane of `r` and `ζ`.
+#[derive(Debug)]
+pub(crate) struct Outline {
+    /// The corners with their distances from the axis.
+    outer: [DVec2; 3],
+    /// The corners with lower bounds of these distances, linear over the triangle.
+    inner: [DVec2; 3],
+    /// A bound of the deviation of `ζ` from a linear function.
+    twist: f64,
+    /// The factors with which the rounding of `r` and of `ζ` grows.
+    scale: [f64; 2],
+    tilt: f64,
+}
+
+/// The linear terms of a node's `r` and `ζ` on a screw, and bounds of the rest.
+pub(crate) struct Linear {
+    /// A point on the axis, and the axis's direction.
+    pub(crate) axis: [DVec3; 2],
+    /// The `ζ` of the node's centre.
+    pub(crate) zeta: f64,
+    /// The gradient of `ζ`.
+    pub(crate) ahead: DVec3,
+    pub(crate) twist: f64,
+    pub(crate) scale: [f64; 2],
+    pub(crate) tilt: f64,
+}
+
+impl Outline {
+    /// Returns the outline of a triangle; `None` for other nodes.
+    pub(crate) fn new(node: &Placed, linear: &Linear) -> Option<Self> {
+        let corners = node.corners()?;
+        let [origin, along] = linear.axis;
+        let across = |x: DVec3| {
+            let x = x - x.dot(along) * along;
+            x - x.dot(along) * along
+        };
+        let middle = across(node.centre - origin);
+        let across = corners.map(|w| middle + across(w));
+        // The outward direction in the middle of the corners' azimuths.
+        let [a, b, c] = across.map(|x| x / length(x));
+        let pairs = [[a, b], [b, c], [c, a]];
+        let [x, y] = pairs
+            .into_iter()
+            .min_by(|[a, b], [c, d]| a.dot(*b).total_cmp(&c.dot(*d)))?;
+        let facing = unit(x + y)?;
+        let zeta = |w: DVec3| linear.zeta + w.dot(linear.ahead);
+        Some(Outline {
+            outer: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
+            inner: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
+            twist: linear.twist,
+            scale: linear.scale,
+            tilt: linear.tilt,
+        })
+    }
+
+    /// Returns the interval of `n.x r + n.y ζ`.
+    pub(crate) fn interval(&self, n: DVec2) -> [f64; 2] {
+        let (least, most) = if n.x < 0.0 {
+            (&self.outer, &self.inner)
+        } else {
+            (&self.inner, &self.outer)
+        };
+        let slack =
+            n.y.abs() * self.twist + profile_rounding(n.abs().to_array(), self.scale, self.tilt);
+        let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
+        let high = most
+            .iter()
+            .map(|c| n.dot(*c))
+            .fold(f64::NEG_INFINITY, greater);
+        [low - slack, high + slack]
+    }
+
+    /// Returns the surfaces along the triangle's edges, as unit coefficients of `r` and `ζ`; those of `ζ` are not
+    /// negative.
+    pub(crate) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
+        let [a, b, c] = self.outer;
+        let edges = [b - a, c - b, a - c];
+        let across = edges.map(|edge| edge.perp() / edge.length());
+        // An edge along the turn has no direction here. Written so that NaN gives none.
+        let known = across.into_iter().filter(|n| n.length_squared() > 0.5);
+        known.map(|n| if n.y < 0.0 { -n } else { n })
+    }
+}

@@ -1,0 +1,255 @@
+//! A node as seen from the axis of a screw: the values that do not change while it moves along the screw.
+//!
+//! Along a path past points at least `ρ` from the axis, `f = a r + b ζ` changes by at most `√(a² + b² (1 + p²/ρ²))`
+//! per length. Consider a convex set beyond a plane that faces the axis, at `ρ` from it. There `f` differs from its
+//! linearisation by two terms. That of `r` is at least 0 and at most `y²/(2ρ)` at `y` along the turn. That of `ζ` is
+//! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
+
+use super::super::placed::Placed;
+use super::outline::{Linear, Outline};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
+use crate::motion::trig::sin_cos;
+use crate::rounding::{RATE_F64, TURNS_F64, profile_rounding};
+use crate::tuning::LEAST_INNER;
+use glam::{DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
+
+/// The number of surfaces tried, evenly over all slopes. Eleven degrees between neighbouring surfaces cost at most a
+/// tenth of a node's width, for the flanks of a thread at any slope.
+const SURFACES: usize = 16;
+
+/// The axis of a screw, at the start.
+#[derive(Debug)]
+pub(crate) struct ScrewAxis {
+    origin: DVec3,
+    unit: DVec3,
+    /// The advance along the axis, per radian.
+    advance: f64,
+    /// The coefficients of `r` and `ζ` for each surface.
+    surfaces: [DVec2; SURFACES],
+    /// The directions of azimuth 0 and of a right angle.
+    azimuths: [DVec3; 2],
+}
+
+/// The intervals of a node's `f` for each surface, and the rates at which they change near the node.
+#[derive(Debug)]
+pub(crate) struct Profile {
+    low: [f64; SURFACES],
+    high: [f64; SURFACES],
+    /// The azimuth of the centre, and a bound of the difference of other points' azimuths.
+    azimuth: f64,
+    width: f64,
+    /// Paths from the node that are no longer than this are at least this far from the axis.
+    close: f64,
+    /// The greatest change of any `f` per length on such paths.
+    steepest: f64,
+    /// The outline of a single triangle, which gives intervals for any surface.
+    outline: Option<Outline>,
+}
+
+impl ScrewAxis {
+    pub(crate) fn new(origin: DVec3, unit: DVec3, advance: f64) -> Self {
+        let surfaces = std::array::from_fn(|k| {
+            let (sin, cos) = sin_cos(PI * k as f64 / SURFACES as f64);
+            DVec2::new(cos, sin)
+        });
+        let (x, y) = unit.any_orthonormal_pair();
+        ScrewAxis {
+            origin,
+            unit,
+            advance,
+            surfaces,
+            azimuths: [x, y],
+        }
+    }
+}
+
+impl Profile {
+    /// Returns the profile of a node; `None` if it surrounds the axis, or nearly.
+    pub(crate) fn new(node: &Placed, axis: &ScrewAxis) -> Option<Self> {
+        Profile::beside(node, axis, None)
+    }
+
+    /// Returns the profile that contains those of all parts, of which there is at least one; `None` if one of them
+    /// surrounds the axis, or nearly.
+    pub(crate) fn about(mut parts: impl Iterator<Item = Placed>, axis: &ScrewAxis) -> Option<Self> {
+        let mut all = Profile::new(&parts.next()?, axis)?;
+        for part in parts {
+            all.outline = None;
+            let part = Profile::beside(&part, axis, Some(all.azimuth))?;
+            for k in 0..SURFACES {
+                all.low[k] = lesser(all.low[k], part.low[k]);
+                all.high[k] = greater(all.high[k], part.high[k]);
+            }
+            let off = (part.azimuth - all.azimuth).abs();
+            all.width = greater(all.width, off + part.width);
+            all.close = lesser(all.close, part.close);
+            all.steepest = greater(all.steepest, part.steepest);
+        }
+        Some(all)
+    }
+
+    /// Returns the profile of a node, with its azimuth in the turn nearest to a given azimuth.
+    fn beside(node: &Placed, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
+        let way = node.centre - axis.origin;
+        let height = way.dot(axis.unit);
+        let across = way - height * axis.unit;
+        // The rest of the height, left by rounding, would tilt the gradients of tall nodes.
+        let across = across - across.dot(axis.unit) * axis.unit;
+        let distance = length(across);
+        let outward = across / distance;
+        let onward = axis.unit.cross(outward);
+        let inner = distance - node.reach(-outward);
+        // Written so that NaN is not far.
+        if !(inner > LEAST_INNER * distance) {
+            return None;
+        }
+        let [x, y] = axis.azimuths;
+        let azimuth = across.dot(y).atan2(across.dot(x));
+        let azimuth = azimuth - near.map_or(0.0, |near| TAU * ((azimuth - near) / TAU).round());
+        let zeta = height - axis.advance * azimuth;
+        let ahead = axis.unit - axis.advance / distance * onward;
+        let (arm, steep) = (length(way), axis.advance / (0.5 * inner));
+        let aside = greater(node.reach(onward), node.reach(-onward));
+        let mut profile = Profile {
+            low: [0.0; SURFACES],
+            high: [0.0; SURFACES],
+            azimuth,
+            width: aside / inner,
+            close: 0.5 * inner,
+            steepest: (1.0 + steep * steep).sqrt() * (1.0 + RATE_F64),
+            outline: None,
+        };
+        let bulge = 0.5 * aside * aside / inner;
+        let twist = 0.5 * axis.advance.abs() * (node.radius / inner) * (node.radius / inner);
+        for (k, &n) in axis.surfaces.iter().enumerate() {
+            let at = n.x * distance + n.y * zeta;
+            let gradient = n.x * outward + n.y * ahead;
+            let tilt = axis.advance / distance;
+            let rounding = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
+            let reach = |sign: f64| {
+                let bend = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
+                node.reach(sign * gradient) + bend + rounding
+            };
+            profile.low[k] = at - reach(-1.0);
+            profile.high[k] = at + reach(1.0);
+        }
+        let linear = Linear {
+            axis: [axis.origin, axis.unit],
+            zeta,
+            ahead,
+            twist,
+            scale: [arm, node.radius],
+            tilt: axis.advance / distance,
+        };
+        profile.outline = Outline::new(node, &linear);
+        if let Some(outline) = &profile.outline {
+            for (k, &n) in axis.surfaces.iter().enumerate() {
+                let [low, high] = outline.interval(n);
+                profile.low[k] = greater(profile.low[k], low);
+                profile.high[k] = lesser(profile.high[k], high);
+            }
+        }
+        Some(profile)
+    }
+
+    /// Returns the interval of the shifts of another node's `ζ` for which no surface keeps more than the needed gap
+    /// between both nodes. The interval is empty if some surface keeps that gap for any shift.
+    fn meeting(&self, other: &Profile, axis: &ScrewAxis, needed: f64) -> [f64; 2] {
+        let common = axis.surfaces.iter().enumerate();
+        let common = common.map(|(k, &n)| {
+            (
+                n,
+                [self.low[k], self.high[k]],
+                [other.low[k], other.high[k]],
+            )
+        });
+        // The surfaces along the edges of two triangles.
+        let outlines = self.outline.iter().zip(&other.outline);
+        let own = outlines.flat_map(|(own, others)| {
+            let surfaces = own.surfaces().chain(others.surfaces());
+            surfaces.map(move |n| (n, own.interval(n), others.interval(n)))
+        });
+        let mut met = [f64::NEG_INFINITY, f64::INFINITY];
+        for (n, [low, high], [other_low, other_high]) in common.chain(own) {
+            let least = (low - other_high) - needed;
+            let most = (high - other_low) + needed;
+            met = match n.y > 0.0 {
+                true => both(met, [least / n.y, most / n.y]),
+                // This surface separates the nodes for any shift. Written so that NaN is no gap.
+                false if least > 0.0 || most < 0.0 => return [f64::INFINITY, f64::NEG_INFINITY],
+                false => met,
+            };
+            if met[0] > met[1] {
+                return met;
+            }
+        }
+        met
+    }
+
+    /// Returns the least and the most whole turns by which the still node's azimuth may be ahead of its own while the
+    /// turning node passes it.
+    fn passes(&self, still: &Profile, way: &Way) -> [f64; 2] {
+        let ahead = still.azimuth - self.azimuth;
+        let width = self.width + still.width + way.needed / greater(self.close, still.close);
+        let [from, to] = way.angles;
+        outward([from - width - ahead, to + width - ahead].map(|angle| angle / TAU))
+    }
+}
+
+/// Returns the intersection of two intervals.
+fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    [greater(a, c), lesser(b, d)]
+}
+
+/// Returns the least and the greatest whole number in an interval, which is first widened by far more than rounding.
+fn outward([least, most]: [f64; 2]) -> [f64; 2] {
+    let width = TURNS_F64 * (1.0 + greater(least.abs(), most.abs()));
+    [(least - width).ceil(), (most + width).floor()]
+}
+
+/// The path of the turning node, and the distance to be kept on it.
+#[derive(Debug)]
+pub(crate) struct Way {
+    /// The advance per turn.
+    pub(crate) pitch: f64,
+    /// The angles at which the path begins and ends, from the start on.
+    pub(crate) angles: [f64; 2],
+    pub(crate) needed: f64,
+}
+
+/// Returns whether a node that turns and one that stands still certainly keep more than the needed
+/// distance.
+///
+/// Each further turn lowers the still node's `ζ`, as seen from the turning node, by one pitch. The shifts for which
+/// no surface separates the nodes form a single interval. The number of turns therefore does not matter, only whether
+/// a whole number of pitches lies in it. Without a pitch all turns are alike.
+pub(crate) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, way: &Way) -> bool {
+    let near = if still.close > turning.close {
+        still
+    } else {
+        turning
+    };
+    // Written so that NaN proves nothing.
+    if !(near.close > way.needed) {
+        return false;
+    }
+    let [least, most] = turning.meeting(still, axis, way.needed * near.steepest);
+    if least > most {
+        return true;
+    }
+    let met = match way.pitch.abs() > 0.0 {
+        true => {
+            let [one, other] = [least, most].map(|shift| -shift / way.pitch);
+            outward([lesser(one, other), greater(one, other)])
+        }
+        false if least > 0.0 || most < 0.0 => return true,
+        false => [f64::NEG_INFINITY, f64::INFINITY],
+    };
+    let [least, most] = both(turning.passes(still, way), met);
+    least > most
+}
+
+#[cfg(test)]
+mod tests;

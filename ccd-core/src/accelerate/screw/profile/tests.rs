@@ -1,0 +1,111 @@
+//! Profiles, compared with the exact surfaces through the corners of a triangle.
+
+use super::{Profile, ScrewAxis};
+use crate::accelerate::placed::Placed;
+use crate::math::order::greater;
+use crate::math::vector::{length, unit};
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::rounding::profile_rounding;
+use crate::settings::Settings;
+use crate::tests::double::{Double, Double3};
+use crate::tests::scene::body;
+use crate::tests::worst::{Tape, Worst, share};
+use glam::DVec3;
+
+/// Returns the radius and the height of a point, and its azimuth near a given one.
+fn cylindrical(axis: &ScrewAxis, point: Double3, near: f64) -> [Double; 3] {
+    let unit = Double3::from(axis.unit).unit();
+    let way = point - Double3::from(axis.origin);
+    let height = way.dot(unit);
+    let across = way - unit.scale(height);
+    let x = Double3::from(axis.azimuths[0]);
+    let x = (x - unit.scale(unit.dot(x))).unit();
+    let y = unit.cross(x);
+    let [east, north] = [x, y].map(|of| of.dot(across));
+    // One Newton step doubles the digits of the angle.
+    let rough = north.get().atan2(east.get());
+    let turns = ((near - rough) / std::f64::consts::TAU).round();
+    let angle = Double::from(rough);
+    let (sin, cos) = angle.sin_cos();
+    let radius = across.length();
+    let angle = angle + (north * cos - east * sin) / radius;
+    let tau = Double::from(std::f64::consts::TAU);
+    let tau = tau - tau.sin_cos().0;
+    [radius, height, angle + tau * Double::from(turns)]
+}
+
+/// Returns the largest share that the error of an interval takes at a corner.
+fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
+    let still = Motion::still(Pose::IDENTITY);
+    let body = body(&[corners]);
+    let problem = Problem::about((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
+    let node = Placed::new(&problem.a, body.tree().nodes() as u32, 0.0);
+    let profile = Profile::new(&node, axis)?;
+    let (arm, distance) = {
+        let way = node.centre - axis.origin;
+        let height = way.dot(axis.unit);
+        (length(way), length(way - height * axis.unit))
+    };
+    let frame = problem.a.path.frame(0.0);
+    let places = corners.map(|x| {
+        // The position is relative to the node's centre, as in the node.
+        let from_centre = Double3::from(frame.point(x) - node.centre);
+        cylindrical(
+            axis,
+            from_centre + Double3::from(node.centre),
+            profile.azimuth,
+        )
+    });
+    let mut worst = f64::NEG_INFINITY;
+    for (k, &n) in axis.surfaces.iter().enumerate() {
+        let tilt = axis.advance / distance;
+        let allowed = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
+        for [r, z, angle] in places {
+            let zeta = z - Double::from(axis.advance) * angle;
+            let f = Double::from(n.x) * r + Double::from(n.y) * zeta;
+            let high = Double::from(profile.high[k]) - Double::from(allowed);
+            let low = Double::from(profile.low[k]) + Double::from(allowed);
+            let lost = greater((f - high).get(), (low - f).get());
+            worst = greater(worst, share(lost, allowed));
+        }
+    }
+    Some(worst)
+}
+
+fn axis(tape: &mut Tape, advance: f64) -> Option<ScrewAxis> {
+    let direction = unit(tape.vector(-40..=0).into())?;
+    let origin = DVec3::from(tape.vector(-20..=4));
+    Some(ScrewAxis::new(origin, direction, advance))
+}
+
+/// A tiny triangle is anywhere about the axis.
+#[test]
+fn worst_of_an_arm() {
+    let found = Worst::of("profile_rounding, an arm", 20_000).search(|tape| {
+        let advance = tape.any(-10..=6);
+        let axis = axis(tape, advance)?;
+        let at = DVec3::from(tape.vector(-10..=10));
+        let small = tape.size(-100..=-60);
+        let corners = [0; 3].map(|_| at + DVec3::from(tape.vector(-10..=0)) * small);
+        worst_share(&axis, corners)
+    });
+    found.is_within(40.0);
+}
+
+/// A triangle is in a plane with the axis, and much longer than its distance from the axis.
+#[test]
+fn worst_of_a_radius() {
+    let found = Worst::of("profile_rounding, a radius", 20_000).search(|tape| {
+        let axis = axis(tape, 0.0)?;
+        let out = axis.unit.cross(tape.vector(-40..=0).into());
+        let out = unit(out)?;
+        let long = tape.size(0..=20);
+        let corners = [-1.0, 1.0, 0.0].map(|along| {
+            axis.origin + axis.unit * (along * long) + out * (1.0 + 0.25 * tape.fraction())
+        });
+        worst_share(&axis, corners)
+    });
+    found.is_within(40.0);
+}

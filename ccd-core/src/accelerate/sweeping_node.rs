@@ -1,0 +1,107 @@
+//! Planes that turn with one of the bodies.
+//!
+//! For a fixed plane the full speed of a turning body's far rim counts, however small the other body is. For a plane
+//! that turns with the body it does not count: the body's own extent along the plane's normal is constant, and only
+//! the other node sweeps towards the plane.
+//!
+//! With `n' = ω×n` and `d` from the turning body's centre to a point of the other node, the height
+//! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`, `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ|
+//! H) + 2|ḋ|) + |d̈|`. Where the centres accelerate, that is part of `d̈`.
+
+use crate::engine::nodes::axis::Axis;
+use crate::engine::nodes::clock;
+use crate::engine::nodes::eight_pairs::{EightPairs, bending};
+use crate::engine::nodes::lanes::{Vec3x8, splat};
+use crate::engine::nodes::shape::{Children, OtherNode};
+use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
+use crate::tuning::ATTACHED_TIME;
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+/// The node that sweeps towards a plane attached to the other body.
+struct SweepingNode<L: Simd> {
+    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus the share of the
+    /// points around it.
+    rate: f32x8<L>,
+    /// The largest distance of the node's points from the turning body's centre.
+    distance: f32x8<L>,
+    /// An upper bound of the speeds of the node's points due to its own turning.
+    speed: f32x8<L>,
+    /// The `|ω|` of the node's own turning.
+    own_rate: f32,
+}
+
+impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
+    /// Returns the times for which planes that turn with the split body keep the pairs apart.
+    #[inline(always)]
+    pub(crate) fn free_with_split(&self, axis: Axis<L>) -> f32x8<L> {
+        let (motion, other) = (self.motion, self.other);
+        let level = axis.n.level();
+        let at = Vec3x8::splat(level, other.centre());
+        let velocity = Vec3x8::splat(level, motion.velocity);
+        let velocity = velocity + motion.split.velocity(at) - self.other_turning;
+        let across = motion.split.across(axis.n);
+        let own = motion.other.across(axis.n);
+        self.free_attached(
+            axis,
+            bending(across, motion.split.rate, splat(level, 1.0)),
+            motion.split.rate,
+            &SweepingNode {
+                rate: axis.n.dot(velocity) + other.reach(own - across),
+                distance: motion.split.arms(at) + other.radius(),
+                speed: self.other_speed,
+                own_rate: motion.other.rate,
+            },
+        )
+    }
+
+    /// Returns the times for which planes that turn with the other body keep the pairs apart.
+    #[inline(always)]
+    pub(crate) fn free_with_other(&self, axis: Axis<L>) -> f32x8<L> {
+        let (motion, children) = (self.motion, self.children);
+        let level = axis.n.level();
+        let at = children.centre(level);
+        let velocity = Vec3x8::splat(level, motion.velocity);
+        let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
+        let across = motion.other.across(axis.n);
+        let own = motion.split.across(axis.n);
+        self.free_attached(
+            axis,
+            bending(across, motion.other.rate, splat(level, 1.0)),
+            motion.other.rate,
+            &SweepingNode {
+                rate: axis.n.dot(velocity) + children.reach(own - across),
+                distance: motion.other.arms(at) + children.radius(level),
+                speed: self.speed,
+                own_rate: motion.split.rate,
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn free_attached(
+        &self,
+        axis: Axis<L>,
+        across: f32x8<L>,
+        spin: f32,
+        sweep: &SweepingNode<L>,
+    ) -> f32x8<L> {
+        let motion = self.motion;
+        let change = match motion.acceleration {
+            Some(acceleration) => acceleration.length() * BEND_F32,
+            None => 0.0,
+        };
+        let straight = motion.velocity.length() + change + motion.rate_slack;
+        let speed = sweep.speed + straight;
+        let far = sweep.distance + speed * ATTACHED_TIME;
+        let bend = across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate + change;
+        // Each sweep happens at the distance of its node from the turning body's centre.
+        let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
+        let free = clock::free_time(
+            axis.gap - motion.slack,
+            motion.closed,
+            sweep.rate + rate_slack,
+            bend * BEND_F32 + LEAST_BEND_F32,
+        );
+        free.min(ATTACHED_TIME)
+    }
+}

@@ -1,0 +1,241 @@
+//! A plane that turns with the body of one of the pieces.
+//!
+//! For a fixed plane the full speed of a turning piece's far rim counts, however small the other piece is. For a
+//! plane that turns with the body it does not count: the heights of the body's own piece are constant, and only the
+//! other piece sweeps towards the plane.
+//!
+//! A point of the other piece is at `D + r` from the turning body's centre: `D` leads to a point of
+//! reference that moves at `V`, and `r` turns about that point at `ω_s`. With `n' = ω×n`
+//! and `Δ = ω − ω_s`, the height `f = n·(D + r)` has `f' = (ω×n)·D + n·V + (Δ×n)·r` and `|f''| ≤
+//! |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r| + |V'|`, where `u` is the direction of `ω`.
+
+use crate::body::piece::Piece;
+use crate::math::order::lesser;
+use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::pose::Frame;
+use crate::motion::track::{Angle, Spinning};
+use crate::problem::Side;
+use crate::rounding::{RATE_F64, attached_rounding};
+use crate::tuning::{ATTACHED_TIME, AXIS_ROUNDS};
+use glam::DVec3;
+use std::cell::Cell;
+
+/// A piece of a body, and the body's position at a clock.
+pub(crate) struct Member<'p> {
+    pub(crate) side: &'p Side<'p>,
+    pub(crate) frame: &'p Frame,
+    pub(crate) piece: Piece<'p>,
+    pub(crate) clock: f64,
+    /// An upper bound of the rate at which any point rises relative to the first one, along any fixed axis.
+    pub(crate) swing: f64,
+}
+
+impl<'p> Member<'p> {
+    pub(crate) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
+        let swing = if side.path.turns() {
+            side.path.rate * piece.farthest_from(piece.points[0])
+        } else {
+            0.0
+        };
+        Member {
+            side,
+            frame,
+            piece,
+            clock,
+            swing,
+        }
+    }
+
+    /// Returns the bound of `swing` along one axis.
+    pub(crate) fn swing_about(&self, normal: DVec3) -> f64 {
+        let path = &self.side.path;
+        self.swing * path.spin.cross(normal).length() / path.rate
+    }
+}
+
+/// The moving piece of one body, seen from a plane that turns with the other body.
+pub(crate) struct SweepingPiece<'p> {
+    /// The vector `n`, and the `ω` at which it turns.
+    normal: Spinning,
+    unit: DVec3,
+    omega: f64,
+    /// The vectors `D` and `V` now, and a bound of `|V|` at all times.
+    way: DVec3,
+    velocity: DVec3,
+    speed: f64,
+    /// The vector `V'`, which is constant.
+    acceleration: DVec3,
+    /// The vector `ω_s`.
+    own_unit: DVec3,
+    own_omega: f64,
+    /// The vector `Δ`.
+    relative: DVec3,
+    piece: Piece<'p>,
+    frame: &'p Frame,
+    /// The end of `D` in the points' frame, and the largest distance of the points from it.
+    reference: DVec3,
+    radius: f64,
+    /// An upper bound of the points' distances from the turning body's centre, at any time.
+    reach: f64,
+    /// The displacement of points by rounding, for both bodies together.
+    misplaced: f64,
+    /// The number of times that the plane was followed past a point.
+    pub(crate) looks: Cell<u64>,
+}
+
+/// The terms of the points' heights and rates after some time: `height + axis·arm` and `rate +
+/// closing·arm`, with arms in their body's frame.
+struct Turned {
+    height: f64,
+    axis: DVec3,
+    rate: f64,
+    closing: DVec3,
+}
+
+impl<'p> SweepingPiece<'p> {
+    /// Creates the piece that sweeps past a plane which turns with the body of `holder`. The `normal` points from
+    /// that body to the other piece, and `rounding` is the problem's.
+    pub(crate) fn new(
+        holder: &Member<'_>,
+        other: &Member<'p>,
+        normal: DVec3,
+        rounding: f64,
+    ) -> Self {
+        let (path, own) = (&holder.side.path, &other.side.path);
+        // All points of a body that does not turn move alike, and one of the piece's own points is nearest.
+        let reference = if own.turns() {
+            own.centre
+        } else {
+            other.piece.points[0]
+        };
+        let way = other.frame.point(reference) - holder.frame.point(path.centre);
+        let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);
+        let acceleration = own.acceleration - path.acceleration;
+        let speed = velocity.length() + acceleration.length();
+        let radius = other.piece.farthest_from(reference);
+        SweepingPiece {
+            normal: Spinning::new(path.axis, normal),
+            unit: path.axis,
+            omega: path.rate,
+            way,
+            velocity,
+            speed,
+            acceleration,
+            own_unit: own.axis,
+            own_omega: own.rate,
+            relative: path.spin - own.spin,
+            piece: other.piece,
+            frame: other.frame,
+            reference,
+            radius,
+            reach: way.length() + speed + radius,
+            misplaced: rounding,
+            looks: Cell::new(0),
+        }
+    }
+
+    /// Returns a time for which the plane certainly keeps the required gap; `None` if it does up to the horizon. The
+    /// `slack` is the excess over that gap now.
+    pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
+        let (height, rate) = self.allowances();
+        let apart = slack - height - self.least();
+        first_crossing(horizon, AXIS_ROUNDS, |tau| {
+            self.looks.set(self.looks.get() + self.piece.looks());
+            let turned = self.turned(tau);
+            let bend = self.bend(tau);
+            let free = |axis: f64, closing: f64| {
+                let gap = Gap {
+                    gap: apart + (turned.height + axis),
+                    rate: rate - (turned.rate + closing),
+                    bend,
+                };
+                gap.free_time()
+            };
+            let least = match self.piece.ball() {
+                Some(_) => free(self.lowest(turned.axis), self.lowest(turned.closing)),
+                None => self
+                    .arms()
+                    .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
+                    .fold(f64::INFINITY, lesser),
+            };
+            // The bound of the second derivative holds for that long only.
+            lesser(f64::from(ATTACHED_TIME), least)
+        })
+    }
+
+    /// Bounds the rounding of changes of height, and of rates.
+    fn allowances(&self) -> (f64, f64) {
+        let turns = self.omega + self.own_omega;
+        let rounding = attached_rounding(turns);
+        let fastest = self.omega * self.reach + self.speed + self.own_omega * self.radius;
+        (
+            2.0 * self.misplaced + rounding * self.reach,
+            turns * self.misplaced + rounding * fastest,
+        )
+    }
+
+    /// Returns the least of the points' initial heights.
+    fn least(&self) -> f64 {
+        let Turned { height, axis, .. } = self.turned(0.0);
+        height + self.lowest(axis)
+    }
+
+    /// Returns the least height of the arms along a direction.
+    fn lowest(&self, direction: DVec3) -> f64 {
+        if self.piece.ball().is_some() {
+            let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
+            return direction.dot(lowest - self.reference);
+        }
+        let heights = self.arms().map(|arm| direction.dot(arm));
+        heights.fold(f64::INFINITY, lesser)
+    }
+
+    /// Returns the vectors from the point of reference to the points.
+    fn arms(&self) -> impl Iterator<Item = DVec3> {
+        let reference = self.reference;
+        self.piece.points.iter().map(move |&y| y - reference)
+    }
+
+    fn turned(&self, tau: f64) -> Turned {
+        let angle = Angle::new(self.omega * tau);
+        let own = Angle::new(self.own_omega * tau);
+        let axis = self.normal.at(angle);
+        let (way, velocity) = self.moved(tau);
+        let turning = self.normal.slope_at(angle) * self.omega;
+        // The vectors that multiply the arms are rotated backwards, rather than every arm.
+        let back = |v| {
+            let turned = Spinning::new(-self.own_unit, v).at(own);
+            self.frame.inverse_vector(turned)
+        };
+        Turned {
+            height: axis.dot(way),
+            axis: back(axis),
+            rate: turning.dot(way) + axis.dot(velocity),
+            closing: back(self.relative.cross(axis)),
+        }
+    }
+
+    /// Returns `D` and `V` after some time.
+    fn moved(&self, tau: f64) -> (DVec3, DVec3) {
+        let velocity = self.velocity + self.acceleration * (0.5 * tau);
+        (
+            self.way + velocity * tau,
+            self.velocity + self.acceleration * tau,
+        )
+    }
+
+    /// Bounds the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
+    fn bend(&self, tau: f64) -> f64 {
+        let (way, _) = self.moved(tau);
+        let arm = self.unit.cross(way).length() + self.speed * f64::from(ATTACHED_TIME);
+        let across = self.omega * (self.normal.slope() + RATE_F64);
+        let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
+        let bend = across * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
+            + relative * (across + self.own_omega) * self.radius
+            + self.acceleration.length();
+        bend * (1.0 + RATE_F64)
+    }
+}
+
+#[cfg(test)]
+mod tests;

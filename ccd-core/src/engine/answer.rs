@@ -1,0 +1,150 @@
+//! Runs a search under the query's policy for contacts at the start.
+
+mod given;
+
+use super::meter::Meter;
+use super::scratch::Scratch;
+use super::start::at_start;
+use crate::answer::{Answer, Outcome, Stats};
+use crate::distance::oracle::DistanceOracle;
+use crate::math::order::greater;
+use crate::problem::Problem;
+use crate::settings::StartPolicy;
+use crate::touching_plane::TouchingPlane;
+pub(crate) use given::{contact_of_given, of_given};
+
+/// Searches in order of time, under the query's policy for contacts at the start.
+///
+/// Bodies that begin in contact, under the policy `StartPolicy::Leave`, are searched again at half the gap that they
+/// began with. Pairs that part or slide keep more than that gap; pairs that approach do not. If there is no useful
+/// gap, each pair of pieces that rest on each other is let go by itself.
+///
+/// A search adds its work to the meter, which lends it the memory.
+pub(crate) fn answer<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    scratch: &mut Scratch,
+    search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+) -> Answer {
+    let as_found = |_: &Problem<'_>, _: &mut O, _: &mut Meter| None;
+    answer_after(problem, oracle, scratch, as_found, search)
+}
+
+/// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. Bodies that are to
+/// be let go are therefore examined first.
+pub(crate) fn answer_in_any_order<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    scratch: &mut Scratch,
+    search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+) -> Answer {
+    let at_start = |problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter| {
+        let beyond = problem.contact_distance().next_up();
+        at_start(problem, beyond, oracle, meter)
+    };
+    answer_after(problem, oracle, scratch, at_start, search)
+}
+
+/// Searches under the policy. For bodies that are to be let go, `look` examines the start first, and may return the
+/// answer.
+fn answer_after<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    scratch: &mut Scratch,
+    look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter) -> Option<Outcome>,
+    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+) -> Answer {
+    metered(problem, oracle, scratch, |oracle, meter| {
+        let outcome = match problem.start {
+            StartPolicy::Report => search(problem, oracle, meter),
+            StartPolicy::Leave => {
+                let problem = problem.reporting();
+                let seen = look(&problem, oracle, meter);
+                seen.unwrap_or_else(|| search(&problem, oracle, meter))
+            }
+        };
+        let parting = let_go(problem, problem.start, &outcome, oracle, meter);
+        let (outcome, tolerance) = match parting {
+            Some(problem) => {
+                let outcome = search(&problem, oracle, meter);
+                (outcome, shown(&problem, &outcome))
+            }
+            None => (outcome, problem.tolerance),
+        };
+        let within = problem.margin + tolerance;
+        (of_given(problem, oracle, meter, outcome, within), tolerance)
+    })
+    .answer()
+}
+
+/// Returns the problem of bodies that touch at the start and are to be let go; `None` for other bodies.
+pub(crate) fn let_go<'a, O: DistanceOracle>(
+    problem: &Problem<'a>,
+    start: StartPolicy,
+    outcome: &Outcome,
+    oracle: &mut O,
+    meter: &mut Meter,
+) -> Option<Problem<'a>> {
+    match (start, outcome) {
+        (StartPolicy::Leave, Outcome::Touching { contact }) => {
+            let (within, at_start) = (problem.contact_distance(), problem.time(0.0));
+            // The normal is needed here. That of two pieces alone may be arbitrary.
+            let contact = contact_of_given(problem, oracle, meter, *contact, within, at_start);
+            let gap = contact.separation.lower - problem.margin;
+            Some(problem.leaving(gap, TouchingPlane::of(problem, &contact)))
+        }
+        _ => None,
+    }
+}
+
+/// The result of a search, with its tolerance and the cost.
+pub(crate) struct Searched<T> {
+    pub(crate) found: T,
+    pub(crate) tolerance: f64,
+    pub(crate) stats: Stats,
+}
+
+impl Searched<Outcome> {
+    pub(crate) fn answer(self) -> Answer {
+        Answer {
+            outcome: self.found,
+            tolerance: self.tolerance,
+            stats: self.stats,
+        }
+    }
+}
+
+/// Runs a search, and adds its work to the meter. The search returns its result and the tolerance.
+pub(crate) fn metered<O: DistanceOracle, T>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    scratch: &mut Scratch,
+    solve: impl FnOnce(&mut O, &mut Meter) -> (T, f64),
+) -> Searched<T> {
+    let before = oracle.effort();
+    let mut meter = Meter::new(problem);
+    meter.scratch = scratch.take();
+    let (found, tolerance) = solve(oracle, &mut meter);
+    *scratch = meter.scratch.take();
+    Searched {
+        found,
+        tolerance,
+        stats: Stats {
+            effort: oracle.effort() - before,
+            ..meter.stats
+        },
+    }
+}
+
+/// Returns the tolerance that an outcome under `StartPolicy::Leave` achieves. Pieces that rest on each other count as
+/// in contact again once they cannot be proven apart, even if their distance is known less exactly than the least
+/// tolerance.
+pub(crate) fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
+    match outcome {
+        Outcome::Contact { contact, .. } => {
+            let shown = (contact.separation.upper - problem.margin).next_up();
+            greater(problem.tolerance, shown)
+        }
+        _ => problem.tolerance,
+    }
+}

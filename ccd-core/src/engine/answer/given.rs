@@ -1,0 +1,121 @@
+//! Translates answers about surfaces to the pieces that the surfaces bound.
+
+use crate::answer::{Contact, Outcome, Separation};
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::separation::support_gap;
+use crate::engine::meter::Meter;
+use crate::engine::pieces::meeting::Meeting;
+use crate::engine::pieces::pair;
+use crate::engine::pieces::snapshot::Snapshot;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{distance, unit};
+use crate::problem::Problem;
+use crate::rounding::{RESTING, is_blurred};
+
+/// Returns the outcome for the given bodies. The normal, the witnesses and the bounds of a contact
+/// are those of the pieces that it names.
+///
+/// Here `within` is the distance at which a contact was to be found.
+pub(crate) fn of_given<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    outcome: Outcome,
+    within: f64,
+) -> Outcome {
+    outcome.map_contacts(|contact, time| {
+        contact_of_given(problem, oracle, meter, contact, within, time)
+    })
+}
+
+/// Like [`of_given`] for the contact at a time.
+pub(crate) fn contact_of_given<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    contact: Contact,
+    within: f64,
+    time: f64,
+) -> Contact {
+    let s = problem.clock(time);
+    match problem.given() {
+        Some(given) => {
+            let contact = of_pieces(&given, oracle, meter, contact, within, s);
+            along_common_normal(&given, meter, contact, s)
+        }
+        None => along_common_normal(problem, meter, contact, s),
+    }
+}
+
+/// Returns the contact along a common normal of both surfaces, if its own normal is mostly rounding. Touching pieces
+/// may have normals that the rest of the surfaces does not have.
+fn along_common_normal(
+    problem: &Problem<'_>,
+    meter: &mut Meter,
+    contact: Contact,
+    s: f64,
+) -> Contact {
+    let Separation {
+        lower,
+        normal,
+        witness_a,
+        witness_b,
+        ..
+    } = contact.separation;
+    if !is_blurred(distance(witness_a, witness_b), problem.rounding) {
+        return contact;
+    }
+    let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, s);
+    let pieces = &snapshot.pieces;
+    // Rounded pieces are skipped: their cores are apart.
+    if pieces.a.radius + pieces.b.radius > 0.0 {
+        return contact;
+    }
+    let [frame, _] = &snapshot.frames;
+    let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.local(at)));
+    let meeting = Meeting::at(&snapshot, points, meter);
+    let Some(axis) = meeting.normal(frame.inverse_vector(normal)) else {
+        return contact;
+    };
+    let gap = support_gap(pieces, axis, points[0]) - problem.rounding;
+    // Overlapping pieces have no direction between them. Either direction may prove that they touch: an oracle that
+    // computes their nearest points up to rounding need not return a direction. Written so that NaN counts as an
+    // overlap.
+    if !(greater(lower, gap) >= -RESTING * problem.rounding) {
+        return contact;
+    }
+    Contact {
+        separation: Separation {
+            lower: lesser(lower, gap),
+            normal: unit(frame.rotation * axis).unwrap_or(normal),
+            ..contact.separation
+        },
+        ..contact
+    }
+}
+
+fn of_pieces<O: DistanceOracle>(
+    given: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    contact: Contact,
+    within: f64,
+    s: f64,
+) -> Contact {
+    let ids = [contact.piece_a, contact.piece_b];
+    let snapshot = Snapshot::new(given, ids[0], ids[1], s);
+    let bound = contact.separation.lower;
+    let checked = snapshot.ask(oracle, &mut O::Cache::default(), meter);
+    match checked.filter(|checked| checked.upper <= within) {
+        Some(checked) => pair::contact(&snapshot, ids, &checked).no_nearer_than(bound),
+        // The oracle finds less for the pieces than for their surfaces. The result for the surfaces remains, with the
+        // bounds that its normal proves for the pieces.
+        None => {
+            let axis = snapshot.frames[0].inverse_vector(contact.separation.normal);
+            let from = snapshot.frames[0].inverse_point(given.local(contact.separation.witness_a));
+            let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
+            contact
+                .no_nearer_than(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Best-first search: the pair whose proof expires first is examined next.
+
+use super::answer::answer;
+use super::meter::Meter;
+use super::proven::{Proven, free_at_once};
+use super::queue::Queue;
+use super::scratch::Scratch;
+use super::search::{Advance, Item, Question, Search};
+use super::solve::Solve;
+use crate::accelerate::rounds::in_rounds;
+use crate::answer::{Answer, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::problem::Problem;
+use std::ops::ControlFlow;
+
+/// Best-first search by time, the default.
+///
+/// A pair of nodes carries the clock until which it is proven apart. The pair of least clock is split at the pose of
+/// that clock, and its children are proven apart further, eight at once. The first pair of pieces found within the
+/// tolerance is the answer: every other pair is certified beyond its time. No step visits all pairs, and distances
+/// are computed between pieces only.
+///
+/// Keep the value between queries: it owns the queue's memory.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// let mut schedule = BestFirst::default();
+/// for speed in [1.0, 2.0] {
+///     let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, speed * DVec3::X, DVec3::ZERO)?;
+///     let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
+///     let outcome = schedule.first_contact(&query, &mut Balls)?.outcome;
+///     assert!(matches!(outcome, Outcome::Contact { time, .. } if (time - 2.0 / speed).abs() < 1e-3));
+/// }
+/// # Ok::<(), InputError>(())
+/// ```
+#[derive(Debug)]
+pub struct BestFirst<O: DistanceOracle> {
+    pub(crate) queue: Queue<Item<O::Cache>>,
+    pub(crate) scratch: Scratch,
+}
+
+impl<O: DistanceOracle> Default for BestFirst<O> {
+    fn default() -> Self {
+        BestFirst {
+            queue: Queue::default(),
+            scratch: None,
+        }
+    }
+}
+
+impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
+    fn takes_accelerations(&self) -> bool {
+        true
+    }
+
+    fn scratch(&mut self) -> &mut Scratch {
+        &mut self.scratch
+    }
+
+    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        let mut scratch = self.scratch.take();
+        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
+            in_rounds(problem, meter, |problem, meter| {
+                self.queue.clear();
+                let outcome = self.search(problem, oracle, meter);
+                let stats = &mut meter.stats;
+                stats.peak_front = stats.peak_front.max(self.queue.peak());
+                outcome
+            })
+        });
+        self.queue.clear();
+        self.scratch = scratch;
+        answer
+    }
+}
+
+impl<O: DistanceOracle> BestFirst<O> {
+    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
+        if let Some(free) = free_at_once(problem) {
+            return free;
+        }
+        let mut search = Search {
+            waiting: &mut self.queue,
+            oracle,
+            meter,
+        };
+        search.run(problem, &mut Proven::default())
+    }
+}
+
+/// The question of the first contact. All pairs are proven apart until the clock of the next one.
+impl<O: DistanceOracle> Question<O> for Proven {
+    type Found = Outcome;
+
+    #[inline]
+    fn arrive(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
+        if s > 0.0 {
+            self.past_start(problem)
+                .map_or(ControlFlow::Continue(()), ControlFlow::Break)
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn conclude(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        advance: Advance,
+    ) -> ControlFlow<Outcome, f64> {
+        let Advance { clock, step, .. } = advance;
+        Proven::conclude(self, problem, oracle, meter, step, clock)
+    }
+
+    fn stopped(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
+        Outcome::unresolved(problem.time(s), reason)
+    }
+
+    fn done(&mut self, problem: &Problem<'_>) -> Outcome {
+        self.end(problem)
+    }
+}
+
+#[cfg(test)]
+mod tests;

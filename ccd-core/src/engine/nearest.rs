@@ -1,0 +1,194 @@
+//! The distance of two bodies at one clock, by a search of the nearest pairs first.
+
+pub(crate) mod lists;
+
+use super::meter::Meter;
+use super::nodes::common::Common;
+use super::nodes::expand::measure;
+use super::nodes::siblings::{Next, Siblings};
+use super::pieces::pair::contact;
+use super::pieces::snapshot::Snapshot;
+use super::waiting::{Full, Rank, Waiting};
+use crate::answer::{Contact, Limit};
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::overlap::{self, Intersection};
+use crate::math::order::lesser;
+use crate::problem::Problem;
+use crate::rounding::NEAREST_SHARE;
+use lists::Lists;
+use std::ops::ControlFlow;
+
+/// A search for the nearest pieces. It splits the pair of nodes that may contain them, until no waiting pair can
+/// contain any that are nearer than those found.
+///
+/// Pairs that may intersect have no lower bound of their distance, and therefore come first.
+pub(crate) struct Nearest<'p> {
+    problem: &'p Problem<'p>,
+    common: Common<'p>,
+    clock: f64,
+    lists: &'p mut Lists,
+    /// Pairs at least this far apart are of no interest.
+    beyond: f64,
+    /// The two pieces with the least upper bound, by their indices in the problem, and their contact.
+    nearest: Option<([u32; 2], Contact)>,
+    /// A lower bound of the distance of all pieces that were measured or given up.
+    lower: f64,
+    /// True if for some pair it is undecided whether the pieces intersect.
+    pub(crate) undecided: bool,
+}
+
+/// The reason why a search ends before it has the distance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Stop {
+    /// These pieces intersect.
+    Overlap([u32; 2], Contact),
+    /// A limit was reached.
+    Limit(Limit),
+}
+
+impl<'p> Nearest<'p> {
+    /// Creates the search at a clock.
+    pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut Lists) -> Self {
+        Nearest {
+            problem,
+            common: Common::new(problem),
+            clock,
+            lists,
+            beyond: f64::INFINITY,
+            nearest: None,
+            lower: f64::INFINITY,
+            undecided: false,
+        }
+    }
+
+    /// Returns the search for only those pieces that are nearer than `beyond` to each other.
+    pub(crate) fn nearer_than(self, beyond: f64) -> Self {
+        Nearest { beyond, ..self }
+    }
+
+    /// Searches for the nearest pieces, unless an overlap or a limit ends the search.
+    ///
+    /// # Complexity
+    /// One distance of the bodies, and one visit for every pair of pieces that may intersect.
+    pub(crate) fn search<O: DistanceOracle>(
+        &mut self,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Option<Stop> {
+        self.run(oracle, meter).break_value()
+    }
+
+    fn run<O: DistanceOracle>(&mut self, oracle: &mut O, meter: &mut Meter) -> ControlFlow<Stop> {
+        let mut next = Some(Next::roots(self.problem));
+        while let Some(pair) = next {
+            if let Err(limit) = meter.visit(self.problem) {
+                return ControlFlow::Break(Stop::Limit(limit));
+            }
+            match pair {
+                Next::Split(split) => {
+                    let expansion = measure(&self.common, &split, self.clock);
+                    self.wait(Siblings::new(&expansion, split, 0.0))?;
+                }
+                Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
+            }
+            next = self.next();
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn wait(&mut self, siblings: Siblings) -> ControlFlow<Stop> {
+        let distance = siblings.clock();
+        if !(distance < self.upper()) {
+            return ControlFlow::Continue(());
+        }
+        match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(Full) => ControlFlow::Break(Stop::Limit(Limit::Budget)),
+        }
+    }
+
+    /// Returns the pair that may be the nearest; `None` when no pair can be nearer than the one found.
+    fn next(&mut self) -> Option<Next> {
+        let (upper, near_enough) = (self.upper(), self.near_enough());
+        let (distance, siblings) = self.lists.waiting.next()?;
+        // Pairs without a distance may intersect.
+        if distance > 0.0 && distance >= near_enough {
+            self.lower = lesser(self.lower, distance);
+            return None;
+        }
+        let next = siblings.take_least(self.problem, distance);
+        match siblings.clock() {
+            distance if distance < upper => self.lists.waiting.postpone(distance),
+            _ => self.lists.waiting.remove(),
+        }
+        Some(next)
+    }
+
+    /// Measures two pieces.
+    fn look<O: DistanceOracle>(
+        &mut self,
+        ids: [u32; 2],
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<Stop> {
+        let problem = self.problem;
+        let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
+        let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
+            return ControlFlow::Break(Stop::Limit(Limit::OracleGaveUp));
+        };
+        let inner = &mut meter.memory().inner;
+        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
+            Intersection::Certain => {
+                return ControlFlow::Break(Stop::Overlap(ids, contact(&snapshot, ids, &checked)));
+            }
+            Intersection::Undecided => self.undecided = true,
+            Intersection::None => {}
+        }
+        // Written so that NaN is not apart.
+        if !(checked.lower > 0.0) {
+            self.lists.touching.push(ids);
+        }
+        self.lower = lesser(self.lower, checked.lower);
+        if checked.upper < self.upper() {
+            self.nearest = Some((ids, contact(&snapshot, ids, &checked)));
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Returns an upper bound of the distances of interest.
+    fn upper(&self) -> f64 {
+        let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
+        self.nearest.map_or(self.beyond, upper)
+    }
+
+    /// Returns the distance at and beyond which pairs are not examined.
+    fn near_enough(&self) -> f64 {
+        let upper = self.upper();
+        if upper <= self.problem.contact_distance() {
+            upper * (1.0 - NEAREST_SHARE)
+        } else {
+            upper
+        }
+    }
+
+    /// Returns the nearest pieces, with a lower bound that holds for all; `None` if no pieces are of interest.
+    pub(crate) fn nearest(&self) -> Option<Contact> {
+        self.pieces().map(|(_, contact)| contact)
+    }
+
+    /// Like [`Nearest::nearest`], with the indices of the pieces in the problem.
+    pub(crate) fn pieces(&self) -> Option<([u32; 2], Contact)> {
+        self.nearest
+            .map(|(pieces, contact)| (pieces, contact.no_nearer_than(self.lower)))
+    }
+
+    /// Returns the nearest pieces, with a lower bound that holds for all. If a later claim of an oracle contradicts
+    /// an earlier one, these are the pieces `seen` in contact.
+    pub(crate) fn contact(&self, seen: Contact) -> Contact {
+        let within = self.problem.contact_distance();
+        let nearest = self
+            .nearest()
+            .filter(|nearest| nearest.separation.upper <= within);
+        nearest.unwrap_or(seen.no_nearer_than(self.lower))
+    }
+}

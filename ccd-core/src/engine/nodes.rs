@@ -1,0 +1,16 @@
+//! Pairs of nodes, eight at once, in f32.
+//!
+//! `expand.rs` splits a node, `bounds.rs` bounds its children against the other node, and the pairs wait together in
+//! `siblings.rs`.
+
+pub(crate) mod axis;
+mod bounds;
+pub(crate) mod clock;
+pub(crate) mod common;
+pub(crate) mod eight_pairs;
+pub(crate) mod expand;
+mod free_times;
+pub(crate) mod lanes;
+pub(crate) mod shape;
+pub(crate) mod siblings;
+mod turn;

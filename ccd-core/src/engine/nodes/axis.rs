@@ -1,0 +1,101 @@
+//! Separating axes of eight pairs of nodes.
+
+use super::lanes::{TINY, Vec3x8, choose, splat};
+use super::shape::{Children, OtherNode};
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+/// Eight axes, the gaps along them, and each side's extent towards the other.
+#[derive(Clone, Copy)]
+pub(crate) struct Axis<L: Simd> {
+    pub(crate) n: Vec3x8<L>,
+    pub(crate) gap: f32x8<L>,
+    pub(crate) split_reach: f32x8<L>,
+    pub(crate) other_reach: f32x8<L>,
+}
+
+/// Returns the best of three axes for each pair: the one between the centres, or the edges of triangles, and the
+/// normals of the two nodes.
+///
+/// The result is homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
+#[inline(always)]
+pub(crate) fn widest<L: Simd, C: Children, P: OtherNode>(
+    children: &C,
+    other: &P,
+    way: Vec3x8<L>,
+) -> Axis<L> {
+    let level = way.level();
+    let between = children.way_to(other.way_near(way));
+    let between = along(children, other, way, between);
+    let own = towards(children.normal(level), way);
+    let own = Axis::new(own, way, children.reach_along_normal(own), other.reach(own));
+    let others = towards(Vec3x8::splat(level, other.normal()), way);
+    let reach = other.reach_along_normal(others);
+    let others = Axis::new(others, way, children.reach(others), reach);
+    // The gap along the axis between the nodes is available last.
+    better(better(own, others), between)
+}
+
+/// Returns the axis between the centres at the time when they are nearest, if they move by at most `travel`.
+#[inline(always)]
+pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
+    children: &C,
+    other: &P,
+    way: Vec3x8<L>,
+    travel: Vec3x8<L>,
+) -> Axis<L> {
+    let nearest = way.dot(travel) / travel.dot(travel).max(TINY);
+    let nearest = nearest.min(1.0).max(0.0);
+    along(children, other, way, way - travel * nearest)
+}
+
+/// Returns axes along vectors of any length.
+///
+/// The gaps are measured before the vectors are made unit vectors: a root and a quotient take as long as the
+/// measurement.
+#[inline(always)]
+pub(crate) fn along<L: Simd, C: Children, P: OtherNode>(
+    children: &C,
+    other: &P,
+    way: Vec3x8<L>,
+    v: Vec3x8<L>,
+) -> Axis<L> {
+    let axis = Axis::new(v, way, children.reach(v), other.reach(v));
+    let unit = v.reciprocal_length();
+    Axis {
+        n: v * unit,
+        gap: axis.gap * unit,
+        split_reach: axis.split_reach * unit,
+        other_reach: axis.other_reach * unit,
+    }
+}
+
+impl<L: Simd> Axis<L> {
+    #[inline(always)]
+    fn new(n: Vec3x8<L>, way: Vec3x8<L>, split_reach: f32x8<L>, other_reach: f32x8<L>) -> Self {
+        Axis {
+            n,
+            gap: n.dot(way) - split_reach - other_reach,
+            split_reach,
+            other_reach,
+        }
+    }
+}
+
+/// Returns `n` or `−n`, whichever points along `way`.
+#[inline(always)]
+pub(crate) fn towards<L: Simd>(n: Vec3x8<L>, way: Vec3x8<L>) -> Vec3x8<L> {
+    let level = n.level();
+    let away = n.dot(way).simd_lt(0.0);
+    n * away.select(splat(level, -1.0), splat(level, 1.0))
+}
+
+#[inline(always)]
+fn better<L: Simd>(a: Axis<L>, b: Axis<L>) -> Axis<L> {
+    let pick = b.gap.simd_gt(a.gap);
+    Axis {
+        n: choose(pick, b.n, a.n),
+        gap: pick.select(b.gap, a.gap),
+        split_reach: pick.select(b.split_reach, a.split_reach),
+        other_reach: pick.select(b.other_reach, a.other_reach),
+    }
+}

@@ -1,0 +1,130 @@
+//! Bounds for eight pairs of nodes at once: lower bounds of their distances, and times for which they stay apart.
+//!
+//! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
+//! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
+
+use super::axis::{self, Axis};
+use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
+use super::free_times::FreeTimes;
+use super::lanes::splat;
+use super::shape::{Children, OtherNode};
+use crate::tuning::{LOOK_AGAIN, SWEPT, THICKNESS};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+
+/// The bounds of eight pairs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    /// The time for which each pair is certainly farther apart than the required gap.
+    pub(crate) free: FreeTimes,
+    /// The pairs that are far apart for their size: a second visit after their time is worth more than a split.
+    pub(crate) waits: u8,
+    /// The pairs whose child is thicker along the axis than the other node, and can be split.
+    pub(crate) thicker: u8,
+    /// True if the other node is a single piece.
+    pub(crate) whole: bool,
+}
+
+/// Bounds the pairs that are in `lanes`.
+///
+/// Fixed planes are perpendicular to two axes: the one with the widest gap now, and the one between the centres at
+/// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
+/// much larger, planes that turn with the body of these nodes are tried, too.
+#[inline(always)]
+pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
+    level: L,
+    children: &C,
+    other: &P,
+    motion: &RelativeMotionF32,
+    lanes: u8,
+) -> Bounds {
+    let pairs = EightPairs::new(level, children, other, motion);
+    let widest = axis::widest(children, other, pairs.way);
+    let travel = pairs.velocity * splat(level, motion.horizon);
+    let passing = axis::passing(children, other, pairs.way, travel);
+    let radius = children.radius(level);
+    let waits = widest.gap - motion.slack - (radius + other.radius()) * LOOK_AGAIN;
+    let thicker = (widest.split_reach + radius * THICKNESS)
+        - (widest.other_reach + THICKNESS * other.radius());
+    let mut free = pairs.free(widest).max(pairs.free(passing));
+    let mut waits = bits(waits.simd_gt(0.0));
+    if let Some(past) = Past::new(&pairs, widest) {
+        free = free.max(past.attached);
+        waits |= bits(past.waits(free, widest.gap - motion.slack));
+    }
+    let thicker = if other.is_piece() {
+        u8::MAX
+    } else {
+        bits(thicker.simd_gt(0.0))
+    };
+    Bounds {
+        free: FreeTimes::pack(free, lanes),
+        waits,
+        thicker: thicker & !bits(children.pieces(level)),
+        whole: other.is_piece(),
+    }
+}
+
+#[inline(always)]
+fn bits<L: Simd>(mask: mask32x8<L>) -> u8 {
+    mask.to_bitmask() as u8
+}
+
+/// A small node that passes a much larger, turning one.
+struct Past<L: Simd> {
+    /// The time for which a plane that turns with the large node keeps the pair apart.
+    attached: f32x8<L>,
+    /// The angular velocity of the large node's body, and the distance of the small node from that body's centre.
+    spin: f32,
+    arm: f32x8<L>,
+    /// The radii.
+    large: f32x8<L>,
+    small: f32x8<L>,
+    /// Set if the large node cannot be split. Then only the size of the small node decides whether it is far.
+    whole: mask32x8<L>,
+}
+
+impl<L: Simd> Past<L> {
+    /// Returns `None` if neither side is much larger and turns.
+    #[inline(always)]
+    fn new<C: Children, P: OtherNode>(
+        pairs: &EightPairs<'_, L, C, P>,
+        axis: Axis<L>,
+    ) -> Option<Self> {
+        let EightPairs {
+            children,
+            other,
+            motion,
+            ..
+        } = *pairs;
+        let level = pairs.level();
+        match motion.larger? {
+            Larger::Split => Some(Past {
+                attached: pairs.free_with_split(axis),
+                spin: motion.split.rate,
+                arm: splat(level, motion.split.arm(other.centre())),
+                large: children.radius(level),
+                small: splat(level, other.radius()),
+                whole: children.pieces(level),
+            }),
+            Larger::Other => Some(Past {
+                attached: pairs.free_with_other(axis),
+                spin: motion.other.rate,
+                arm: motion.other.arms(children.centre(level)),
+                large: splat(level, other.radius()),
+                small: children.radius(level),
+                whole: mask32x8::splat(level, other.is_piece()),
+            }),
+        }
+    }
+
+    /// Returns the pairs for which a second visit is worth more than a split.
+    #[inline(always)]
+    fn waits(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
+        let swept = free * self.spin * self.arm - self.large * SWEPT;
+        let clear = apart - self.small * LOOK_AGAIN;
+        swept.simd_gt(0.0) | self.whole & clear.simd_gt(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

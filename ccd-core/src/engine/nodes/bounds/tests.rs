@@ -1,0 +1,365 @@
+//! The planes alone: every gap, rate and time in f32, compared with f64 along the same axis.
+
+mod setting;
+mod shares;
+mod splits;
+mod worst;
+
+use super::*;
+use crate::body::tree::LANES;
+use crate::engine::nodes::axis::Axis;
+use crate::engine::nodes::clock;
+use crate::engine::nodes::lanes::{Vec3x8, load};
+use crate::math::order::{greater, lesser};
+use crate::settings::Instructions;
+use crate::tests::scene::{Pcg64, RngExt, direction, rng};
+use crate::tuning::{ATTACHED_TIME, MUCH_LARGER};
+use crate::vectorize;
+use fearless_simd::Level;
+use glam::{DQuat, DVec3, Vec3};
+use setting::{Setting, Shape};
+
+/// Some points, and the motion of their body.
+struct Solid {
+    points: Vec<DVec3>,
+    /// The centre of rotation.
+    centre: DVec3,
+    spin: DVec3,
+}
+
+impl Solid {
+    /// Returns `max n·x(τ)`, or `min` with a negative sign, at `τ` on.
+    fn highest(&self, n: DVec3, tau: f64) -> f64 {
+        let turn = DQuat::from_scaled_axis(self.spin * tau);
+        let heights = self.points.iter().map(|&x| n.dot(turn * (x - self.centre)));
+        heights.fold(f64::NEG_INFINITY, greater) + n.dot(self.centre)
+    }
+
+    /// Returns the greatest rate at which a point rises along `n` now, due to turning.
+    fn fastest(&self, n: DVec3) -> f64 {
+        let m = n.cross(self.spin);
+        let rates = self.points.iter().map(|&x| m.dot(x - self.centre));
+        rates.fold(f64::NEG_INFINITY, greater)
+    }
+
+    /// Returns the largest second derivative along `n` at any time.
+    fn bend(&self, n: DVec3) -> f64 {
+        let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
+        n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
+    }
+
+    fn far(&self) -> f64 {
+        let reach = self.points.iter().map(|x| x.length()).fold(0.0, greater);
+        (reach + 2.0 * self.centre.length()) * (1.0 + self.spin.length())
+    }
+}
+
+/// A group and another node, in f32 and in f64; `P` and `C` as in the bounds.
+struct Sample<C, P> {
+    group: C,
+    other: P,
+    motion: RelativeMotionF32,
+    /// The gap to be kept: the slack minus the rounding of a gap.
+    kept: f64,
+    /// The error of a gap for which the slack allows.
+    allowed: f32,
+    children: Vec<Solid>,
+    far: Solid,
+    /// The velocity of the children's centre of rotation relative to the other's, and the derivative of that
+    /// velocity.
+    velocity: DVec3,
+    acceleration: DVec3,
+}
+
+/// The largest error among the samples, as a share of its allowance.
+#[derive(Debug, Default)]
+struct Worst {
+    support: f64,
+    rate: f64,
+    across: f64,
+    clock: f64,
+    /// The smallest excess of a gap over the gap to be kept at the end of a free time, relative to that at the start.
+    tightest: f64,
+    /// The number of free times of fixed planes, and of turning ones.
+    still: usize,
+    attached: usize,
+    /// The number of free times beside bodies that accelerate, and of infinite ones.
+    accelerating: usize,
+    for_good: usize,
+}
+
+#[test]
+fn planes_hold_and_allowances_suffice_for_boxes() {
+    let mut rng = rng(1);
+    let mut worst = Worst::new();
+    for _ in 0..6_000 {
+        let other = Shape::new(&mut rng);
+        let sample = Setting::new(&mut rng, &other).boxes(&mut rng, &other);
+        sample.audit(&mut rng, &mut worst);
+    }
+    worst.assert();
+}
+
+#[test]
+fn planes_hold_and_allowances_suffice_for_triangles() {
+    let mut rng = rng(2);
+    let mut worst = Worst::new();
+    for _ in 0..6_000 {
+        let other = Shape::new(&mut rng).triangle();
+        let sample = Setting::new(&mut rng, &other).triangles(&mut rng, &other);
+        sample.audit(&mut rng, &mut worst);
+    }
+    worst.assert();
+}
+
+/// The values that the bounds compute along one axis, before they become eight free times: one number for each child.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    axis: [[f32; LANES]; 3],
+    gap: [f32; LANES],
+    rate: [f32; LANES],
+    /// The lengths of `n × ω` for the split and the other body.
+    across: [[f32; LANES]; 2],
+    /// The free times of planes that are fixed, or turn with the split or the other body.
+    free: [[f32; LANES]; 3],
+}
+
+impl Found {
+    fn normal(&self, lane: usize) -> DVec3 {
+        DVec3::from_array(self.axis.map(|row| row[lane].into()))
+    }
+
+    /// Returns all numbers; NaN values count as equal.
+    fn numbers(&self) -> Vec<Option<f32>> {
+        let rows = [
+            &self.axis[..],
+            &self.free,
+            &self.across,
+            &[self.gap, self.rate],
+        ];
+        let all = rows.concat().concat();
+        all.into_iter()
+            .map(|x| (!x.is_nan()).then_some(x))
+            .collect()
+    }
+}
+
+impl Worst {
+    fn new() -> Self {
+        Worst {
+            tightest: f64::INFINITY,
+            ..Worst::default()
+        }
+    }
+
+    fn assert(&self) {
+        assert!(self.support < 1.0, "{self:?}");
+        assert!(self.rate < 1.0, "{self:?}");
+        assert!(self.across < 1.0, "{self:?}");
+        assert!(self.clock < 1.0, "{self:?}");
+        // Samples that come nowhere near the bounds would prove nothing.
+        assert!(self.tightest < 0.01, "{self:?}");
+        assert!(self.still > 20_000 && self.attached > 2_000, "{self:?}");
+        assert!(self.accelerating > 5_000 && self.for_good > 500, "{self:?}");
+    }
+}
+
+/// Computes along three axes: two that the bounds try, and an arbitrary one.
+///
+/// Nothing is inlined: in one function without vectors, the compiler would take minutes.
+fn find<L: Simd, C: Children, P: OtherNode>(
+    level: L,
+    sample: &Sample<C, P>,
+    some: Vec3,
+) -> [Found; 3] {
+    let pairs = sample.pairs(level);
+    let some = axis::towards(Vec3x8::splat(level, some), pairs.way);
+    let axes = [
+        widest(&pairs),
+        passing(&pairs),
+        axis::along(pairs.children, pairs.other, pairs.way, some),
+    ];
+    axes.map(|axis| along(&pairs, axis))
+}
+
+type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
+
+#[inline(never)]
+fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
+    axis::widest(pairs.children, pairs.other, pairs.way)
+}
+
+#[inline(never)]
+fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
+    let travel = pairs.velocity * splat(pairs.way.level(), pairs.motion.horizon);
+    axis::passing(pairs.children, pairs.other, pairs.way, travel)
+}
+
+#[inline(never)]
+fn along<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>, axis: Axis<L>) -> Found {
+    let motion = pairs.motion;
+    let (m, o) = (motion.split.across(axis.n), motion.other.across(axis.n));
+    let rate = axis.n.dot(pairs.velocity) + pairs.children.reach(m) + pairs.other.reach(o);
+    Found {
+        axis: [*axis.n.x, *axis.n.y, *axis.n.z],
+        gap: *axis.gap,
+        rate: *rate,
+        across: [*m.length(), *o.length()],
+        free: [
+            free(pairs, axis),
+            free_with_split(pairs, axis),
+            free_with_other(pairs, axis),
+        ],
+    }
+}
+
+#[inline(never)]
+fn free<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> [f32; LANES] {
+    *pairs.free(axis)
+}
+
+#[inline(never)]
+fn free_with_split<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> [f32; LANES] {
+    *pairs.free_with_split(axis)
+}
+
+#[inline(never)]
+fn free_with_other<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> [f32; LANES] {
+    *pairs.free_with_other(axis)
+}
+
+/// Returns the free times for the rates, with other second derivatives.
+fn clocks(
+    level: Level,
+    aparts: &[f32; LANES],
+    rates: &[f32; LANES],
+    bends: &[f32; LANES],
+    closed: f32,
+) -> [f32; LANES] {
+    vectorize!(level, level => {
+        let [apart, rate, bend] = [load(level, aparts), load(level, rates), load(level, bends)];
+        *clock::free_time(apart, closed, rate, bend)
+    })
+}
+
+impl<C: Children, P: OtherNode> Sample<C, P> {
+    #[inline(never)]
+    fn pairs<L: Simd>(&self, level: L) -> Pairs<'_, L, C, P> {
+        EightPairs::new(level, &self.group, &self.other, &self.motion)
+    }
+
+    fn audit(&self, rng: &mut Pcg64, worst: &mut Worst) {
+        // Axes may have any length.
+        let some = direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
+        let found = self.found_on_all_levels(some);
+        let reach = vectorize!(Instructions::Best.level(), level => {
+            *(self.group.centre(level).length() + self.group.radius(level))
+        });
+        let reach = reach.into_iter().fold(0.0, greater);
+        for found in &found {
+            self.sample_allowances(found, worst);
+            self.check_still(found, worst);
+            if reach > MUCH_LARGER * self.other.radius() {
+                self.check_attached(found, Larger::Split, worst);
+            } else if self.other.radius() > MUCH_LARGER * reach {
+                self.check_attached(found, Larger::Other, worst);
+            }
+        }
+    }
+
+    /// Checks that all vector instructions of this machine compute the same as none.
+    fn found_on_all_levels(&self, some: Vec3) -> [Found; 3] {
+        let [best, baseline] = [Instructions::Best, Instructions::Baseline]
+            .map(|instructions| vectorize!(instructions.level(), level => find(level, self, some)));
+        for (best, baseline) in best.iter().zip(&baseline) {
+            assert_eq!(best.numbers(), baseline.numbers(), "{:?}", self.motion);
+        }
+        best
+    }
+
+    /// Compares each rounded quantity with the same in f64.
+    fn sample_allowances(&self, found: &Found, worst: &mut Worst) {
+        let frees = self.clocks(found);
+        for lane in 0..self.children.len() {
+            let of = self.shares(found, &frees, lane);
+            worst.support = greater(worst.support, of.support);
+            worst.rate = greater(worst.rate, of.rate);
+            worst.across = greater(worst.across, of.across);
+            worst.clock = greater(worst.clock, of.clock);
+        }
+    }
+
+    fn travel(&self, tau: f64) -> DVec3 {
+        (self.velocity + self.acceleration * (0.5 * tau)) * tau
+    }
+
+    /// Checks that a fixed plane keeps the pair apart for its whole free time.
+    fn check_still(&self, found: &Found, worst: &mut Worst) {
+        let [free, ..] = found.free;
+        for (lane, free) in free.into_iter().enumerate() {
+            let n = found.normal(lane);
+            let gap = |tau: f64| {
+                let child = self.children[lane].highest(n, tau) + n.dot(self.travel(tau));
+                (-self.far.highest(-n, tau) - child) / n.length()
+            };
+            worst.still += usize::from(self.check(lane, free, gap, worst));
+        }
+    }
+
+    /// Checks that a plane that turns with one of the bodies keeps the pair apart, too.
+    fn check_attached(&self, found: &Found, with: Larger, worst: &mut Worst) {
+        let [_, with_split, with_other] = found.free;
+        let free = match with {
+            Larger::Split => with_split,
+            Larger::Other => with_other,
+        };
+        for (lane, child) in self.children.iter().enumerate() {
+            assert!(free[lane] <= ATTACHED_TIME);
+            let spin = match with {
+                Larger::Split => child.spin,
+                Larger::Other => self.far.spin,
+            };
+            let gap = |tau: f64| {
+                let n = DQuat::from_scaled_axis(spin * tau) * found.normal(lane);
+                let top = child.highest(n, tau) + n.dot(self.travel(tau));
+                (-self.far.highest(-n, tau) - top) / n.length()
+            };
+            worst.attached += usize::from(self.check(lane, free[lane], gap, worst));
+        }
+    }
+
+    /// Returns whether there was a free time to check.
+    fn check(&self, lane: usize, free: f32, gap: impl Fn(f64) -> f64, worst: &mut Worst) -> bool {
+        assert!(free >= 0.0, "{:?}", self.motion);
+        if free == 0.0 {
+            return false;
+        }
+        let kept = self.kept;
+        let travel = self.velocity.length() + self.acceleration.length();
+        let size = self.children[lane].far() + self.far.far() + travel;
+        let until = lesser(1.0, f64::from(free));
+        for k in 0..=16 {
+            let tau = until * f64::from(k) / 16.0;
+            let found = gap(tau);
+            assert!(
+                found >= kept - 1e-14 * size,
+                "{found:e} at {tau:e} of {free:e}, {kept:e} promised; {:?}",
+                self.motion,
+            );
+        }
+        worst.accelerating += usize::from(self.motion.acceleration.is_some());
+        worst.for_good += usize::from(free == f32::INFINITY);
+        let rest = (gap(until) - kept) / (gap(0.0) - kept);
+        worst.tightest = lesser(worst.tightest, rest);
+        true
+    }
+}

@@ -1,0 +1,278 @@
+//! Random groups and nodes that meet, in f64 and rounded as in an expansion.
+
+use super::{Sample, Solid};
+use crate::body::tree::{
+    Below, BoxGroup, LANES, Node, TriangleGroup, TriangleRow, unit_normal, up,
+};
+use crate::engine::nodes::eight_pairs::RelativeMotionF32;
+use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
+use crate::engine::nodes::turn::Turn;
+use crate::math::order::greater;
+use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
+use crate::tests::scene::{RngExt, direction, magnitude, rotation, within};
+use glam::{DMat3, DVec3, Vec3};
+
+fn spin(rng: &mut impl RngExt) -> DVec3 {
+    if rng.random_bool(0.7) {
+        direction(rng) * magnitude(rng, -3.0, 1.6)
+    } else {
+        DVec3::ZERO
+    }
+}
+
+/// Returns the centre of rotation of a body with nodes of this size at a place.
+fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
+    let reach = size * magnitude(rng, -1.0, 4.0);
+    if rng.random_bool(0.3) {
+        at
+    } else {
+        at + within(rng, reach)
+    }
+}
+
+/// The points of a node in its body's frame.
+pub(super) struct Shape {
+    points: Vec<DVec3>,
+    node: Node,
+}
+
+impl Shape {
+    /// Creates a box of any proportions, a needle, or a tiny one.
+    pub(super) fn new(rng: &mut impl RngExt) -> Self {
+        let size = magnitude(rng, -4.0, 4.0);
+        Shape::of_size(rng, size, DVec3::ZERO)
+    }
+
+    fn of_size(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
+        let frame = DMat3::from_quat(rotation(rng));
+        let mut ratio = || match rng.random_range(0..3) {
+            0 => 1e-7,
+            _ => rng.random_range(0.1..1.0),
+        };
+        let half = size * DVec3::new(1.0, ratio(), ratio());
+        let corner = |k: usize| {
+            let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            centre + frame * (half * DVec3::new(sign(0), sign(1), sign(2)))
+        };
+        let points: Vec<DVec3> = (0..8).map(corner).collect();
+        let axes = [frame.x_axis, frame.y_axis, frame.z_axis].map(DVec3::as_vec3);
+        let farthest = |measure: &dyn Fn(DVec3) -> f64| {
+            up(points
+                .iter()
+                .map(|&p| measure(p - centre))
+                .fold(0.0, greater))
+            .next_up()
+        };
+        let node = Node {
+            centre,
+            axes,
+            half: axes.map(|u| farthest(&|way| way.dot(u.as_dvec3()).abs())),
+            rounding: 0.0,
+            radius: farthest(&DVec3::length),
+            below: Below::Boxes(0),
+        };
+        Shape { points, node }
+    }
+
+    /// Returns the triangle of three of the shape's corners, about their mean. The node still contains it.
+    pub(super) fn triangle(mut self) -> Self {
+        self.points.truncate(3);
+        let mean = (self.points[0] + self.points[1] + self.points[2]) / 3.0;
+        for point in &mut self.points {
+            *point -= mean;
+        }
+        self
+    }
+}
+
+/// The pose of the other node, and the motions of both bodies.
+pub(super) struct Setting {
+    /// The rotation from the other body's frame to the split body's.
+    turn: DMat3,
+    place: DVec3,
+    /// The children's size, and the position of the group in the split body's frame.
+    size: f64,
+    origin: DVec3,
+    velocity: DVec3,
+    acceleration: Option<DVec3>,
+    spins: [DVec3; 2],
+    centres: [DVec3; 2],
+}
+
+impl Setting {
+    pub(super) fn new(rng: &mut impl RngExt, other: &Shape) -> Self {
+        let radius = f64::from(other.node.radius);
+        let size = radius * magnitude(rng, -3.0, 3.0);
+        // The distance is mostly near; otherwise so near, or so far, that one kind of rounding dominates.
+        let far = match rng.random_range(0..5) {
+            0 => magnitude(rng, -3.0, 0.0),
+            1 => magnitude(rng, 0.0, 4.0),
+            _ => rng.random_range(0.5..4.0),
+        } * (radius + size);
+        let place = direction(rng) * far;
+        let fast = far * magnitude(rng, -3.0, 2.0);
+        let offset = size * magnitude(rng, 0.0, 6.0);
+        Setting {
+            turn: DMat3::from_quat(rotation(rng)),
+            place,
+            size,
+            origin: within(rng, offset),
+            velocity: if rng.random_bool(0.8) {
+                direction(rng) * fast
+            } else {
+                DVec3::ZERO
+            },
+            acceleration: rng
+                .random_bool(0.4)
+                .then(|| direction(rng) * far * magnitude(rng, -3.0, 2.0)),
+            spins: [spin(rng), spin(rng)],
+            centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
+        }
+    }
+
+    /// Returns the size of the children.
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Returns the setting with the other node at a distance in units of both sizes.
+    pub(super) fn at_distance(self, far: f64, other: &Shape) -> Self {
+        let far = far * (f64::from(other.node.radius) + self.size);
+        Setting {
+            place: self.place / self.place.length() * far,
+            ..self
+        }
+    }
+
+    /// Returns the setting in which only the other node turns, about a point at `arm` from its middle.
+    pub(super) fn turning_in_place(self, spin: DVec3, arm: DVec3) -> Self {
+        Setting {
+            velocity: DVec3::ZERO,
+            spins: [DVec3::ZERO, spin],
+            centres: [DVec3::ZERO, self.place + arm],
+            ..self
+        }
+    }
+
+    fn child(&self, points: &[DVec3]) -> Solid {
+        Solid {
+            points: points.iter().map(|&p| p - self.origin).collect(),
+            centre: self.centres[0],
+            spin: self.spins[0],
+        }
+    }
+
+    fn far(&self, other: &Shape) -> Solid {
+        Solid {
+            points: other
+                .points
+                .iter()
+                .map(|&p| self.turn * p + self.place)
+                .collect(),
+            centre: self.centres[1],
+            spin: self.spins[1],
+        }
+    }
+
+    fn child_shape(&self, rng: &mut impl RngExt) -> Shape {
+        let size = self.size * magnitude(rng, -2.0, 0.0);
+        let centre = self.origin + within(rng, self.size);
+        Shape::of_size(rng, size, centre)
+    }
+
+    pub(super) fn boxes(&self, rng: &mut impl RngExt, other: &Shape) -> Sample<BoxGroup, OtherBox> {
+        let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();
+        let nodes: Vec<Node> = shapes.iter().map(|s| s.node.clone()).collect();
+        let group = BoxGroup::new(&nodes, 0, self.origin);
+        let children = shapes.iter().map(|s| self.child(&s.points)).collect();
+        let [x, y, z] = [self.turn.x_axis, self.turn.y_axis, self.turn.z_axis].map(DVec3::as_vec3);
+        let node = &other.node;
+        let boxed = OtherBox {
+            centre: (self.turn * node.centre + self.place).as_vec3(),
+            axes: node.axes.map(|u| x * u.x + y * u.y + z * u.z),
+            half: node.half,
+            rounding: node.rounding,
+            radius: node.radius,
+            piece: false,
+        };
+        let reach = group.members.reach;
+        self.sample(group, boxed, reach, children, self.far(other))
+    }
+
+    pub(super) fn triangles(
+        &self,
+        rng: &mut impl RngExt,
+        other: &Shape,
+    ) -> Sample<TriangleGroup, OtherTriangle> {
+        let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();
+        let corners: Vec<[DVec3; 3]> = shapes
+            .iter()
+            .map(|s| [s.points[0], s.points[1], s.points[6]])
+            .collect();
+        let row = TriangleRow::new(&corners, 0, self.origin);
+        let group = TriangleGroup::new(&row, &corners);
+        let children = corners.iter().map(|t| self.child(t)).collect();
+        let far = self.far(other);
+        let [a, b, c] = [far.points[0], far.points[1], far.points[2]];
+        let centre = (a + b + c) / 3.0;
+        let arms = [a - centre, b - centre, c - centre];
+        let triangle = OtherTriangle {
+            centre: centre.as_vec3(),
+            corners: arms.map(DVec3::as_vec3),
+            normal: unit_normal([a, b, c]),
+            radius: up(arms.map(DVec3::length).into_iter().fold(0.0, greater)).next_up(),
+        };
+        let reach = group.members.reach;
+        self.sample(group, triangle, reach, children, far)
+    }
+
+    /// Returns a sample with the allowances of an expansion.
+    fn sample<C, P: OtherNode>(
+        &self,
+        group: C,
+        other: P,
+        reach: f32,
+        children: Vec<Solid>,
+        far: Solid,
+    ) -> Sample<C, P> {
+        let turning = |k: usize| Turn {
+            turns: true,
+            spin: self.spins[k].as_vec3(),
+            rate: up(self.spins[k].length()),
+            centre: self.centres[k].as_vec3(),
+        };
+        let (split, turning_far) = (turning(0), turning(1));
+        let velocity = self.velocity.as_vec3();
+        let [x, y, z] = other.centre().abs().to_array();
+        let allowed = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
+        let places = other.centre().length() + turning_far.arm(Vec3::ZERO);
+        let far_arm = turning_far.arm(other.centre()) + PLACES as f32 * places;
+        let change = self.acceleration.unwrap_or(DVec3::ZERO).as_vec3();
+        let speed = velocity.length()
+            + change.length()
+            + split.rate * (reach + split.arm(Vec3::ZERO))
+            + turning_far.rate * (other.radius() + far_arm);
+        let kept = 1e-3 * other.radius();
+        Sample {
+            motion: RelativeMotionF32 {
+                velocity,
+                acceleration: self.acceleration.map(|change| change.as_vec3()),
+                split,
+                other: turning_far,
+                horizon: 1.0,
+                slack: (kept + allowed).next_up(),
+                closed: LEAST_GAP_F32,
+                rate_slack: RATE_F32 * speed,
+                larger: None,
+            },
+            group,
+            other,
+            kept: f64::from(kept),
+            allowed,
+            children,
+            far,
+            velocity: self.velocity,
+            acceleration: self.acceleration.unwrap_or(DVec3::ZERO),
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The errors of bounds, as shares of their allowances.
+
+use super::{Found, Sample, clocks};
+use crate::body::tree::LANES;
+use crate::engine::nodes::shape::{Children, OtherNode};
+use crate::math::order::greater;
+use crate::rounding::{ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_BEND_F32};
+use crate::settings::Instructions;
+use crate::tests::worst::share;
+
+/// The values of an axis for eight pairs: the gaps, second derivatives and free times.
+pub(super) struct Clocks {
+    pub(super) apart: [f32; LANES],
+    pub(super) bend: [f32; LANES],
+    pub(super) free: [f32; LANES],
+}
+
+/// The shares of the allowances that the errors of one pair take along one axis.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Shares {
+    pub(super) support: f64,
+    pub(super) rate: f64,
+    pub(super) across: f64,
+    pub(super) clock: f64,
+}
+
+/// Returns the share of [`CLOCK_F32`] that the error of a free time takes.
+pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
+    let [free, apart, rate, bend] = numbers.map(f64::from);
+    let root = (rate * rate + 2.0 * bend * apart).sqrt();
+    let exact = if rate > 0.0 {
+        2.0 * apart / (rate + root)
+    } else {
+        (root - rate) / bend
+    };
+    let factor = f64::from(CLOCK_F32);
+    share(free / factor / exact - 1.0, 1.0 - factor)
+}
+
+impl<C: Children, P: OtherNode> Sample<C, P> {
+    /// Returns the free times for the gaps and rates of an axis, with exact second derivatives.
+    pub(super) fn clocks(&self, found: &Found) -> Clocks {
+        let apart = found.gap.map(|gap| gap - self.motion.slack);
+        let bend = std::array::from_fn(|lane| {
+            let n = found.normal(lane);
+            (self.children[lane].bend(n) + self.far.bend(n)) as f32 + LEAST_BEND_F32
+        });
+        let closed = self.motion.closed;
+        let level = Instructions::Best.level();
+        Clocks {
+            free: clocks(level, &apart, &found.rate, &bend, closed),
+            apart,
+            bend,
+        }
+    }
+
+    /// Returns the shares of the allowances that the errors of a lane take.
+    pub(super) fn shares(&self, found: &Found, clocks: &Clocks, lane: usize) -> Shares {
+        let (motion, child) = (&self.motion, &self.children[lane]);
+        let (n, rate) = (found.normal(lane), found.rate[lane]);
+        let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
+        let below = exact - f64::from(rate);
+        let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
+        let above = f64::from(found.gap[lane]) - gap;
+        let mut shares = Shares {
+            support: share(above, self.allowed.into()),
+            rate: share(below, motion.rate_slack.into()),
+            ..Shares::default()
+        };
+        let turning = [(motion.split, child), (motion.other, &self.far)];
+        for ((turning, body), length) in turning.iter().zip(found.across) {
+            let across = n.cross(body.spin).length();
+            let found = length[lane] * BEND_F32;
+            let of = share(
+                across - f64::from(found),
+                (ACROSS_F32 * turning.rate).into(),
+            );
+            shares.across = greater(shares.across, of);
+        }
+        let free = clocks.free[lane];
+        if free > 0.0 && free < 1e30 {
+            shares.clock = share_of_clock([free, clocks.apart[lane], rate, clocks.bend[lane]]);
+        }
+        shares
+    }
+}

@@ -1,0 +1,186 @@
+//! The choice of the pairs that wait for a second visit, and of the node of a pair to split, compared with the same
+//! in f64.
+
+use super::setting::{Setting, Shape};
+use super::{Sample, find, widest};
+use crate::body::tree::LANES;
+use crate::engine::nodes::bounds::{Bounds, bound};
+use crate::engine::nodes::eight_pairs::Larger;
+use crate::engine::nodes::shape::{Children, OtherNode};
+use crate::math::order::greater;
+use crate::settings::Instructions;
+use crate::tests::scene::{Pcg64, RngExt, rng};
+use crate::tuning::{LOOK_AGAIN, MUCH_LARGER, SWEPT, THICKNESS};
+use crate::vectorize;
+use fearless_simd::{Simd, prelude::*};
+use glam::Vec3;
+
+/// The values of eight pairs, one number for each.
+struct Rows {
+    radius: [f32; LANES],
+    /// The distances from the other body's centre of rotation.
+    arms: [f32; LANES],
+    split_reach: [f32; LANES],
+    other_reach: [f32; LANES],
+    gap: [f32; LANES],
+    /// The times of the two fixed planes, and of the planes that turn with the split and the other body.
+    free: [[f32; LANES]; 4],
+    pieces: u8,
+    found: Bounds,
+}
+
+#[inline(never)]
+fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -> Bounds {
+    bound(level, &sample.group, &sample.other, &sample.motion, u8::MAX)
+}
+
+impl<C: Children, P: OtherNode> Sample<C, P> {
+    fn rows(&self) -> Rows {
+        let level = Instructions::Best.level();
+        let [along, passing, _] = vectorize!(level, level => find(level, self, Vec3::X));
+        vectorize!(level, level => {
+            let axis = widest(&self.pairs(level));
+            Rows {
+                radius: *self.group.radius(level),
+                arms: *self.motion.other.arms(self.group.centre(level)),
+                split_reach: *axis.split_reach,
+                other_reach: *axis.other_reach,
+                gap: along.gap,
+                free: [along.free[0], passing.free[0], along.free[1], along.free[2]],
+                pieces: self.group.pieces(level).to_bitmask() as u8,
+                found: bounds(level, self),
+            }
+        })
+    }
+
+    /// Returns the setting with the much larger side recorded, if there is one.
+    fn beside_a_larger_one(mut self) -> Self {
+        let level = Instructions::Best.level();
+        let radii = vectorize!(level, level => *self.group.radius(level));
+        let reach = radii.into_iter().fold(0.0, greater);
+        let other = self.other.radius();
+        self.motion.larger = match (reach > MUCH_LARGER * other, other > MUCH_LARGER * reach) {
+            (true, _) => Some(Larger::Split),
+            (_, true) => Some(Larger::Other),
+            _ => None,
+        };
+        self
+    }
+}
+
+/// Returns whether one number is greater than another; `None` within rounding.
+fn exceeds(one: f64, other: f64) -> Option<bool> {
+    let near = 1e-4 * (one.abs() + other.abs());
+    ((one - other).abs() > near).then_some(one > other)
+}
+
+/// The numbers of decisions against and for.
+#[derive(Debug, Default)]
+struct Decisions {
+    waits: [usize; 2],
+    swept: [usize; 2],
+    thicker: [usize; 2],
+}
+
+impl Decisions {
+    fn check<C: Children, P: OtherNode>(&mut self, sample: &Sample<C, P>) {
+        let rows = sample.rows();
+        for lane in 0..LANES {
+            let waits = rows.found.waits >> lane & 1 == 1;
+            let thicker = rows.found.thicker >> lane & 1 == 1;
+            if let Some(expected) = rows.waits(lane, sample) {
+                assert_eq!(waits, expected, "{:?} of {:?}", rows.found, sample.motion);
+                match sample.motion.larger {
+                    Some(_) => self.swept[usize::from(waits)] += 1,
+                    None => self.waits[usize::from(waits)] += 1,
+                }
+            }
+            if let Some(expected) = rows.thicker(lane, sample) {
+                assert_eq!(thicker, expected, "{:?}", rows.found);
+                self.thicker[usize::from(thicker)] += 1;
+            }
+        }
+    }
+}
+
+impl Rows {
+    fn waits<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
+        let motion = &sample.motion;
+        let (radius, other) = (
+            f64::from(self.radius[lane]),
+            f64::from(sample.other.radius()),
+        );
+        let apart = f64::from(self.gap[lane]) - f64::from(motion.slack);
+        let clear_of = |size: f64| exceeds(apart, size * f64::from(LOOK_AGAIN));
+        let far = clear_of(radius + other);
+        let free = |row: usize| f64::from(self.free[row][lane]);
+        let fixed = greater(free(0), free(1));
+        let swept = |free: f64, rate: f32, arm: f32, large: f64| {
+            exceeds(
+                free * f64::from(rate) * f64::from(arm),
+                large * f64::from(SWEPT),
+            )
+        };
+        let (swept, past) = match motion.larger {
+            None => (Some(false), Some(false)),
+            Some(Larger::Split) => {
+                let arm = motion.split.arm(sample.other.centre());
+                let whole = self.pieces >> lane & 1 == 1;
+                (
+                    swept(greater(fixed, free(2)), motion.split.rate, arm, radius),
+                    if whole { clear_of(other) } else { Some(false) },
+                )
+            }
+            Some(Larger::Other) => {
+                let (rate, whole) = (motion.other.rate, sample.other.is_piece());
+                (
+                    swept(greater(fixed, free(3)), rate, self.arms[lane], other),
+                    if whole { clear_of(radius) } else { Some(false) },
+                )
+            }
+        };
+        let all = [far, swept, past];
+        if all.contains(&Some(true)) {
+            Some(true)
+        } else {
+            all.iter().all(Option::is_some).then_some(false)
+        }
+    }
+
+    fn thicker<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
+        let thick = |reach: f32, radius: f32| f64::from(reach) + f64::from(THICKNESS * radius);
+        let split = thick(self.split_reach[lane], self.radius[lane]);
+        let other = thick(self.other_reach[lane], sample.other.radius());
+        match (self.pieces >> lane & 1 == 1, sample.other.is_piece()) {
+            (true, _) => Some(false),
+            (false, true) => Some(true),
+            (false, false) => exceeds(split, other),
+        }
+    }
+}
+
+#[test]
+fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
+    let (mut rng, mut decisions) = (rng(3), Decisions::default());
+    let mut check = |rng: &mut Pcg64| {
+        let other = Shape::new(rng);
+        let mut boxes = Setting::new(rng, &other).boxes(rng, &other);
+        boxes.other.piece = rng.random_bool(0.3);
+        decisions.check(&boxes);
+        decisions.check(&boxes.beside_a_larger_one());
+        let other = Shape::new(rng).triangle();
+        let triangles = Setting::new(rng, &other).triangles(rng, &other);
+        decisions.check(&triangles);
+        decisions.check(&triangles.beside_a_larger_one());
+    };
+    for _ in 0..1_000 {
+        check(&mut rng);
+    }
+    let Decisions {
+        waits,
+        swept,
+        thicker,
+    } = decisions;
+    let each = [waits, swept, thicker].concat();
+    assert!(each.iter().all(|&count| count > 500), "{each:?}");
+}

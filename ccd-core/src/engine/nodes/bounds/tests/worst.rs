@@ -1,0 +1,244 @@
+//! The allowances of the bounds in f32, in the worst cases that a search finds, with every set of vector
+//! instructions that this machine has.
+//!
+//! References are in f64, whose own error is a five hundred millionth of that of f32.
+
+use super::setting::{Setting, Shape};
+use super::shares::{Shares, share_of_clock};
+use super::{Found, Sample, clocks};
+use crate::body::tree::LANES;
+use crate::engine::nodes::lanes::Vec3x8;
+use crate::engine::nodes::shape::{Children, OtherNode};
+use crate::math::order::greater;
+use crate::rounding::{
+    ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_AXIS_F32, LEAST_BEND_F32, LEAST_GAP_F32, U32,
+};
+use crate::settings::Instructions;
+use crate::tests::scene::{RngExt, direction, magnitude};
+use crate::tests::worst::{Tape, Worst, share};
+use crate::vectorize;
+use glam::{DVec3, Vec3};
+
+/// A search for the worst share of one allowance, in settings that it draws.
+#[derive(Clone, Copy)]
+struct Search {
+    name: [&'static str; 2],
+    setting: fn(&mut Tape, &Shape) -> Setting,
+    share: fn(&Shares) -> f64,
+    looseness: f64,
+}
+
+impl Search {
+    /// Searches nodes with boxes, and then triangles.
+    fn run(self) {
+        let boxes = Worst::of(self.name[0], 3_000).search(|tape| {
+            let other = Shape::new(tape);
+            let sample = (self.setting)(tape, &other).boxes(tape, &other);
+            Some(self.share_of(tape, &sample))
+        });
+        boxes.is_within(self.looseness);
+        let triangles = Worst::of(self.name[1], 3_000).search(|tape| {
+            let other = Shape::new(tape).triangle();
+            let sample = (self.setting)(tape, &other).triangles(tape, &other);
+            Some(self.share_of(tape, &sample))
+        });
+        triangles.is_within(self.looseness);
+    }
+
+    /// Returns the largest share among eight pairs and three axes.
+    fn share_of<C: Children, P: OtherNode>(self, tape: &mut Tape, sample: &Sample<C, P>) -> f64 {
+        let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
+        let of = |found: &Found, lane: usize| {
+            (self.share)(&sample.shares(found, &sample.clocks(found), lane))
+        };
+        let found = sample.found_on_all_levels(some);
+        let all = found
+            .iter()
+            .flat_map(|axis| (0..LANES).map(move |k| of(axis, k)));
+        all.fold(f64::NEG_INFINITY, greater)
+    }
+}
+
+/// The nodes are far: the contribution of their size is less than a hundredth of the allowance.
+#[test]
+fn way_f32() {
+    Search {
+        name: ["WAY_F32, boxes", "WAY_F32, triangles"],
+        setting: |tape, other| {
+            let far = magnitude(tape, 3.0, 5.0);
+            Setting::new(tape, other).at_distance(far, other)
+        },
+        share: |of| of.support,
+        looseness: 12.0,
+    }
+    .run();
+}
+
+/// The nodes are near: the contribution of their distance is less than a hundredth of the allowance.
+#[test]
+fn reach_f32() {
+    Search {
+        name: ["REACH_F32, boxes", "REACH_F32, triangles"],
+        setting: |tape, other| {
+            let far = magnitude(tape, -5.0, -2.0);
+            Setting::new(tape, other).at_distance(far, other)
+        },
+        share: |of| of.support,
+        looseness: 40.0,
+    }
+    .run();
+}
+
+#[test]
+fn rate_f32() {
+    Search {
+        name: ["RATE_F32, boxes", "RATE_F32, triangles"],
+        setting: Setting::new,
+        share: |of| of.rate,
+        looseness: 40.0,
+    }
+    .run();
+}
+
+/// A node turns about its own middle far from the group. Its speed is tiny, except for the share of its position.
+#[test]
+fn places() {
+    Search {
+        name: ["PLACES of RATE_F32, boxes", "PLACES of RATE_F32, triangles"],
+        setting: |tape, other| {
+            let (far, spin) = (magnitude(tape, 3.0, 5.0), direction(tape));
+            let setting = Setting::new(tape, other).at_distance(far, other);
+            let arm = direction(tape) * setting.size();
+            setting.turning_in_place(spin * magnitude(tape, -3.0, 1.6), arm)
+        },
+        share: |of| of.rate,
+        looseness: 40.0,
+    }
+    .run();
+}
+
+/// Returns the values of a function of eight numbers each, and checks that all instructions give the same.
+fn on_all_levels<T: PartialEq + std::fmt::Debug>(of: impl Fn(fearless_simd::Level) -> T) -> T {
+    let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(|set| of(set.level()));
+    assert_eq!(best, baseline);
+    best
+}
+
+/// Returns the lengths of the cross products of two vectors.
+fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
+    let rows = [0, 1, 2].map(|k| n.map(|n| n[k]));
+    on_all_levels(|level| {
+        vectorize!(level, level => {
+            *Vec3x8::load(level, &rows).cross(Vec3x8::splat(level, spin)).length()
+        })
+    })
+}
+
+/// Returns eight rounded axes, and an angular velocity.
+fn turned(tape: &mut Tape) -> Option<([DVec3; LANES], DVec3)> {
+    let spin = DVec3::from(tape.vector(-20..=5));
+    let aside = tape.size(-30..=0);
+    let axes = [(); LANES].map(|()| match tape.pick(2) {
+        0 => direction(tape),
+        // The axis is next to parallel.
+        _ => (spin.normalize_or(DVec3::X) + direction(tape) * aside).normalize(),
+    });
+    (spin.length() > 1e-6).then_some((axes, spin))
+}
+
+#[test]
+fn across_f32() {
+    let found = Worst::of("ACROSS_F32", 40_000).search(|tape| {
+        let (axes, spin) = turned(tape)?;
+        let lengths = across(axes.map(DVec3::as_vec3), spin.as_vec3());
+        let allowed = f64::from(ACROSS_F32) * spin.length();
+        let error = |k: usize| axes[k].cross(spin).length() - f64::from(lengths[k]);
+        let errors = (0..LANES).map(|k| share(error(k), allowed));
+        Some(errors.fold(f64::NEG_INFINITY, greater))
+    });
+    found.is_within(8.0);
+}
+
+/// The product has two factors, neither of which is much shorter than the greatest possible length.
+#[test]
+fn bend_f32() {
+    let found = Worst::of("BEND_F32", 40_000).search(|tape| {
+        let (axes, spin) = turned(tape)?;
+        let arms = [(); LANES].map(|()| direction(tape));
+        let [one, other] = [axes, arms].map(|of| across(of.map(DVec3::as_vec3), spin.as_vec3()));
+        let share = |k: usize| {
+            let exact = [axes[k], arms[k]].map(|n| n.cross(spin).length());
+            let long = exact.iter().all(|&length| length > 0.5 * spin.length());
+            let lost = exact[0] * exact[1] - f64::from(one[k] * other[k]);
+            let allowed = f64::from(BEND_F32) - 1.0;
+            long.then(|| share(lost / (exact[0] * exact[1]), allowed))
+        };
+        let all = (0..LANES).filter_map(share);
+        Some(all.fold(f64::NEG_INFINITY, greater)).filter(|share| share.is_finite() || *share > 0.0)
+    });
+    found.is_within(40.0);
+}
+
+#[test]
+fn clock_f32() {
+    let found = Worst::of("CLOCK_F32", 40_000).search(|tape| {
+        let row = |tape: &mut Tape, of: fn(&mut Tape) -> f64| [(); LANES].map(|()| of(tape) as f32);
+        let apart = row(tape, |tape| tape.size(-30..=30));
+        let rate = row(tape, |tape| tape.any(-30..=30));
+        let bend = row(tape, |tape| tape.size(-30..=30));
+        let free = on_all_levels(|level| clocks(level, &apart, &rate, &bend, LEAST_GAP_F32));
+        let shares = (0..LANES).map(|k| share_of_clock([free[k], apart[k], rate[k], bend[k]]));
+        Some(shares.fold(f64::NEG_INFINITY, greater))
+    });
+    found.is_within(16.0);
+}
+
+/// The underflow of a gap just above the least one takes less than the rounding of its time. The gap is that used up
+/// at the end of a free time, or of the duration.
+#[test]
+fn least_gap_f32() {
+    let found = Worst::of("LEAST_GAP_F32", 40_000).search(|tape| {
+        let row = |tape: &mut Tape, of: fn(&mut Tape) -> f64| [(); LANES].map(|()| of(tape) as f32);
+        let apart = row(tape, |tape| {
+            f64::from(LEAST_GAP_F32.next_up()) * tape.size(0..=40) + tape.size(-120..=-90)
+        });
+        let rate = row(tape, |tape| tape.any(-120..=-30));
+        let bend = row(tape, |tape| {
+            tape.size(-120..=-30) + f64::from(LEAST_BEND_F32)
+        });
+        let free = on_all_levels(|level| clocks(level, &apart, &rate, &bend, LEAST_GAP_F32));
+        let share = |k: usize| {
+            let until = if free[k] < 1.0 { free[k] } else { 1.0 };
+            let [until, apart, rate, bend] = [until, apart[k], rate[k], bend[k]].map(f64::from);
+            let used = (rate * until + 0.5 * bend * until * until) / apart;
+            // The time at which no gap is left is later by the factor; a curved gap by twice the factor.
+            share(
+                used - 1.0 + 2.0 * f64::from(1.0 - CLOCK_F32),
+                2.0 * f64::from(1.0 - CLOCK_F32),
+            )
+        };
+        Some((0..LANES).map(share).fold(f64::NEG_INFINITY, greater))
+    });
+    found.is_within(16.0);
+}
+
+/// The vectors are just long enough for an axis: their lengths are off by no more than those of longer ones.
+#[test]
+fn least_axis_f32() {
+    let found = Worst::of("LEAST_AXIS_F32", 40_000).search(|tape| {
+        let v = [(); LANES].map(|()| DVec3::from(tape.vector(-79..=-58)).as_vec3());
+        let rows = [0, 1, 2].map(|k| v.map(|v| v[k]));
+        let inverse = on_all_levels(
+            |level| vectorize!(level, level => *Vec3x8::load(level, &rows).reciprocal_length()),
+        );
+        let share = |k: usize| {
+            // Only vectors that are used count.
+            let off = |inverse: f64| (v[k].as_dvec3().length() * inverse - 1.0).abs();
+            share(off(inverse[k].into()), 4.0 * f64::from(U32))
+        };
+        let used = (0..LANES).filter(|&k| inverse[k] > 0.0);
+        assert!(used.clone().all(|k| v[k].length() > LEAST_AXIS_F32));
+        Some(used.map(share).fold(0.0, greater))
+    });
+    found.is_within(4.0);
+}

@@ -1,0 +1,62 @@
+//! The times for which gaps stay open, in f32.
+
+use super::lanes::splat;
+use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
+use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
+
+/// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for NaN, and for a pair that is apart by at most
+/// `closed`, even if it recedes.
+#[inline(always)]
+pub(crate) fn free_time<L: Simd>(
+    apart: f32x8<L>,
+    closed: f32,
+    rate: f32x8<L>,
+    bend: f32x8<L>,
+) -> f32x8<L> {
+    let root = (rate * rate + bend * 2.0 * apart).sqrt();
+    let approaching = apart * (2.0 * CLOCK_F32) / (rate + root);
+    let receding = (root - rate) / (bend * (1.0 / CLOCK_F32));
+    let tau = rate.simd_gt(0.0).select(approaching, receding);
+    // An overflowed root proves nothing.
+    let proven = apart.simd_gt(closed) & tau.simd_gt(0.0) & root.simd_le(f32::MAX);
+    proven.select(tau, splat(apart.token(), 0.0))
+}
+
+/// Like `free_time`, for a second derivative `bend` of either sign: a gap that closes ever slower may never close.
+#[inline(always)]
+pub(crate) fn parting_free_time<L: Simd>(
+    apart: f32x8<L>,
+    closed: f32,
+    rate: f32x8<L>,
+    bend: f32x8<L>,
+) -> f32x8<L> {
+    let level = apart.token();
+    let bends = free_time(apart, closed, rate, bend.max(LEAST_BEND_F32));
+    let (square, lost) = (rate * rate, bend * -2.0 * apart);
+    // A sum that is lost to rounding or to underflow counts as zero.
+    let left = (square - lost) + (square + lost) * (16.0 * U32) + f32::MIN_POSITIVE;
+    let meets = rate.simd_gt(0.0) & left.simd_ge(0.0);
+    let closing = apart * (2.0 * CLOCK_F32) / (rate + left.sqrt());
+    let parts = meets.select(closing, splat(level, f32::INFINITY));
+    // Written so that neither NaN nor an overflow proves anything.
+    let known = square.simd_le(f32::MAX) & lost.simd_le(f32::MAX);
+    let proven = apart.simd_gt(closed) & known & rate.simd_le(f32::MAX);
+    let parts = proven.select(parts, splat(level, 0.0));
+    bend.simd_lt(0.0).select(parts, bends)
+}
+
+/// Like `free_time`, for a straight path.
+#[inline(always)]
+pub(crate) fn straight_free_time<L: Simd>(
+    apart: f32x8<L>,
+    closed: f32,
+    rate: f32x8<L>,
+) -> f32x8<L> {
+    let level = apart.token();
+    // Written so that NaN proves nothing.
+    let tau = rate
+        .simd_le(0.0)
+        .select(splat(level, f32::INFINITY), apart / rate);
+    let proven = apart.simd_gt(closed) & tau.simd_gt(0.0);
+    proven.select(tau * CLOCK_F32, splat(level, 0.0))
+}

@@ -1,0 +1,91 @@
+//! Values that all pairs of nodes of a query share.
+
+use crate::body::tree::up;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{distance, length};
+use crate::motion::relative::View;
+use crate::problem::{Problem, Side, Which};
+use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32};
+use crate::tuning::CLOSED_GAP;
+use glam::Vec3;
+use std::cell::OnceCell;
+
+/// A query, with the numbers that every visit needs, rounded to f32 where visits compute in f32.
+#[derive(Debug)]
+pub(crate) struct Common<'p> {
+    pub(crate) problem: &'p Problem<'p>,
+    /// B as seen from A, and A as seen from B. Each is computed at the first split of its body: queries of a few
+    /// pieces need neither.
+    views: [OnceCell<View>; 2],
+    /// The angular velocities of A and of B along their own axes, and the angular speeds, rounded up; `None` for a
+    /// body that does not turn.
+    spins: [Option<(Vec3, f32)>; 2],
+    /// The gap that all clocks prove, rounded up.
+    pub(crate) gap: f32,
+    /// The gap that the clocks of pairs of nodes aim for, rounded up.
+    pub(crate) node_gap: f32,
+    /// The rounding of distances in f64, rounded up.
+    pub(crate) rounding: f32,
+    /// A bound of the rounding of a rate.
+    pub(crate) rate_slack: f32,
+    /// A gap above the slack by at most this counts as closed.
+    pub(crate) closed: f32,
+}
+
+/// Bounds the speeds whose difference is a rate. The rounding of the positions of arms adds a share.
+fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
+    let straight = length(b.path.velocity - a.path.velocity)
+        + length(b.path.acceleration - a.path.acceleration);
+    let turning = |own: &Side<'_>, other: &Side<'_>| {
+        // An arm is the difference of two positions, each rounded at its place, as seen from a group of the other
+        // body. That group is in a ball which moves straight, and turns with its body.
+        let (ball, radius) = other.body.tree().ball();
+        let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
+        let start = distance(other.path.start_of(ball), own.path.centre_at(0.0));
+        let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
+        own.path.rate * (reach(own) + PLACES * places)
+    };
+    straight + turning(a, b) + turning(b, a)
+}
+
+/// Bounds the distance of any point of any node from the body's centre of rotation. The points of a node are within
+/// the diameter of the whole body from the node's centre, and that is in a cube around the body.
+fn reach(side: &Side<'_>) -> f64 {
+    let (centre, radius) = side.body.tree().ball();
+    centre.distance(side.path.centre) + 4.0 * radius
+}
+
+impl<'p> Common<'p> {
+    pub(crate) fn new(problem: &'p Problem<'_>) -> Self {
+        Common {
+            problem,
+            views: [const { OnceCell::new() }; 2],
+            spins: [&problem.a.path, &problem.b.path].map(|path| {
+                path.turns()
+                    .then(|| (path.spin_local.as_vec3(), up(path.rate)))
+            }),
+            gap: up(problem.gap()),
+            node_gap: up(problem.node_gap()),
+            rounding: up(problem.rounding),
+            rate_slack: RATE_F32 * up(speed(&problem.a, &problem.b)),
+            closed: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
+        }
+    }
+
+    /// Returns the other body as seen from this one.
+    #[inline(always)]
+    pub(crate) fn view_from(&self, body: Which) -> &View {
+        let path = |body: Which| &body.of(self.problem).path;
+        self.views[body as usize].get_or_init(|| View::new(path(body), path(body.other())))
+    }
+
+    /// Returns the angular velocity of a body along its own axes, and its angular speed, rounded up; `None` if the
+    /// body does not turn.
+    #[inline(always)]
+    pub(crate) fn spin(&self, body: Which) -> Option<(Vec3, f32)> {
+        self.spins[body as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests;

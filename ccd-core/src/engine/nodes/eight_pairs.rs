@@ -1,0 +1,125 @@
+//! The children of a group, each paired with one node of the other body, and their closing rates.
+
+use super::axis::Axis;
+use super::clock;
+use super::lanes::{Vec3x8, splat};
+use super::shape::{Children, OtherNode};
+use super::turn::Turn;
+use crate::rounding::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
+use fearless_simd::{Simd, f32x8};
+use glam::Vec3;
+
+/// The relative motion shared by all lanes, in f32, with allowances for rounding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RelativeMotionF32 {
+    /// The velocity of the split side's centre minus that of the other side's.
+    pub(crate) velocity: Vec3,
+    /// The derivative of the velocity, if the centres accelerate differently.
+    pub(crate) acceleration: Option<Vec3>,
+    pub(crate) split: Turn,
+    pub(crate) other: Turn,
+    /// The time left.
+    pub(crate) horizon: f32,
+    /// The gap to be kept, plus the rounding of a gap.
+    pub(crate) slack: f32,
+    /// A gap above the slack by at most this counts as closed.
+    pub(crate) closed: f32,
+    /// A bound of the rounding of a rate.
+    pub(crate) rate_slack: f32,
+    pub(crate) larger: Option<Larger>,
+}
+
+/// The side that turns and whose nodes are much larger than the other's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Larger {
+    Split,
+    Other,
+}
+
+/// The children of a group, each with the other node.
+pub(crate) struct EightPairs<'a, L: Simd, C, P> {
+    pub(crate) children: &'a C,
+    pub(crate) other: &'a P,
+    pub(crate) motion: &'a RelativeMotionF32,
+    /// The vectors from the children's centres to the other node's centre.
+    pub(crate) way: Vec3x8<L>,
+    /// The velocities of the children's centres relative to the other's.
+    pub(crate) velocity: Vec3x8<L>,
+    /// Upper bounds of the speeds of the children's points due to turning.
+    pub(crate) speed: f32x8<L>,
+    /// The velocity of the other node's centre due to turning.
+    pub(crate) other_turning: Vec3x8<L>,
+    /// An upper bound of the speeds of the other node's points due to turning.
+    pub(crate) other_speed: f32x8<L>,
+}
+
+impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
+    #[inline(always)]
+    pub(crate) fn level(&self) -> L {
+        self.way.level()
+    }
+
+    #[inline(always)]
+    pub(crate) fn new(
+        level: L,
+        children: &'a C,
+        other: &'a P,
+        motion: &'a RelativeMotionF32,
+    ) -> Self {
+        let (centre, other_centre) = (children.centre(level), Vec3x8::splat(level, other.centre()));
+        let turning = motion.split.velocity(centre);
+        let other_turning = motion.other.velocity(other_centre);
+        let velocity = Vec3x8::splat(level, motion.velocity);
+        EightPairs {
+            children,
+            other,
+            motion,
+            way: other_centre - centre,
+            velocity: velocity + turning - other_turning,
+            // A slack on the speeds covers the rounding of the second derivatives.
+            speed: turning.length()
+                + children.radius(level) * motion.split.rate
+                + motion.rate_slack,
+            other_turning,
+            other_speed: other_turning.length()
+                + motion.other.rate * other.radius()
+                + motion.rate_slack,
+        }
+    }
+
+    /// Returns the times for which fixed planes, perpendicular to the axes, keep the pairs apart.
+    #[inline(always)]
+    pub(crate) fn free(&self, axis: Axis<L>) -> f32x8<L> {
+        let motion = self.motion;
+        // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
+        let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
+        let mut bend = splat(axis.n.level(), LEAST_BEND_F32);
+        if motion.split.turns {
+            let m = motion.split.across(axis.n);
+            rate += self.children.reach(m);
+            bend += bending(m, motion.split.rate, self.speed);
+        }
+        if motion.other.turns {
+            let m = motion.other.across(axis.n);
+            rate += self.other.reach(m);
+            bend += bending(m, motion.other.rate, self.other_speed);
+        }
+        let apart = axis.gap - motion.slack;
+        if let Some(acceleration) = motion.acceleration {
+            let along = axis.n.dot(Vec3x8::splat(axis.n.level(), acceleration));
+            let rounding = splat(axis.n.level(), RATE_F32 * acceleration.length());
+            clock::parting_free_time(apart, motion.closed, rate, bend + along + rounding)
+        } else if motion.split.turns || motion.other.turns {
+            clock::free_time(apart, motion.closed, rate, bend)
+        } else {
+            clock::straight_free_time(apart, motion.closed, rate)
+        }
+    }
+}
+
+/// Returns a bound of the second derivative along `n` of points that turn at a rate of `|ω|`, at `speed` at most; `m`
+/// is `n × ω`.
+#[inline(always)]
+pub(crate) fn bending<L: Simd>(m: Vec3x8<L>, rate: f32, speed: f32x8<L>) -> f32x8<L> {
+    (m.length() * BEND_F32 + ACROSS_F32 * rate) * speed
+}

@@ -1,0 +1,292 @@
+//! The heights of a piece's points along a fixed axis.
+
+use crate::body::piece::Piece;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
+use crate::motion::pose::Frame;
+use crate::motion::track::{Angle, AxisMotion, Spinning, Track};
+use crate::problem::Side;
+use crate::rounding::{RATE_F64, TURNED_SUPPORT};
+use glam::DVec3;
+
+/// The heights of a piece's points along an axis while their body moves.
+///
+/// Few points are followed one by one. Of many points, only two are computed: the lowest one along the axis, as the
+/// body then sees the axis, and the one with the least rate. Heights after some time, and rates, are products of a
+/// vector with the points in the body's frame.
+pub(crate) struct Heights<'a> {
+    piece: &'a Piece<'a>,
+    frame: &'a Frame,
+    /// The centre's position in the body's frame.
+    centre: DVec3,
+    normal: DVec3,
+    /// The axis about which the body turns.
+    axis: DVec3,
+    along: AxisMotion,
+    omega: f64,
+    speed: f64,
+    /// The length of the centre's acceleration.
+    acceleration: f64,
+    least: f64,
+    few: Few,
+    /// The bound of the second derivatives of all points, if there are many.
+    bend: f64,
+    /// The error of the lowest height of many points, and the error of its rate per angular velocity.
+    missed: f64,
+}
+
+/// The height of one point, its rate, and a bound of the second derivative due to its turning. For many points these
+/// are bounds over all of them, from below, and from above for the second derivative.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Point {
+    pub(crate) height: f64,
+    pub(crate) rate: f64,
+    pub(crate) bend: f64,
+}
+
+/// The most points of a piece that are followed in pairs of points.
+const FEW: usize = 3;
+
+/// The tracks of the first few points; unused ones repeat the last.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Few([(Track, f64); FEW]);
+
+impl Few {
+    /// Returns the states of the points after `tau`.
+    #[inline]
+    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
+        self.0.map(|(track, bend)| Point {
+            height: track.height_at(tau, angle),
+            rate: track.rate_at(tau, angle),
+            bend,
+        })
+    }
+}
+
+impl<'a> Heights<'a> {
+    pub(crate) fn new(
+        side: &Side<'_>,
+        piece: &'a Piece<'a>,
+        frame: &'a Frame,
+        normal: DVec3,
+        clock: f64,
+    ) -> Self {
+        let path = &side.path;
+        let velocity = path.centre_velocity_at(clock);
+        let mut heights = Heights {
+            piece,
+            frame,
+            centre: path.centre,
+            normal,
+            axis: path.axis,
+            along: AxisMotion::new(velocity, path.axis, path.rate, normal)
+                .pulled(path.acceleration.dot(normal)),
+            omega: path.rate,
+            speed: length(velocity) + length(path.acceleration),
+            acceleration: length(path.acceleration),
+            least: f64::INFINITY,
+            few: Few([(Track::default(), 0.0); FEW]),
+            bend: 0.0,
+            missed: 0.0,
+        };
+        match piece.ball() {
+            Some((middle, radius)) => heights.see_many(middle, radius),
+            None => heights.see_all(),
+        }
+        heights
+    }
+
+    fn see_all(&mut self) {
+        let (mut least, mut farthest, mut few) = (f64::INFINITY, 0.0, self.few);
+        for (k, (track, arm)) in self.tracks().enumerate() {
+            least = lesser(least, track.height_at(0.0, Angle::ZERO));
+            farthest = greater(farthest, arm.length_squared());
+            if let Some(rest) = few.0.get_mut(k..) {
+                rest.fill((track, track.bend()));
+            }
+        }
+        (self.least, self.few) = (least, few);
+        self.speed += self.omega * farthest.sqrt();
+    }
+
+    fn see_many(&mut self, middle: DVec3, radius: f64) {
+        self.least = self.lowest_of(self.normal).height_at(0.0, Angle::ZERO);
+        if self.straight() {
+            return;
+        }
+        let arm = self.frame.rotation * (middle - self.centre);
+        let farthest = (length(arm) + radius) * (1.0 + RATE_F64);
+        self.speed += self.omega * farthest;
+        self.bend = self.along.bend(length(self.axis.cross(arm)) + radius) * (1.0 + RATE_F64);
+        self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
+    }
+
+    /// Returns a bound of the speed of any point, in any direction, at any time.
+    pub(crate) fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Returns the least height at the present time.
+    pub(crate) fn least(&self) -> f64 {
+        self.least
+    }
+
+    pub(crate) fn straight(&self) -> bool {
+        !(self.omega > 0.0)
+    }
+
+    pub(crate) fn angle(&self, tau: f64) -> Angle {
+        if tau > 0.0 && !self.straight() {
+            Angle::new(self.omega * tau)
+        } else {
+            Angle::ZERO
+        }
+    }
+
+    pub(crate) fn few(&self) -> Option<&Few> {
+        (self.piece.points.len() <= FEW).then_some(&self.few)
+    }
+
+    /// Returns lower bounds of the heights and rates of all points after `tau`.
+    pub(crate) fn bound(&self, tau: f64) -> Point {
+        let start = Point {
+            height: f64::INFINITY,
+            rate: f64::INFINITY,
+            bend: 0.0,
+        };
+        match self.piece.ball() {
+            Some(_) => self.bound_of_many(self.angle(tau), tau),
+            None => self.each(tau).fold(start, |bound, point| Point {
+                height: lesser(bound.height, point.height),
+                rate: lesser(bound.rate, point.rate),
+                bend: greater(bound.bend, point.bend),
+            }),
+        }
+    }
+
+    /// Returns how far rotation takes any of the points below [`Heights::least`] up to `horizon`; `None` if there are
+    /// many points.
+    pub(crate) fn descent_until(&self, horizon: f64) -> Option<f64> {
+        if self.piece.ball().is_some() {
+            return None;
+        }
+        let end = self.angle(horizon);
+        let least = self
+            .tracks()
+            .map(|(track, _)| track.least_until(horizon, end))
+            .fold(f64::INFINITY, lesser);
+        Some(self.least - least)
+    }
+
+    /// Returns the present rate that all points share: their rate along the axis without rotation.
+    pub(crate) fn drift(&self) -> f64 {
+        self.along.drift()
+    }
+
+    /// Returns the derivative of `Heights::drift`.
+    pub(crate) fn pull(&self) -> f64 {
+        self.along.pull()
+    }
+
+    /// Returns a lower bound of the derivative of `Heights::drift`.
+    pub(crate) fn least_pull(&self) -> f64 {
+        self.along.pull() - RATE_F64 * self.acceleration
+    }
+
+    /// Returns the least value of a function of the points after `tau`: over each point if there are few, of their
+    /// bound if there are many. The function decreases with heights and rates.
+    pub(crate) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+        match self.piece.ball() {
+            Some(_) => of(&self.bound(tau)),
+            None => self
+                .each(tau)
+                .map(|point| of(&point))
+                .fold(f64::INFINITY, lesser),
+        }
+    }
+
+    fn each(&self, tau: f64) -> impl Iterator<Item = Point> {
+        let angle = self.angle(tau);
+        self.tracks().map(move |(track, _)| Point {
+            height: track.height_at(tau, angle),
+            rate: track.rate_at(tau, angle),
+            bend: track.bend(),
+        })
+    }
+
+    fn bound_of_many(&self, angle: Angle, tau: f64) -> Point {
+        if self.straight() {
+            return Point {
+                height: self.least + self.along.rise(tau),
+                rate: self.along.drift() + self.along.pull() * tau,
+                bend: 0.0,
+            };
+        }
+        // The normal, as seen from the turning body.
+        let seen = Spinning::new(-self.axis, self.normal);
+        let (axis, slope) = (seen.at(angle), seen.slope_at(angle));
+        Point {
+            height: self.lowest_of(axis).height_at(tau, angle) - self.missed,
+            rate: self.lowest_of(slope).rate_at(tau, angle) - self.omega * self.missed,
+            bend: self.bend,
+        }
+    }
+
+    /// Returns the track of the point that is lowest along a direction in the body's current frame.
+    fn lowest_of(&self, direction: DVec3) -> Track {
+        let index = self.piece.extremal(self.frame.inverse_vector(-direction));
+        self.track(self.piece.points[index as usize]).0
+    }
+
+    /// Returns the tracks of the points, and the arms of the points from the centre.
+    fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
+        self.piece.points.iter().map(|&x| self.track(x))
+    }
+
+    #[inline]
+    fn track(&self, point: DVec3) -> (Track, DVec3) {
+        let arm = self.frame.rotation * (point - self.centre);
+        (self.along.track(self.normal.dot(arm), arm), arm)
+    }
+}
+
+/// Returns the least free time of any two points.
+#[inline]
+pub(crate) fn least_free(
+    above: &[Point],
+    below: &[Point],
+    free: impl Fn(&Point, &Point) -> f64,
+) -> f64 {
+    let free = &free;
+    let times = below
+        .iter()
+        .flat_map(|x| above.iter().map(move |y| free(y, x)));
+    times.fold(f64::INFINITY, lesser)
+}
+
+/// Returns a lower bound of the least free time of any two points. The points of one body, each by itself, are paired
+/// with a bound of the other body's. The lowest point and the one with the least rate may differ, and a bound of both
+/// bodies would treat them as one. A body that does not turn loses nothing by its bound.
+pub(crate) fn least_free_of_many(
+    above: &Heights<'_>,
+    below: &Heights<'_>,
+    tau: f64,
+    free: impl Fn(&Point, &Point) -> f64,
+) -> f64 {
+    let of_below = || {
+        let bound = above.bound(tau);
+        below.least_of(tau, |x| free(&bound, x))
+    };
+    let of_above = || {
+        let bound = below.bound(tau);
+        above.least_of(tau, |y| free(y, &bound))
+    };
+    match (above.straight(), below.straight()) {
+        (true, _) => of_below(),
+        (false, true) => of_above(),
+        (false, false) => greater(of_below(), of_above()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,125 @@
+//! Pieces that come to touch beside the plane in which the bodies began to touch: an inner edge of flat ground is no
+//! obstacle.
+
+use super::snapshot::{Plane, Snapshot};
+use crate::answer::Contact;
+use crate::body::facing::Facing;
+use crate::math::order::greater;
+use crate::problem::{Problem, Which};
+use crate::rounding::RESTING;
+use crate::touching_plane::TouchingPlane;
+use crate::tuning::RESTED;
+use glam::DVec3;
+
+/// Two pieces that a [`TouchingPlane`] keeps apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Level {
+    /// The body that carries the plane.
+    holder: Which,
+    /// The gap along the normal below which the pieces approach each other.
+    floor: f64,
+}
+
+impl TouchingPlane {
+    /// Returns the plane perpendicular to the normal of a contact at the start; `None` if the bodies may overlap
+    /// along it.
+    pub(crate) fn of(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
+        let normal = contact.separation.normal;
+        let given = problem.given();
+        let problem = given.as_ref().unwrap_or(problem);
+        let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
+        let [frame_a, frame_b] = &snapshot.frames;
+        let from = frame_a.inverse_point(problem.local(contact.separation.witness_a));
+        let gap = snapshot.gap_across(normal, from);
+        let resting = RESTING * problem.rounding;
+        // Written so that NaN is an overlap.
+        (gap >= -resting).then(|| TouchingPlane {
+            normals: [frame_a, frame_b].map(|frame| frame.inverse_vector(normal)),
+            floor: gap - resting,
+        })
+    }
+}
+
+impl Snapshot<'_> {
+    /// Returns the plane that keeps two pieces apart for longest from now on, among those in which the bodies began
+    /// to touch; `None` if there is none. The heights of pieces are measured from a point in A's frame.
+    ///
+    /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
+    /// between the faces there.
+    pub(crate) fn level(&self, ids: [u32; 2], from: DVec3) -> Option<Level> {
+        let plane = self.problem.touching.as_ref()?;
+        let resting = RESTING * self.problem.rounding;
+        let of = |holder: Which| {
+            let normal = self.normal_with(holder)?;
+            let gap = self.gap_across(normal, from);
+            let level = Level {
+                holder,
+                floor: greater(plane.floor, gap - resting),
+            };
+            self.is_between_solids(ids, normal, from).then_some(level)
+        };
+        let time = |level: &Level| self.level_time(level, from).unwrap_or(f64::INFINITY);
+        [Which::A, Which::B]
+            .into_iter()
+            .filter_map(of)
+            .map(|level| (time(&level), level))
+            .filter(|(time, _)| *time > 0.0)
+            .reduce(|one, other| if other.0 > one.0 { other } else { one })
+            .map(|(_, level)| level)
+    }
+
+    /// Returns a time for which the pieces certainly do not approach each other along the normal of the plane between
+    /// them; `None` if they never do.
+    pub(crate) fn level_time(&self, level: &Level, from: DVec3) -> Option<f64> {
+        let Some(normal) = self.normal_with(level.holder) else {
+            return Some(0.0);
+        };
+        let slack = self.gap_across(normal, from) - level.floor;
+        // Written so that NaN counts as no slack.
+        if slack > RESTED * self.problem.rounding {
+            self.free_beside(&Plane { normal, slack })
+        } else {
+            Some(0.0)
+        }
+    }
+
+    /// Returns the normal of the plane that a body carries, in the problem's coordinates.
+    fn normal_with(&self, holder: Which) -> Option<DVec3> {
+        let [in_a, in_b] = self.problem.touching.as_ref()?.normals;
+        let [frame_a, frame_b] = &self.frames;
+        Some(match holder {
+            Which::A => frame_a.rotation * in_a,
+            Which::B => frame_b.rotation * in_b,
+        })
+    }
+
+    /// Returns the gap of the pieces along a unit vector in the problem's coordinates, rounding deducted.
+    fn gap_across(&self, normal: DVec3, from: DVec3) -> f64 {
+        self.gap_along(self.frames[0].inverse_vector(normal), from)
+    }
+
+    /// Returns whether the plane perpendicular to a normal separates the solids behind the pieces. Two pieces that
+    /// both lie in the plane are apart on either side of it, wherever the solids are.
+    fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
+        let in_one_plane = self.gap_across(-normal, from) >= -2.0 * RESTING * self.problem.rounding;
+        if !in_one_plane {
+            return true;
+        }
+        let [frame_a, frame_b] = &self.frames;
+        let is_ahead = |out: DVec3| out.dot(normal) > 0.0;
+        let Problem {
+            a: of_a, b: of_b, ..
+        } = self.problem;
+        match (of_a.body.facing(a), of_b.body.facing(b)) {
+            // The side to keep to is unknown.
+            (Facing::Unclear, _) | (_, Facing::Unclear) => false,
+            (Facing::Neither, Facing::Neither) => false,
+            // Solids on the same side slide along the plane.
+            (Facing::Out(n), Facing::Out(m)) => {
+                is_ahead(frame_a.rotation * n) || is_ahead(frame_b.rotation * -m)
+            }
+            (Facing::Out(n), Facing::Neither) => is_ahead(frame_a.rotation * n),
+            (Facing::Neither, Facing::Out(m)) => is_ahead(frame_b.rotation * -m),
+        }
+    }
+}

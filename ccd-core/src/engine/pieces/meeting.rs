@@ -1,0 +1,48 @@
+//! The surfaces of two bodies around the nearest points of two pieces.
+
+use super::snapshot::Snapshot;
+use crate::distance::common_normals::CommonNormals;
+use crate::engine::meter::Meter;
+use crate::rounding::{AROUND, LEVEL};
+use glam::DVec3;
+
+/// The nearest points of the cores of two pieces, in A's frame, and the surfaces around them.
+pub(crate) struct Meeting<'s> {
+    points: [DVec3; 2],
+    normals: &'s mut CommonNormals,
+}
+
+impl<'s> Meeting<'s> {
+    /// Finds the surfaces around two points, of A and of B, in A's frame.
+    pub(crate) fn at(snapshot: &Snapshot<'_>, points: [DVec3; 2], meter: &'s mut Meter) -> Self {
+        let Snapshot {
+            problem, pieces, ..
+        } = snapshot;
+        let reach = AROUND * problem.rounding;
+        let (mut looks, turn) = (0, pieces.b_to_a.rotation);
+        let normals = &mut meter.memory().normals;
+        normals.begin(LEVEL * problem.rounding);
+        problem.a.body.ways_around(points[0], reach, |way| {
+            looks += 1;
+            normals.add_a(way);
+        });
+        let in_b = pieces.b_to_a.inverse_point(points[1]);
+        problem.b.body.ways_around(in_b, reach, |way| {
+            looks += 1;
+            normals.add_b(turn * way);
+        });
+        normals.sort();
+        meter.stats.point_looks += looks;
+        Meeting {
+            points,
+            normals: &mut meter.memory().normals,
+        }
+    }
+
+    /// Returns the common normal of both surfaces that is nearest to a direction, if the points are along that normal
+    /// up to rounding.
+    pub(crate) fn normal(&self, towards: DVec3) -> Option<DVec3> {
+        let [on_a, on_b] = self.points;
+        self.normals.along(towards, on_b - on_a)
+    }
+}

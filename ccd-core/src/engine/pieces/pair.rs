@@ -1,0 +1,230 @@
+//! One pair of pieces: the oracle's claim is checked, and the pair's own clock is advanced.
+
+use super::level::Level;
+use super::snapshot::Snapshot;
+use crate::answer::{Contact, Separation};
+use crate::body::combination::Combination;
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::overlap::{self, Intersection};
+use crate::distance::separation::Checked;
+use crate::distance::separation::sharp::sharpened;
+use crate::engine::meter::Meter;
+use crate::math::vector::unit;
+use crate::problem::{Problem, Side};
+use crate::rounding::RESTING;
+use crate::settings::StartPolicy;
+use glam::DVec3;
+
+/// A pair of pieces with a clock.
+#[derive(Clone, Debug)]
+pub(crate) struct Pair<C> {
+    pub(crate) a: u32,
+    pub(crate) b: u32,
+    goal: Goal,
+    /// True once the pair was advanced.
+    known: bool,
+    /// The memory of the oracle for its next call with this pair.
+    cache: C,
+}
+
+/// The gap that a pair's clock proves, and the gap at which the pair is in contact. Distances are measured beyond the
+/// margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Goal {
+    /// The pair is in contact at the query's tolerance. The clock proves half of it.
+    Apart,
+    /// Like `Apart`, for a pair that began in contact and has parted since.
+    Parted,
+    /// The pair began in contact, up to rounding. It is in contact again once it cannot be proven above the floor.
+    Resting { floor: f64 },
+    /// The pair came to touch beside the plane in which the bodies began to touch. It is in contact once it
+    /// approaches along the normal of that plane.
+    Level(Level),
+}
+
+/// The result of a pair's advance at its clock.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Step {
+    /// The pair is certified apart until this clock, which is past the present one; a clock beyond 1 means forever.
+    FreeUntil(f64),
+    /// The pair is within the tolerance. At the start it may intersect, which the search for the nearest pieces
+    /// decides.
+    Contact(Contact),
+    /// The pair intersects; at the start only.
+    Overlap(Contact),
+    /// The next clock is not past the present one.
+    Stalled,
+    /// The oracle has no answer.
+    GaveUp,
+}
+
+impl<C: Default + Clone> Pair<C> {
+    pub(crate) fn new(a: u32, b: u32) -> Self {
+        Pair {
+            a,
+            b,
+            goal: Goal::Apart,
+            known: false,
+            cache: C::default(),
+        }
+    }
+
+    /// Examines the pair at clock `s`, up to which it is certified apart, and certifies it further.
+    pub(crate) fn advance<O: DistanceOracle<Cache = C>>(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        s: f64,
+    ) -> Step {
+        let snapshot = Snapshot::new(problem, self.a, self.b, s);
+        let known = std::mem::replace(&mut self.known, true);
+        self.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+            if known {
+                snapshot.free_time(checked, kept)
+            } else {
+                snapshot.first_free_time(checked, kept)
+            }
+        })
+    }
+
+    /// Like [`Pair::advance`] in a snapshot of the pair, with another rule for the time for which it keeps a gap.
+    /// Pairs that rest on each other are followed as usual.
+    pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        free_time: impl FnOnce(&Snapshot<'_>, &Checked, f64) -> Option<f64>,
+    ) -> Step {
+        let (problem, s) = (snapshot.problem, snapshot.clock);
+        let Some(checked) = snapshot.ask(oracle, &mut self.cache, meter) else {
+            return Step::GaveUp;
+        };
+        let ids = [self.a, self.b];
+        let in_contact = |checked| Step::Contact(contact(snapshot, ids, checked));
+        let apart = problem.contact_distance();
+        if checked.upper <= apart {
+            if s == 0.0 {
+                let inner = &mut meter.memory().inner;
+                match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
+                    Intersection::Certain => {
+                        return Step::Overlap(contact(snapshot, ids, &checked));
+                    }
+                    // The search for the nearest pieces decides this.
+                    Intersection::Undecided => return in_contact(&checked),
+                    Intersection::None => {}
+                }
+            }
+            let level = || snapshot.level(ids, checked.witness_a).map(Goal::Level);
+            let goal = match self.goal {
+                Goal::Apart => self.goal_of_start(problem, oracle, meter).or_else(level),
+                Goal::Parted => level(),
+                Goal::Resting { .. } | Goal::Level(_) => Some(self.goal),
+            };
+            match goal {
+                Some(goal) => self.goal = goal,
+                None => return in_contact(&checked),
+            }
+        } else if checked.lower > apart && self.goal != Goal::Apart {
+            self.goal = Goal::Parted;
+        }
+        let (kept, is_resting) = match self.goal {
+            Goal::Apart | Goal::Parted => (problem.gap(), false),
+            Goal::Resting { floor } => (floor, true),
+            Goal::Level(level) => {
+                let free = snapshot.level_time(&level, checked.witness_a);
+                meter.stats.point_looks += snapshot.looks();
+                return after(s, free).unwrap_or_else(|| in_contact(&checked));
+            }
+        };
+        // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
+        // such a loss.
+        let checked = if is_resting || !(checked.lower > kept + problem.rounding) {
+            sharpened(&snapshot.pieces, &checked, problem.rounding)
+        } else {
+            checked
+        };
+        let free = if is_resting {
+            snapshot.resting_time(&checked, kept, ids)
+        } else {
+            free_time(snapshot, &checked, kept)
+        };
+        let step = after(s, free).or_else(|| {
+            let began = if is_resting {
+                &Snapshot::new(problem, self.a, self.b, 0.0)
+            } else {
+                snapshot
+            };
+            let level = began.level(ids, checked.witness_a)?;
+            self.goal = Goal::Level(level);
+            after(s, snapshot.level_time(&level, checked.witness_a))
+        });
+        meter.stats.point_looks += snapshot.looks();
+        match step {
+            Some(step) => step,
+            None if is_resting => in_contact(&checked),
+            None => Step::Stalled,
+        }
+    }
+
+    /// Returns the gap that a pair within the tolerance has to keep from now on; `None` when it is in contact.
+    fn goal_of_start<O: DistanceOracle<Cache = C>>(
+        &self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Option<Goal> {
+        if problem.start == StartPolicy::Report {
+            return None;
+        }
+        let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
+        let start = snapshot.ask(oracle, &mut C::default(), meter)?;
+        let start = sharpened(&snapshot.pieces, &start, problem.rounding);
+        // Written so that NaN is a contact, as is a pair without a separating axis.
+        let resting =
+            start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
+        if !resting {
+            return None;
+        }
+        Some(Goal::Resting {
+            floor: start.lower - RESTING * problem.rounding,
+        })
+    }
+}
+
+/// Returns the step of a pair at clock `s` that is free for a time, or for good; `None` if the time is too short for
+/// the clock to advance.
+fn after(s: f64, free: Option<f64>) -> Option<Step> {
+    match free {
+        None => Some(Step::FreeUntil(f64::INFINITY)),
+        Some(tau) => {
+            let next = (s + tau).next_down();
+            (next > s).then_some(Step::FreeUntil(next))
+        }
+    }
+}
+
+/// Converts a checked pair to the world's coordinates, with its features.
+pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
+    let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
+    let world = |x: DVec3| problem.world(a_to_world.point(x));
+    let feature =
+        |side: &Side<'_>, piece: u32, point: &Combination| side.body.feature(piece, point);
+    Contact {
+        separation: Separation {
+            lower: checked.lower,
+            upper: checked.upper,
+            normal: unit(a_to_world.rotation * checked.axis).unwrap_or(checked.axis),
+            witness_a: world(checked.witness_a),
+            witness_b: world(checked.witness_b),
+        },
+        feature_a: feature(&problem.a, a, &checked.claim.a),
+        feature_b: feature(&problem.b, b, &checked.claim.b),
+        piece_a: problem.a.number(a),
+        piece_b: problem.b.number(b),
+    }
+}
+
+#[cfg(test)]
+mod tests;

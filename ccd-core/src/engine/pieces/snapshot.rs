@@ -1,0 +1,402 @@
+//! Two pieces at one instant, and the time for which an axis keeps them apart from that instant on.
+
+use super::heights::{Heights, Point, least_free, least_free_of_many};
+use crate::accelerate::sweeping_piece::{Member, SweepingPiece};
+use crate::body::facing::Facing;
+use crate::body::piece::Piece;
+use crate::distance::oracle::{DistanceOracle, PiecePair};
+use crate::distance::separation::{self, Checked};
+use crate::engine::meter::Meter;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit};
+use crate::motion::bound::{Bound, published, sound};
+use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::pose::Frame;
+use crate::problem::Problem;
+use crate::rounding::{RATE_F64, RESTING};
+use crate::tuning::{A_WHILE, AXIS_ROUNDS, RESTED, TURNED_SHARE, USUAL_STEPS};
+use glam::DVec3;
+use std::cell::Cell;
+use std::iter;
+
+/// Two pieces at a clock.
+pub(crate) struct Snapshot<'p> {
+    pub(crate) problem: &'p Problem<'p>,
+    /// The frames of A and B, in the problem's coordinates.
+    pub(crate) frames: [Frame; 2],
+    pub(crate) pieces: PiecePair<'p>,
+    pub(crate) clock: f64,
+    /// The number of gap evaluations at a point.
+    looks: Cell<u64>,
+}
+
+impl<'p> Snapshot<'p> {
+    /// Creates the snapshot of piece `a` of A and piece `b` of B at a clock.
+    pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
+        Snapshot::of(problem, problem.pieces([a, b]), clock)
+    }
+
+    /// Creates the snapshot of any two convex hulls, of A and of B, at a clock.
+    pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
+        let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
+        let b_to_a = frames[0].from_frame(&frames[1]);
+        Snapshot {
+            problem,
+            frames,
+            pieces: PiecePair { a, b, b_to_a },
+            clock,
+            looks: Cell::new(0),
+        }
+    }
+
+    /// Creates the snapshot of two other hulls at the same clock.
+    pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
+        Snapshot {
+            pieces: PiecePair {
+                a,
+                b,
+                ..self.pieces
+            },
+            looks: Cell::new(0),
+            ..*self
+        }
+    }
+
+    /// Calls the oracle, and checks its claim; `None` if the oracle gave up.
+    pub(crate) fn ask<O: DistanceOracle>(
+        &self,
+        oracle: &mut O,
+        cache: &mut O::Cache,
+        meter: &mut Meter,
+    ) -> Option<Checked> {
+        let stats = &mut meter.stats;
+        stats.oracle_calls += 1;
+        let before = oracle.effort().steps;
+        let claim = oracle.separation(&self.pieces, cache);
+        stats.point_looks += match oracle.effort().steps.saturating_sub(before) {
+            0 => USUAL_STEPS * self.pieces.points(),
+            steps => USUAL_STEPS * steps,
+        };
+        match claim {
+            Ok(claim) => Some(separation::check(
+                &self.pieces,
+                &claim,
+                self.problem.rounding,
+            )),
+            Err(_) => {
+                stats.give_ups += 1;
+                None
+            }
+        }
+    }
+
+    /// Like [`Snapshot::free_time`], for the first visit of two pieces: if a fixed plane perpendicular to the axis of
+    /// the claim keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
+    pub(crate) fn first_free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
+        let direct = self.direct(checked, kept);
+        match self.free_along(direct.normal, direct.slack)? {
+            free if free >= A_WHILE => Some(free),
+            free => self.longest_time(checked, kept, &direct, free),
+        }
+    }
+
+    /// Returns a time for which the pieces certainly stay farther apart than `kept`; `None` if they always do. The
+    /// function tries the axis of the claim, and the one along which the witnesses pass each other, with planes that
+    /// are fixed or turn with one of the bodies.
+    pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
+        let direct = self.direct(checked, kept);
+        let free = self.free_along(direct.normal, direct.slack)?;
+        self.longest_time(checked, kept, &direct, free)
+    }
+
+    /// Returns the longest time by any plane; `free` is the time of the fixed plane across the claim's axis.
+    fn longest_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        direct: &Plane,
+        mut free: f64,
+    ) -> Option<f64> {
+        let passing = self.passing(checked, kept);
+        if let Some(passing) = &passing {
+            free = greater(free, self.free_along(passing.normal, passing.slack)?);
+        }
+        let members = self.members();
+        for plane in iter::once(direct).chain(&passing) {
+            free = greater(self.free_attached(&members, plane, free)?, free);
+        }
+        Some(free)
+    }
+
+    /// Like [`Snapshot::free_time`], along the axis of the claim alone, by a bound of each body's advance along it
+    /// `[FAST06 §4.2]`; `reaches` are the distances of the pieces' points from their body's axis of rotation.
+    ///
+    /// # Guarantee
+    /// No guarantee with [`Bound::Published`].
+    pub(crate) fn directed_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        bound: Bound,
+        reaches: [f64; 2],
+    ) -> Option<f64> {
+        let Problem { a, b, .. } = self.problem;
+        let normal = self.frames[0].rotation * checked.axis;
+        let sides = [
+            (a, normal, self.pieces.a, &self.frames[0], reaches[0]),
+            (b, -normal, self.pieces.b, &self.frames[1], reaches[1]),
+        ];
+        let (mut rate, mut speed) = (0.0, 0.0);
+        for (side, n, piece, frame, reach) in sides {
+            let motion = side.path.velocities();
+            rate += match bound {
+                Bound::Sound => sound(&motion, n, reach),
+                Bound::Published => published(&motion, n, |c| {
+                    let farthest = piece.farthest(frame.inverse_vector(c));
+                    frame.rotation * (farthest - side.path.centre)
+                }),
+            };
+            speed += length(motion.linear) + side.path.rate * reach;
+        }
+        let gap = Gap {
+            gap: checked.lower - kept,
+            rate: rate + RATE_F64 * speed,
+            bend: 0.0,
+        };
+        let free = gap.free_time();
+        // Written so that NaN gives no time.
+        (!(free >= self.horizon())).then_some(free)
+    }
+
+    /// Returns how deeply two hulls of many points overlap along the axis between their middles, in units of the
+    /// smaller one's radius. The depth is negative when they are apart along it; `None` if a hull has few points.
+    #[cfg(feature = "hull-tree")]
+    pub(crate) fn depth_between_middles(&self) -> Option<f64> {
+        let pair = &self.pieces;
+        let ((a, radius_a), (b, radius_b)) = (pair.a.ball()?, pair.b.ball()?);
+        let axis = unit(pair.b_to_a.point(b) - a)?;
+        let gap = separation::support_gap(pair, axis, a) - pair.a.radius - pair.b.radius;
+        Some(-gap / lesser(radius_a, radius_b))
+    }
+
+    /// Like [`Snapshot::free_time`], for two pieces with these indices that rest on each other.
+    ///
+    /// A plane keeps triangles in it apart on either side, though they may be about to pass into each other. If one
+    /// of them bounds a solid, the plane keeps them apart on the outside only.
+    pub(crate) fn resting_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        [a, b]: [u32; 2],
+    ) -> Option<f64> {
+        let rounding = self.problem.rounding;
+        let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
+        // Written so that NaN counts as no slack.
+        let is_left = |slack: f64| slack > RESTED * rounding;
+        let anyhow = || {
+            if is_left(checked.lower - kept) {
+                self.free_time(checked, kept)
+            } else {
+                Some(0.0)
+            }
+        };
+        // This includes pieces that have passed the plane by the rounding of resting.
+        let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
+        if !in_one_plane {
+            return anyhow();
+        }
+        let turn = self.pieces.b_to_a.rotation;
+        let along = |axis: DVec3| match slack(axis) {
+            slack if is_left(slack) => self.free_along(self.frames[0].rotation * axis, slack),
+            _ => Some(0.0),
+        };
+        match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
+            // The side to keep to is unknown, and the pieces are not let go.
+            (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
+            (Facing::Out(n), Facing::Out(m)) => match -(turn * m) {
+                // The solids are on the same side of the plane: their faces slide, and cannot meet.
+                into_b if n.dot(into_b) < 0.0 => longer(along(n), along(into_b)),
+                _ => along(n),
+            },
+            (Facing::Out(n), Facing::Neither) => along(n),
+            (Facing::Neither, Facing::Out(m)) => along(-(turn * m)),
+            (Facing::Neither, Facing::Neither) => anyhow(),
+        }
+    }
+
+    /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is
+    /// fixed, or turns with one of the bodies.
+    pub(crate) fn free_beside(&self, plane: &Plane) -> Option<f64> {
+        let free = self.free_along(plane.normal, plane.slack)?;
+        Some(greater(
+            self.free_attached(&self.members(), plane, free)?,
+            free,
+        ))
+    }
+
+    /// Returns the gap of the pieces along a unit vector, minus rounding. The vector, and the point from which
+    /// heights are measured, are in A's frame.
+    pub(crate) fn gap_along(&self, axis: DVec3, from: DVec3) -> f64 {
+        let radii = self.pieces.a.radius + self.pieces.b.radius;
+        separation::support_gap(&self.pieces, axis, from) - radii - self.problem.rounding
+    }
+
+    /// Returns the plane perpendicular to the axis of the claim.
+    fn direct(&self, checked: &Checked, kept: f64) -> Plane {
+        Plane {
+            normal: self.frames[0].rotation * checked.axis,
+            slack: checked.lower - kept,
+        }
+    }
+
+    /// Returns the plane perpendicular to the vector between the witnesses at the time when they are nearest, for
+    /// constant velocities; `None` if it does not keep the pieces apart now.
+    fn passing(&self, checked: &Checked, kept: f64) -> Option<Plane> {
+        let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
+        let velocity = self.problem.a.path.velocity_at(a, self.clock)
+            - self.problem.b.path.velocity_at(b, self.clock);
+        let nearest = (b - a).dot(velocity) / velocity.length_squared();
+        let way = b - a - velocity * nearest.clamp(0.0, self.horizon());
+        let normal = unit(way)?;
+        let axis = self.frames[0].inverse_vector(normal);
+        let slack = self.gap_along(axis, checked.witness_a) - kept;
+        (slack > 0.0).then_some(Plane { normal, slack })
+    }
+
+    /// Like [`Snapshot::free_along`], with planes that turn with one of the bodies, if the turning of that body uses
+    /// up the slack within `free`; 0 otherwise.
+    pub(crate) fn free_attached(
+        &self,
+        members: &[Member<'_>; 2],
+        plane: &Plane,
+        free: f64,
+    ) -> Option<f64> {
+        let [a, b] = members;
+        let uses_up = |swing: f64| swing * free > TURNED_SHARE * plane.slack;
+        let mut longest = 0.0f64;
+        for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
+            if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
+                let sweep = SweepingPiece::new(holder, other, normal, self.problem.rounding);
+                let free = sweep.free_time(plane.slack, self.horizon());
+                self.look(sweep.looks.get());
+                longest = greater(longest, free?);
+            }
+        }
+        Some(longest)
+    }
+
+    /// Returns both pieces, of A and of B.
+    pub(crate) fn members(&self) -> [Member<'_>; 2] {
+        let Problem { a, b, .. } = self.problem;
+        let [frame_a, frame_b] = &self.frames;
+        [
+            Member::new(a, frame_a, self.pieces.a, self.clock),
+            Member::new(b, frame_b, self.pieces.b, self.clock),
+        ]
+    }
+
+    /// Returns the number of gap evaluations at a point so far.
+    pub(crate) fn looks(&self) -> u64 {
+        self.looks.get()
+    }
+
+    fn look(&self, points: u64) {
+        self.looks.set(self.looks.get() + points);
+    }
+
+    fn horizon(&self) -> f64 {
+        1.0 - self.clock
+    }
+
+    /// Returns a time for which a fixed axis certainly keeps the required gap; `None` if it always does. The `slack`
+    /// is the excess over that gap now.
+    ///
+    /// Every point's height along the axis is known exactly
+    /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
+    /// two points, with a bound on its curvature.
+    pub(crate) fn free_along(&self, normal: DVec3, slack: f64) -> Option<f64> {
+        let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
+        // The highest point along an axis is the lowest along its opposite.
+        let clock = self.clock;
+        let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal, clock);
+        let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
+        let rounding = RATE_F64 * (a.speed() + b.speed());
+        let pull = a.least_pull() + b.least_pull();
+        let rounds = if a.straight() && b.straight() {
+            1
+        } else {
+            AXIS_ROUNDS
+        };
+        // The offset of the heights makes the nearest two points `slack` apart.
+        let free = |above: &Point, below: &Point| {
+            let gap = Gap {
+                gap: slack + (above.height - b.least()) + (below.height - a.least()),
+                rate: -below.rate - above.rate + rounding,
+                bend: (above.bend + below.bend) * (1.0 + RATE_F64) - pull,
+            };
+            gap.free_time()
+        };
+        let points = self.pieces.points();
+        self.look(points);
+        let crossing = match (a.few(), b.few()) {
+            (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
+                self.look(points);
+                least_free(
+                    &above.at(b.angle(tau), tau),
+                    &below.at(a.angle(tau), tau),
+                    free,
+                )
+            }),
+            _ => first_crossing(self.horizon(), rounds, |tau| {
+                self.look(points);
+                least_free_of_many(&b, &a, tau, free)
+            }),
+        }?;
+        if self.turn_past(&a, &b, slack) {
+            None
+        } else {
+            Some(crossing)
+        }
+    }
+
+    /// Returns whether the points always keep a slack although they turn. The steps towards the time at which they
+    /// are nearest become ever shorter.
+    fn turn_past(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
+        let horizon = self.horizon();
+        let drift = least_drift(a.drift() + b.drift(), a.pull() + b.pull(), horizon);
+        let left = slack + drift - RATE_F64 * (a.speed() + b.speed()) * horizon;
+        // Written so that NaN is not past.
+        if (a.straight() && b.straight()) || !(left > 0.0) {
+            return false;
+        }
+        let descents = || Some(a.descent_until(horizon)? + b.descent_until(horizon)?);
+        descents().is_some_and(|descents| left - descents > 0.0)
+    }
+}
+
+/// A plane that keeps two pieces apart.
+pub(crate) struct Plane {
+    /// The unit normal from A to B, in the problem's coordinates.
+    pub(crate) normal: DVec3,
+    /// The present excess over the required gap.
+    pub(crate) slack: f64,
+}
+
+/// Returns the least of `rate τ + pull τ²/2` up to a horizon.
+fn least_drift(rate: f64, pull: f64, horizon: f64) -> f64 {
+    let nearest = -rate / pull;
+    // Written so that NaN is none.
+    if pull > 0.0 && nearest > 0.0 && nearest < horizon {
+        0.5 * rate * nearest
+    } else {
+        lesser(0.0, (rate + 0.5 * pull * horizon) * horizon)
+    }
+}
+
+/// Returns the longer of two free times; `None` is unbounded.
+fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    Some(greater(one?, other?))
+}
+
+#[cfg(test)]
+mod tests;

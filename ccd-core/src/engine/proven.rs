@@ -1,0 +1,80 @@
+//! The facts proven about two bodies in the course of a search.
+
+use super::meter::Meter;
+use super::pieces::pair::Step;
+use super::start::{contained, overlapping, touching};
+use crate::accelerate::out_of_reach::out_of_reach;
+use crate::accelerate::roots::keep_apart;
+use crate::answer::{Contact, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::problem::Problem;
+use crate::settings::StartPolicy;
+use std::ops::ControlFlow;
+
+/// Returns the outcome if bounding balls or boxes prove the bodies apart for good.
+pub(crate) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
+    (out_of_reach(problem) || keep_apart(problem)).then(|| Outcome::Free {
+        proven_gap: problem.proven_gap(),
+    })
+}
+
+/// The facts proven of the bodies, independent of pairs that still wait.
+#[derive(Debug, Default)]
+pub(crate) struct Proven {
+    /// True if at the start no pair of pieces is in contact, and no body inside the other.
+    apart_at_start: bool,
+}
+
+impl Proven {
+    /// Draws the conclusion from the advance of a pair of pieces at clock `s`: returns the clock to wait for, or the
+    /// answer.
+    ///
+    /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
+    pub(crate) fn conclude<O: DistanceOracle>(
+        &self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        step: Step,
+        s: f64,
+    ) -> ControlFlow<Outcome, f64> {
+        let unresolved = |reason| Outcome::unresolved(problem.time(s), reason);
+        ControlFlow::Break(match step {
+            Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
+            Step::Contact(contact) => touching(problem, oracle, meter, contact),
+            Step::Overlap(contact) => overlapping(contact),
+            Step::Stalled => unresolved(Limit::Stalled),
+            Step::GaveUp => unresolved(Limit::OracleGaveUp),
+        })
+    }
+
+    /// Returns the outcome for a pair in contact at clock `s`. Other pairs may be nearer: only their clocks bound
+    /// their distances.
+    pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
+        Outcome::Contact {
+            time: problem.time(s),
+            contact: contact.no_nearer_than(problem.proven_gap()),
+        }
+    }
+
+    /// Records that all pairs are past the start without contact there. Returns the answer if one
+    /// body is inside the other.
+    pub(crate) fn past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
+        if std::mem::replace(&mut self.apart_at_start, true) {
+            return None;
+        }
+        // Bodies that are let go were examined when their contact was found.
+        match problem.start {
+            StartPolicy::Leave => None,
+            StartPolicy::Report => contained(problem, &[], &mut Vec::new()),
+        }
+    }
+
+    /// Returns the outcome if all pairs are apart to the end.
+    pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
+        self.past_start(problem).unwrap_or(Outcome::Free {
+            proven_gap: problem.proven_gap(),
+        })
+    }
+}

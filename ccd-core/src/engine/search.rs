@@ -1,0 +1,223 @@
+//! The steps of every search: the next waiting pair is proven apart for longer, or split.
+
+use super::meter::Meter;
+use super::nodes::common::Common;
+use super::nodes::expand::expand;
+use super::nodes::siblings::{Next, Siblings};
+use super::pieces::pair::{Pair, Step};
+use super::waiting::{Full, Rank, Waiting};
+use crate::accelerate::closer_look::CloserLook;
+use crate::answer::Limit;
+use crate::distance::oracle::DistanceOracle;
+use crate::problem::Problem;
+use std::ops::ControlFlow;
+
+/// A waiting item: siblings of nodes, or a pair of pieces.
+#[derive(Debug)]
+pub(crate) enum Item<C> {
+    Siblings(Siblings),
+    Pieces(Pair<C>),
+}
+
+impl<C> Item<C> {
+    fn rank(&self) -> Rank {
+        match self {
+            Item::Siblings(_) => Rank::Siblings,
+            Item::Pieces(_) => Rank::PiecePair,
+        }
+    }
+}
+
+/// The question of a search, which draws the conclusions from the steps.
+pub(crate) trait Question<O: DistanceOracle> {
+    /// The type of the answer.
+    type Found;
+
+    /// Draws a conclusion from the clock of the next pair, if there is one.
+    #[inline]
+    fn arrive(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
+        ControlFlow::Continue(())
+    }
+
+    /// Draws the conclusion from the advance of a pair of pieces: returns the clock to wait for, or the answer.
+    fn conclude(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        advance: Advance,
+    ) -> ControlFlow<Self::Found, f64>;
+
+    /// Returns the answer if a limit is reached at clock `s`.
+    fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
+
+    /// Returns the answer if all pairs are proven to the end.
+    fn done(&mut self, problem: &Problem<'_>) -> Self::Found;
+}
+
+/// The advance of a pair of pieces.
+pub(crate) struct Advance {
+    /// The indices of the pieces in the problem.
+    pub(crate) pieces: [u32; 2],
+    /// The clock at which they were examined.
+    pub(crate) clock: f64,
+    /// The result of the advance.
+    pub(crate) step: Step,
+}
+
+/// A search, with the oracle, the waiting pairs and the meter.
+pub(crate) struct Search<'s, O, W> {
+    pub(crate) waiting: &'s mut W,
+    pub(crate) oracle: &'s mut O,
+    pub(crate) meter: &'s mut Meter,
+}
+
+impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
+    /// Searches, beginning with the pair of both roots.
+    pub(crate) fn run<Q: Question<O>>(
+        &mut self,
+        problem: &Problem<'_>,
+        question: &mut Q,
+    ) -> Q::Found {
+        if self.open(problem).is_err() {
+            return question.stopped(problem, 0.0, Limit::Budget);
+        }
+        let common = Common::new(problem);
+        let mut look = CloserLook::new(problem);
+        loop {
+            if let ControlFlow::Break(found) = self.visit(&common, &mut look, question) {
+                return found;
+            }
+        }
+    }
+
+    /// Continues until all pairs are proven apart up to a clock, and returns the clock of the next one.
+    pub(crate) fn until<Q: Question<O>>(
+        &mut self,
+        problem: &Problem<'_>,
+        look: &mut CloserLook,
+        question: &mut Q,
+        until: f64,
+    ) -> ControlFlow<Q::Found, f64> {
+        let common = Common::new(problem);
+        loop {
+            if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
+                question.arrive(problem, s)?;
+                return ControlFlow::Continue(s);
+            }
+            self.visit(&common, look, question)?;
+        }
+    }
+
+    /// Adds the pair of both roots to the waiting pairs.
+    pub(crate) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
+        let item = match Next::roots(problem) {
+            Next::Ask(a, b) => Item::Pieces(Pair::new(a, b)),
+            Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
+        };
+        self.waiting.push(0.0, item.rank(), item)
+    }
+
+    /// Examines the next pair: proves it apart for longer, or splits it.
+    #[inline(always)]
+    pub(crate) fn visit<Q: Question<O>>(
+        &mut self,
+        common: &Common<'_>,
+        look: &mut CloserLook,
+        question: &mut Q,
+    ) -> ControlFlow<Q::Found> {
+        let problem = common.problem;
+        let Search {
+            waiting,
+            oracle,
+            meter,
+        } = self;
+        let Some((s, item)) = waiting.next() else {
+            return ControlFlow::Break(question.done(problem));
+        };
+        question.arrive(problem, s)?;
+        if let Err(limit) = meter.visit(problem) {
+            return ControlFlow::Break(question.stopped(problem, s, limit));
+        }
+        let (next, rest) = match item {
+            Item::Pieces(pair) => {
+                let advance = advance(problem, *oracle, meter, pair, s);
+                match question.conclude(problem, *oracle, meter, advance)? {
+                    clock if clock >= 1.0 => waiting.remove(),
+                    clock => waiting.renew(clock, Rank::PiecePair),
+                }
+                return ControlFlow::Continue(());
+            }
+            Item::Siblings(siblings) => {
+                if let Some((clock, alone)) = look.part(problem, siblings, s) {
+                    let rest = siblings.clock();
+                    let waits = self.wait(rest, (clock, Item::Siblings(alone)));
+                    return unless_full(waits, problem, question, s);
+                }
+                // The remaining siblings wait for their own clocks.
+                (siblings.take_least(problem, s), siblings.clock())
+            }
+        };
+        let new = match next {
+            Next::Split(split) => {
+                let expansion = expand(common, &split, s);
+                let mut siblings = Siblings::new(&expansion, split, s);
+                look.finish(problem, &split, s, &mut siblings, meter);
+                (siblings.clock(), Item::Siblings(siblings))
+            }
+            Next::Ask(a, b) => {
+                let mut pair = Pair::new(a, b);
+                let advance = advance(problem, *oracle, meter, &mut pair, s);
+                let clock = question.conclude(problem, *oracle, meter, advance)?;
+                (clock, Item::Pieces(pair))
+            }
+        };
+        let waits = self.wait(rest, new);
+        unless_full(waits, problem, question, s)
+    }
+
+    /// Returns the siblings of the next pair, and the new item from that pair, to the waiting items, if their clocks
+    /// are before the end.
+    #[inline(always)]
+    fn wait(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
+        // Written so that NaN is not the end.
+        match (rest >= 1.0, clock >= 1.0) {
+            (false, false) => {
+                self.waiting.postpone(rest);
+                self.waiting.push(clock, new.rank(), new)?;
+            }
+            (false, true) => self.waiting.postpone(rest),
+            (true, false) => self.waiting.replace(clock, new.rank(), new),
+            (true, true) => self.waiting.remove(),
+        }
+        Ok(())
+    }
+}
+
+#[inline(always)]
+fn advance<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    pair: &mut Pair<O::Cache>,
+    clock: f64,
+) -> Advance {
+    Advance {
+        pieces: [pair.a, pair.b],
+        clock,
+        step: pair.advance(problem, oracle, meter, clock),
+    }
+}
+
+#[inline(always)]
+fn unless_full<O: DistanceOracle, Q: Question<O>>(
+    waits: Result<(), Full>,
+    problem: &Problem<'_>,
+    question: &mut Q,
+    s: f64,
+) -> ControlFlow<Q::Found> {
+    match waits {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(Full) => ControlFlow::Break(question.stopped(problem, s, Limit::Budget)),
+    }
+}

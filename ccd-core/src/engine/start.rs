@@ -1,0 +1,93 @@
+//! Bodies in contact at the start: their distance, or the proof that they overlap.
+
+mod containment;
+
+use super::meter::Meter;
+use super::nearest::{Nearest, Stop};
+use crate::answer::{Contact, Limit, Outcome, Overlap};
+use crate::distance::oracle::DistanceOracle;
+use crate::problem::Problem;
+use containment::Containment;
+
+/// Returns the answer for bodies of which two pieces are in contact at the start: the distance of the bodies, or that
+/// they overlap.
+///
+/// # Guarantee
+/// Touching bodies are at least the contact's lower bound apart, and its pieces prove the upper one. If the oracle is
+/// honest, the answer does not depend on which pieces were `seen`.
+///
+/// # Complexity
+/// One distance of the bodies, for any margin, and one visit for every pair of pieces that may intersect.
+pub(crate) fn touching<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    seen: Contact,
+) -> Outcome {
+    let contact = |nearest: &Nearest<'_>| Some(nearest.contact(seen));
+    let outcome = measured(problem, f64::INFINITY, oracle, meter, contact);
+    outcome.unwrap_or(Outcome::Touching { contact: seen })
+}
+
+/// Returns the answer for bodies that begin nearer to each other than `beyond`, which then count as touching, or with
+/// one inside the other; `None` for others.
+pub(crate) fn at_start<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    beyond: f64,
+    oracle: &mut O,
+    meter: &mut Meter,
+) -> Option<Outcome> {
+    measured(problem, beyond, oracle, meter, |nearest| nearest.nearest())
+}
+
+/// Measures the bodies at the start, and returns the answer if they overlap, or are in `contact`. Pieces at least as
+/// far apart as `beyond` are not measured.
+fn measured<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    beyond: f64,
+    oracle: &mut O,
+    meter: &mut Meter,
+    contact: impl FnOnce(&Nearest<'_>) -> Option<Contact>,
+) -> Option<Outcome> {
+    let mut lists = std::mem::take(&mut meter.memory().nearest);
+    let mut nearest = Nearest::new(problem, 0.0, &mut lists).nearer_than(beyond);
+    let outcome = match nearest.search(oracle, meter) {
+        Some(Stop::Overlap(_, contact)) => Some(overlapping(contact)),
+        Some(Stop::Limit(limit)) => Some(unresolved(limit)),
+        None if nearest.undecided => Some(unresolved(Limit::Undecided)),
+        None => {
+            let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
+            let (pairs, pieces) = lists.touching();
+            contained(problem, pairs, pieces).or(touching)
+        }
+    };
+    lists.clear();
+    meter.memory().nearest = lists;
+    outcome
+}
+
+/// Returns the answer if one body is inside the other, or if that is undecided. No two pieces intersect; `touching`
+/// are the pairs without a separating axis, and `pieces` is a list of scratch memory.
+pub(crate) fn contained(
+    problem: &Problem<'_>,
+    touching: &[[u32; 2]],
+    pieces: &mut Vec<u32>,
+) -> Option<Outcome> {
+    match containment::at_start(problem, touching, pieces) {
+        Containment::Inside(overlap) => Some(Outcome::overlapping(overlap)),
+        Containment::Outside => None,
+        Containment::Undecided => Some(Outcome::unresolved(0.0, Limit::Undecided)),
+    }
+}
+
+/// Returns the outcome for two pieces that overlap.
+pub(crate) fn overlapping(contact: Contact) -> Outcome {
+    Outcome::overlapping(Overlap::Pieces(contact))
+}
+
+fn unresolved(reason: Limit) -> Outcome {
+    Outcome::unresolved(0.0, reason)
+}
+
+#[cfg(test)]
+mod tests;

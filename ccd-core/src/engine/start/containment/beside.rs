@@ -1,0 +1,143 @@
+//! Points of a thin piece on both sides of another piece's edges on it.
+
+use crate::body::piece::Piece;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::across;
+use crate::math::vector::unit_or_any;
+use crate::rounding::BESIDE_EDGE;
+use glam::DVec3;
+
+/// For every edge of `other` that is on a thin piece, returns points of the piece on either side of
+/// the middle of their common part. An edge counts as on the piece if it leaves its plane by at
+/// most `reach`.
+///
+/// A surface that passes through a piece's inside, without any of its faces intersecting it, does
+/// so along such edges. For a part that is entirely in the plane, the faces beyond its edges
+/// decide.
+pub(crate) fn beside_edges(
+    piece: &Piece<'_>,
+    other: &Piece<'_>,
+    place: impl Fn(DVec3) -> DVec3 + Copy,
+    reach: f64,
+) -> impl Iterator<Item = DVec3> {
+    let flat = Flat::of(piece);
+    let placed = move |k: u32| place(other.points[k as usize]);
+    let is_level = move |flat: &Flat<'_>, at: DVec3| flat.height(at).abs() <= reach;
+    // For a piece within the plane, the faces beyond the edges decide.
+    let passes = move |flat: &Flat<'_>| {
+        let mut all = 0..other.points.len() as u32;
+        !all.all(|k| is_level(flat, placed(k)))
+    };
+    flat.filter(passes).into_iter().flat_map(move |flat| {
+        let ends = edges(other).map(move |edge| edge.map(placed));
+        let level = ends.filter(move |ends| ends.iter().all(|&at| is_level(&flat, at)));
+        level
+            .filter_map(move |ends| flat.beside(ends))
+            .flatten()
+            .filter(move |&point| flat.holds(point))
+    })
+}
+
+/// A thin piece, by its largest facet, or by its points in their order.
+#[derive(Clone, Copy)]
+struct Flat<'a> {
+    points: &'a [DVec3],
+    /// The indices of the corners among the points; `None` if the corners are all points in their order.
+    corners: Option<&'a [u32]>,
+    normal: DVec3,
+}
+
+impl<'a> Flat<'a> {
+    /// Returns `None` for a piece without three corners.
+    fn of(piece: &Piece<'a>) -> Option<Self> {
+        let spread = |corners: &[u32]| match *corners {
+            [a, b, c, ..] => {
+                let [a, b, c] = [a, b, c].map(|k| piece.points[k as usize]);
+                (b - a).cross(c - a).length_squared()
+            }
+            _ => 0.0,
+        };
+        let larger = |one, other| {
+            let is_larger = spread(other) > spread(one);
+            if is_larger { other } else { one }
+        };
+        let mut flat = Flat {
+            points: piece.points,
+            corners: piece.facets.iter().reduce(larger),
+            normal: DVec3::ZERO,
+        };
+        if flat.count() < 3 {
+            return None;
+        }
+        let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
+        flat.normal = unit_or_any(across(b - a, c - a));
+        Some(flat)
+    }
+
+    fn count(&self) -> usize {
+        self.corners.map_or(self.points.len(), <[u32]>::len)
+    }
+
+    fn corner(&self, k: usize) -> DVec3 {
+        let k = self.corners.map_or(k, |corners| corners[k] as usize);
+        self.points[k]
+    }
+
+    fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point - self.corner(0))
+    }
+
+    /// Returns a point on each side of the piece, and the inward direction there.
+    fn sides(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        let count = self.count();
+        (0..count).map(move |k| {
+            let (from, to) = (self.corner(k), self.corner((k + 1) % count));
+            (from, self.normal.cross(to - from))
+        })
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        self.sides()
+            .all(|(from, inward)| inward.dot(point - from) > 0.0)
+    }
+
+    /// Returns points on both sides of the middle of the common part with an edge.
+    fn beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+        let way = to - from;
+        let (mut enter, mut leave) = (0.0, 1.0);
+        for (side, inward) in self.sides() {
+            let (depth, speed) = (inward.dot(from - side), inward.dot(way));
+            match () {
+                () if speed > 0.0 => enter = greater(enter, -depth / speed),
+                () if speed < 0.0 => leave = lesser(leave, -depth / speed),
+                () if depth < 0.0 => leave = f64::NEG_INFINITY,
+                () => {}
+            }
+        }
+        (leave > enter).then(|| {
+            let middle = from + way * (0.5 * (enter + leave));
+            let beside = self.normal.cross(way) * (BESIDE_EDGE * (leave - enter));
+            [middle + beside, middle - beside]
+        })
+    }
+}
+
+/// Returns the edges of a piece as indices of its points, each at least once.
+fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
+    let around = |corners: &'a [u32]| {
+        let ends = move |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
+        (0..corners.len()).map(ends)
+    };
+    // Without facets, the points are in their order.
+    let points = if piece.facets.is_empty() {
+        piece.points.len() as u32
+    } else {
+        0
+    };
+    let outline = (0..points).map(move |k| [k, (k + 1) % points]);
+    let shared = piece.facets.iter().flat_map(around);
+    outline.chain(shared.filter(|[from, to]| from < to))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,260 @@
+//! Bodies that begin within the margin, compared with all pairs of triangles, with every budget and every schedule.
+
+use crate::answer::{Answer, Limit, Outcome, Unresolved};
+use crate::body::Body;
+use crate::body::combination::Combination;
+use crate::distance::oracle::{Claim, GiveUp};
+use crate::engine::solve::Solve;
+use crate::math::order::lesser;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::query::Moving;
+use crate::rounding::NEAREST_SHARE;
+#[cfg(feature = "hull-tree")]
+use crate::schedule::Fast;
+use crate::schedule::{BestFirst, Naive};
+use crate::settings::{Settings, StartPolicy};
+use crate::tests::meshes::torus;
+use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude, rng, scene};
+use glam::DVec3;
+use std::time::Duration;
+
+/// Returns all schedules.
+fn schedules() -> Vec<Box<dyn Solve<Exhaustive>>> {
+    vec![
+        Box::new(BestFirst::default()),
+        Box::new(Naive::default()),
+        #[cfg(feature = "hull-tree")]
+        Box::new(Fast::default()),
+    ]
+}
+
+fn solve(problem: &Problem<'_>) -> Answer {
+    BestFirst::default().solve(problem, &mut Exhaustive)
+}
+
+/// Poses two tori with the same cuts, one at the origin, the other at `x`.
+fn tori<R>(cuts: Cuts, x: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+    let torus = body(&torus(cuts.around, cuts.about));
+    let moving = |x: f64| Moving::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
+    then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
+}
+
+/// The number of cuts of a torus around its axis, and about its tube.
+#[derive(Clone, Copy)]
+struct Cuts {
+    around: usize,
+    about: usize,
+}
+
+const FINE: Cuts = Cuts {
+    around: 64,
+    about: 32,
+};
+
+const COARSE: Cuts = Cuts {
+    around: 8,
+    about: 6,
+};
+
+/// Returns a scene with a margin of up to a hundred times its size. Most scenes begin within the margin.
+fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
+    let mut scene = scene(rng, Kind::Any, most);
+    let size = scene.bodies.each_ref().map(|body| body.tree().radius());
+    let size = f64::from(size[0]) + f64::from(size[1]);
+    let gap = distance(&scene.problem(), 0.0);
+    scene.config.margin = if rng.random_bool(0.5) {
+        gap * rng.random_range(1.0..1.5)
+    } else {
+        lesser(size * magnitude(rng, -3.0, 2.0), 1e11)
+    };
+    scene
+}
+
+#[test]
+fn a_start_within_any_margin_costs_one_distance() {
+    let mut visits = Vec::new();
+    for margin in [0.41, 1.0, 2.0, 5.0, 100.0] {
+        let config = Settings {
+            margin,
+            ..Settings::DEFAULT
+        };
+        let answer = tori(FINE, 3.0, &config, solve);
+        let Outcome::Touching { contact } = answer.outcome else {
+            panic!("{margin}: {answer:?}");
+        };
+        let separation = contact.separation;
+        assert!(separation.lower <= 0.4 && separation.upper >= 0.4);
+        assert!(separation.upper - separation.lower < 2.0 * NEAREST_SHARE);
+        visits.push(answer.stats.work());
+    }
+    assert!(visits.iter().all(|&visits| visits < 1_000), "{visits:?}");
+}
+
+#[test]
+fn a_budget_that_ends_at_the_start_is_unresolved() {
+    for budget in [0, 1, 10, 20, 50, 100] {
+        let config = Settings {
+            margin: 5.0,
+            budget,
+            ..Settings::DEFAULT
+        };
+        let answer = tori(FINE, 1.5, &config, solve);
+        assert!(
+            match answer.outcome {
+                Outcome::Overlapping { .. } => true,
+                Outcome::Unresolved(Unresolved {
+                    safe_until,
+                    limit: reason,
+                    ..
+                }) => {
+                    safe_until == 0.0 && reason == Limit::Budget
+                }
+                _ => false,
+            },
+            "{answer:?}"
+        );
+    }
+}
+
+#[test]
+fn bounds_hold_the_distance_and_no_budget_makes_another_answer() {
+    let mut rng = rng(31);
+    let (mut touching, mut ended) = (0, 0);
+    for number in 0..400 {
+        let mut scene = within_margin(&mut rng, 12);
+        let problem = scene.problem();
+        let full = solve(&problem);
+        let Outcome::Touching { contact } = full.outcome else {
+            continue;
+        };
+        touching += 1;
+        let (separation, found) = (contact.separation, distance(&problem, 0.0));
+        assert!(
+            separation.lower <= found + problem.rounding
+                && separation.upper >= found - problem.rounding
+                && separation.upper <= problem.contact_distance(),
+            "{number}: {found:e} {separation:?}"
+        );
+        let loose = separation.upper - separation.lower;
+        let slack = 2.0 * NEAREST_SHARE * separation.upper + 8.0 * problem.rounding;
+        assert!(loose <= slack, "{number}: {separation:?}");
+        let visits = full.stats.iterations;
+        for budget in 0..visits.min(80) {
+            scene.config.budget = budget;
+            let outcome = solve(&scene.problem()).outcome;
+            let ending = Outcome::unresolved(0.0, Limit::Budget);
+            assert_eq!(outcome, ending, "{number}: {budget} of {visits}");
+            ended += 1;
+        }
+        scene.config.budget = full.stats.work();
+        assert_eq!(solve(&scene.problem()).outcome, full.outcome, "{number}");
+    }
+    assert!(touching > 100 && ended > 1_000, "{touching} {ended}");
+}
+
+#[test]
+fn all_schedules_say_the_same_of_a_start() {
+    let mut rng = rng(32);
+    let mut touching = 0;
+    for number in 0..400 {
+        let scene = within_margin(&mut rng, 8);
+        let answers: Vec<Outcome> = schedules()
+            .into_iter()
+            .map(|mut schedule| schedule.solve(&scene.problem(), &mut Exhaustive).outcome)
+            .collect();
+        if answers
+            .iter()
+            .any(|o| matches!(o, Outcome::Touching { .. }))
+        {
+            touching += 1;
+            assert!(
+                answers.iter().all(|o| *o == answers[0]),
+                "{number}: {answers:?}"
+            );
+        }
+    }
+    assert!(touching > 100, "{touching}");
+}
+
+#[test]
+fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
+    for policy in [StartPolicy::Report, StartPolicy::Leave] {
+        let config = Settings {
+            margin: 5.0,
+            start: policy,
+            deadline: Some(Duration::ZERO),
+            ..Settings::DEFAULT
+        };
+        for mut schedule in schedules() {
+            let answer = tori(COARSE, 3.0, &config, |problem| {
+                schedule.solve(problem, &mut Exhaustive)
+            });
+            let Outcome::Unresolved(Unresolved {
+                safe_until,
+                limit: reason,
+                ..
+            }) = answer.outcome
+            else {
+                panic!("{answer:?}");
+            };
+            assert_eq!((safe_until, reason), (0.0, Limit::Deadline));
+        }
+    }
+    // A deadline that is long enough changes nothing.
+    let mut rng = rng(33);
+    for _ in 0..50 {
+        let mut scene = within_margin(&mut rng, 8);
+        let free = solve(&scene.problem());
+        scene.config.deadline = Some(Duration::from_secs(3600));
+        assert_eq!(solve(&scene.problem()), free);
+    }
+}
+
+/// A pair with contradictory claims, or a give-up, does not make bodies touch.
+#[test]
+fn false_claims_and_give_ups_never_make_wrong_bounds() {
+    let mut rng = rng(34);
+    let mut touching = 0;
+    for _ in 0..300 {
+        let mut scene = within_margin(&mut rng, 6);
+        scene.config.budget = 5_000;
+        let problem = scene.problem();
+        let found = distance(&problem, 0.0);
+        let lie = Claim {
+            axis: DVec3::new(0.6, -0.8, 0.0),
+            a: Combination::point(rng.random_range(0..3)),
+            b: Combination::point(rng.random_range(0..3)),
+        };
+        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+            let answer = BestFirst::default().solve(&problem, &mut { oracle });
+            if let Outcome::Touching { contact } = answer.outcome {
+                touching += 1;
+                let separation = contact.separation;
+                assert!(separation.lower <= found + problem.rounding, "{answer:?}");
+                assert!(separation.upper >= found - problem.rounding, "{answer:?}");
+                assert!(separation.upper <= problem.contact_distance(), "{answer:?}");
+            }
+        }
+    }
+    assert!(touching > 50, "{touching}");
+}
+
+/// Each body has one piece, and there is only one pair.
+#[test]
+fn single_pieces_are_measured_once() {
+    let ball = Body::ball(1.0).unwrap();
+    let moving = |x: f64| Moving::from((&ball, Motion::still(Pose::at(x * DVec3::X).unwrap())));
+    let config = Settings {
+        margin: 10.0,
+        ..Settings::DEFAULT
+    };
+    let answer = solve(&Problem::about(moving(4.0), moving(0.0), 1.0, &config).unwrap());
+    let Outcome::Touching { contact } = answer.outcome else {
+        panic!("{answer:?}");
+    };
+    assert!(contact.separation.lower <= 2.0 && contact.separation.upper >= 2.0);
+    assert_eq!(answer.stats.iterations, 2);
+}

@@ -1,0 +1,146 @@
+//! The paper's schedule: one common time step for all pairs of the front of the bounding volume traversal tree.
+
+mod descent;
+mod front;
+mod hull_pair;
+mod reach;
+
+use crate::accelerate::rounds::in_rounds;
+use crate::answer::{Answer, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::answer;
+use crate::engine::best_first::BestFirst;
+use crate::engine::meter::Meter;
+use crate::engine::proven::Proven;
+use crate::engine::scratch::Scratch;
+use crate::engine::solve::Solve;
+use crate::motion::bound::Bound;
+use crate::problem::Problem;
+use descent::Descent;
+use front::Front;
+use hull_pair::HullPair;
+use reach::Reaches;
+use std::ops::ControlFlow;
+
+/// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published
+/// `[FAST06 Alg. 2]`.
+///
+/// A descent through pairs of nodes computes the distance of the bodies `[FAST06 Alg. 3]`. The pairs at which it
+/// stops, the *front*, cover all pairs of pieces. Each pair stays apart for its distance divided by a [bound](Bound)
+/// of its rate of approach. All pairs are advanced by the least of these times, and the distance is computed again,
+/// until it is within the tolerance. The next descent starts from the front of the last one `[SWIFT01]`. That front
+/// contains the pieces that were nearest, so that the distance is bounded before anything is split, and the nearest
+/// pair is always split first. Pairs that have become far are joined again.
+///
+/// The paper measures the distance of the bodies whatever their motion. Here a pair that the bound keeps apart to the
+/// end of the duration is neither split nor visited again. Large nodes that overlap deeply are split unmeasured.
+///
+/// This schedule is for comparison: [`BestFirst`] needs no common step.
+///
+/// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree),
+/// [`BestFirst`] answers the query.
+///
+/// # Guarantee
+/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with
+/// [`Bound::Published`] times may be late and contacts missed.
+///
+/// The bodies come nearer by a share of their distance in every step. Grazing passes and fast
+/// turning therefore cost many steps. Bodies that are [let go](crate::StartPolicy::Leave) from
+/// flush contact and turn may cost the whole budget, where [`BestFirst`] follows the points' paths.
+#[derive(Debug)]
+pub struct Fast<O: DistanceOracle> {
+    bound: Bound,
+    front: Front<O::Cache>,
+    reaches: Reaches,
+    without_trees: BestFirst<O>,
+    scratch: Scratch,
+}
+
+impl<O: DistanceOracle> Fast<O> {
+    /// Creates a schedule that divides distances by this bound.
+    pub fn new(bound: Bound) -> Self {
+        Fast {
+            bound,
+            front: Front::default(),
+            reaches: Reaches::default(),
+            without_trees: BestFirst::default(),
+            scratch: None,
+        }
+    }
+}
+
+impl<O: DistanceOracle> Default for Fast<O> {
+    fn default() -> Self {
+        Fast::new(Bound::default())
+    }
+}
+
+impl<O: DistanceOracle> Solve<O> for Fast<O> {
+    fn takes_accelerations(&self) -> bool {
+        false
+    }
+
+    fn scratch(&mut self) -> &mut Scratch {
+        &mut self.scratch
+    }
+
+    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        let Some(hulls) = HullPair::of(problem) else {
+            return self.without_trees.solve(problem, oracle);
+        };
+        self.reaches.forget();
+        let mut scratch = self.scratch.take();
+        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
+            in_rounds(problem, meter, |problem, meter| {
+                self.advance(problem, hulls, oracle, meter)
+            })
+        });
+        self.scratch = scratch;
+        answer
+    }
+}
+
+impl<O: DistanceOracle> Fast<O> {
+    /// Runs Alg. 2: repeatedly computes the distance, and advances both bodies by the time that it allows.
+    fn advance(
+        &mut self,
+        problem: &Problem<'_>,
+        hulls: HullPair<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Outcome {
+        let mut proven = Proven::default();
+        self.front.plant(hulls);
+        let mut s = 0.0;
+        while s < 1.0 {
+            meter.stats.advancements += 1;
+            let mut descent = Descent {
+                problem,
+                hulls,
+                bound: self.bound,
+                front: &mut self.front,
+                reaches: &mut self.reaches,
+                proven: &proven,
+                meter,
+            };
+            let next = descent.step(oracle, s);
+            let stats = &mut meter.stats;
+            stats.peak_front = stats.peak_front.max(self.front.peak());
+            let next = match next {
+                ControlFlow::Continue(next) => next,
+                ControlFlow::Break(outcome) => return outcome,
+            };
+            if let Some(outcome) = proven.past_start(problem) {
+                return outcome;
+            }
+            if !(next > s) {
+                return Outcome::unresolved(problem.time(s), Limit::Stalled);
+            }
+            s = next;
+        }
+        proven.end(problem)
+    }
+}
+
+#[cfg(test)]
+mod tests;

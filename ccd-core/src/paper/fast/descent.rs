@@ -1,0 +1,273 @@
+//! The descent that computes the distance of the bodies at one clock, and the front that remains `[FAST06 Alg. 3]`.
+
+use super::front::{Front, Item, Node};
+use super::hull_pair::{HullPair, Near};
+use super::reach::Reaches;
+use crate::answer::{Contact, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::meter::Meter;
+use crate::engine::pieces::pair::Step;
+use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::proven::Proven;
+use crate::math::order::lesser;
+use crate::motion::bound::Bound;
+use crate::problem::Problem;
+use crate::settings::StartPolicy;
+use crate::tuning::{JOIN_BEYOND, OVERLAPPING};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::ops::ControlFlow;
+
+/// Computes distances, nearest pairs first, from the front of the last descent.
+pub(super) struct Descent<'s, 'p, C> {
+    pub(super) problem: &'p Problem<'p>,
+    pub(super) hulls: HullPair<'p>,
+    pub(super) bound: Bound,
+    pub(super) front: &'s mut Front<C>,
+    pub(super) reaches: &'s mut Reaches,
+    pub(super) proven: &'s Proven,
+    pub(super) meter: &'s mut Meter,
+}
+
+/// The results at a clock so far.
+struct Found {
+    /// An upper bound of the distance of the bodies.
+    distance: f64,
+    /// The nearest pair of pieces in contact.
+    contact: Option<Contact>,
+    /// Pairs that may have to be split, nearest first.
+    open: BinaryHeap<Open>,
+}
+
+/// A pair of the front with its distance.
+struct Open {
+    lower: f64,
+    at: u32,
+}
+
+impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
+    /// Visits the pairs of the front at clock `s` that do not stay apart to the end, splits those that
+    /// may have the least distance, joins those that no longer may, and returns the time until which
+    /// all of them keep apart.
+    pub(super) fn step<O>(&mut self, oracle: &mut O, s: f64) -> ControlFlow<Outcome, f64>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        let snapshot = Snapshot::of(self.problem, self.hulls.hulls([0, 0]), s);
+        let mut found = Found {
+            distance: f64::INFINITY,
+            contact: None,
+            open: BinaryHeap::new(),
+        };
+        for at in self.front.leaves() {
+            if self.front.node(at).stays_apart() {
+                continue;
+            }
+            self.look(oracle, &snapshot, at, &mut found)?;
+        }
+        while let Some(Open { lower, at }) = found.open.pop() {
+            // Written so that a pair with NaN is split.
+            if lower >= found.distance {
+                break;
+            }
+            let Some(first) = self.front.drop_below(self.hulls, at) else {
+                continue;
+            };
+            self.look(oracle, &snapshot, first, &mut found)?;
+            self.look(oracle, &snapshot, first + 1, &mut found)?;
+        }
+        if let Some(contact) = found.contact {
+            return ControlFlow::Break(self.proven.contact(self.problem, contact, s));
+        }
+        let next = self.front.clock();
+        self.join(oracle, &snapshot, &mut found, next)?;
+        ControlFlow::Continue(next)
+    }
+
+    /// Measures a pair of the front.
+    fn look<O>(
+        &mut self,
+        oracle: &mut O,
+        snapshot: &Snapshot<'p>,
+        at: u32,
+        found: &mut Found,
+    ) -> ControlFlow<Outcome>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        if let Err(reason) = self.meter.visit(self.problem) {
+            return ControlFlow::Break(Outcome::unresolved(
+                self.problem.time(snapshot.clock),
+                reason,
+            ));
+        }
+        match self.front.node(at).item {
+            Item::Nodes(_) => {
+                self.look_at_nodes(oracle, snapshot, at, found);
+                ControlFlow::Continue(())
+            }
+            Item::Pieces(_) => self.look_at_pieces(oracle, snapshot, at, found),
+        }
+    }
+
+    fn look_at_nodes<O>(
+        &mut self,
+        oracle: &mut O,
+        snapshot: &Snapshot<'p>,
+        at: u32,
+        found: &mut Found,
+    ) where
+        O: DistanceOracle<Cache = C>,
+    {
+        let (problem, s) = (self.problem, snapshot.clock);
+        let node = self.front.node(at);
+        let Item::Nodes(cache) = &mut node.item else {
+            return;
+        };
+        let snapshot = snapshot.with(self.hulls.hulls(node.pair));
+        let depth = snapshot.depth_between_middles();
+        // The search for a common point takes longer than the search for a distance, and its result is of no use
+        // here.
+        if depth.is_some_and(|depth| depth > OVERLAPPING) {
+            self.meter.stats.point_looks += snapshot.pieces.points();
+            found.open.push(node.unmeasured(at, s));
+            return;
+        }
+        let Some(checked) = snapshot.ask(oracle, cache, self.meter) else {
+            // Smaller hulls may be easier.
+            found.open.push(node.unmeasured(at, s));
+            return;
+        };
+        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        let free = snapshot.directed_time(&checked, problem.gap(), self.bound, reaches);
+        node.lower = checked.lower;
+        node.near = self.hulls.near(node.pair, &checked.claim);
+        node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
+        let contact = problem.contact_distance();
+        // Contacts at the start are found at the start, or never.
+        let reach = if s > 0.0 { problem.gap() } else { contact };
+        let apart = checked.lower > reach && node.clock > s;
+        // The distance bound is that of the pieces below the nodes, which are not in contact.
+        let settled = node.near == Near::Pieces && checked.upper > contact;
+        if settled && apart {
+            found.distance = lesser(found.distance, checked.upper);
+        }
+        // If a pair stays apart, all pairs below it do, whatever their distance.
+        let done = apart && (settled || node.stays_apart());
+        if !(done || checked.lower >= found.distance) {
+            let lower = checked.lower;
+            found.open.push(Open { lower, at });
+        }
+    }
+
+    fn look_at_pieces<O>(
+        &mut self,
+        oracle: &mut O,
+        snapshot: &Snapshot<'p>,
+        at: u32,
+        found: &mut Found,
+    ) -> ControlFlow<Outcome>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        let (problem, bound, s) = (self.problem, self.bound, snapshot.clock);
+        let node = self.front.node(at);
+        let Item::Pieces(pair) = &mut node.item else {
+            return ControlFlow::Continue(());
+        };
+        let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
+        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        // Pairs that rest on each other do not count for the distance of the bodies.
+        node.lower = f64::NEG_INFINITY;
+        let step = pair.advance_by(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
+            node.lower = checked.lower;
+            found.distance = lesser(found.distance, checked.upper);
+            snapshot.directed_time(checked, kept, bound, reaches)
+        });
+        if let Step::Contact(contact) = step
+            && s > 0.0
+        {
+            found.touch(contact);
+            return ControlFlow::Continue(());
+        }
+        node.clock = self.proven.conclude(problem, oracle, self.meter, step, s)?;
+        ControlFlow::Continue(())
+    }
+
+    /// Joins pairs of the front that have become far away, if that costs nothing: the pair that
+    /// covers both is as far apart as the bodies, and apart until the next clock.
+    fn join<O>(
+        &mut self,
+        oracle: &mut O,
+        snapshot: &Snapshot<'p>,
+        found: &mut Found,
+        next: f64,
+    ) -> ControlFlow<Outcome>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        // Pairs that were let go at the start must not be forgotten.
+        if self.problem.start == StartPolicy::Leave {
+            return ControlFlow::Continue(());
+        }
+        let distance = found.distance;
+        for (at, first) in self.front.above_leaves() {
+            let far = [first, first + 1]
+                .into_iter()
+                .all(|child| self.front.node(child).lower >= JOIN_BEYOND * distance);
+            if !far || self.front.node(at).join_below <= distance {
+                continue;
+            }
+            self.look(oracle, snapshot, at, found)?;
+            let node = self.front.node(at);
+            if node.lower >= distance && node.clock >= next {
+                self.front.raise(at);
+            } else {
+                node.join_below = distance / JOIN_BEYOND;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl<C> Node<C> {
+    /// Records that the pair is to be split, whatever its distance.
+    fn unmeasured(&mut self, at: u32, s: f64) -> Open {
+        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
+        let lower = self.lower;
+        Open { lower, at }
+    }
+}
+
+impl Found {
+    fn touch(&mut self, contact: Contact) {
+        let separation = &contact.separation;
+        self.distance = lesser(self.distance, separation.upper);
+        let nearest = self.contact.get_or_insert(contact);
+        if separation.lower < nearest.separation.lower {
+            *nearest = contact;
+        }
+    }
+}
+
+/// The nearest pair is the greatest; among equals, the one that came first.
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let nearer = other.lower.total_cmp(&self.lower);
+        nearer.then(other.at.cmp(&self.at))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}

@@ -1,0 +1,190 @@
+//! The bounding volume traversal tree, and its front `[FAST06 §5.1]`.
+
+use super::hull_pair::{Below, HullPair, Near};
+use crate::engine::capacity::empty;
+use crate::engine::pieces::pair::Pair;
+use crate::math::order::lesser;
+
+/// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent
+/// stopped.
+/// The leaves are the front: together they cover all pairs of pieces. The front is kept between two descents, with
+/// the caches of the oracle.
+/// descents, with the caches of the oracle.
+#[derive(Debug)]
+pub(super) struct Front<C> {
+    /// The pairs. The root is the first, and pairs of children are adjacent.
+    nodes: Vec<Node<C>>,
+    /// Free slots of former pairs of children.
+    vacant: Vec<u32>,
+    leaves: usize,
+    peak: usize,
+}
+
+/// A pair of nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Node<C> {
+    pub(super) pair: [u32; 2],
+    pub(super) item: Item<C>,
+    /// The first of the two children; `None` in the front.
+    pub(super) children: Option<u32>,
+    /// A lower bound of the pair's distance at its last visit.
+    pub(super) lower: f64,
+    /// The time until which the pair was certified apart at its last visit; infinite for a pair that stays apart to
+    /// the end.
+    pub(super) clock: f64,
+    /// The owners of the pair's nearest features.
+    pub(super) near: Near,
+    /// While the distance of the bodies is below this, joining its children is worth another try.
+    pub(super) join_below: f64,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Item<C> {
+    /// A pair of which at least one is an inner node, with the oracle's cache.
+    Nodes(C),
+    /// A pair of two leaves.
+    Pieces(Pair<C>),
+}
+
+impl<C> Default for Front<C> {
+    fn default() -> Self {
+        Front {
+            nodes: Vec::new(),
+            vacant: Vec::new(),
+            leaves: 0,
+            peak: 0,
+        }
+    }
+}
+
+impl<C: Clone + Default> Front<C> {
+    /// Restarts with the pair of roots.
+    pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
+        empty(&mut self.nodes);
+        empty(&mut self.vacant);
+        self.nodes.push(Node::new(hulls, [0, 0], C::default()));
+        (self.leaves, self.peak) = (1, 1);
+    }
+
+    /// Returns the largest number of pairs that were in the front at once.
+    pub(super) fn peak(&self) -> u64 {
+        self.peak as u64
+    }
+
+    pub(super) fn node(&mut self, at: u32) -> &mut Node<C> {
+        &mut self.nodes[at as usize]
+    }
+
+    /// Returns the pairs of the front, in the order of the tree.
+    pub(super) fn leaves(&self) -> Vec<u32> {
+        let mut leaves = Vec::with_capacity(self.leaves);
+        self.walk(|at, node| {
+            if node.children.is_none() {
+                leaves.push(at);
+            }
+        });
+        leaves
+    }
+
+    /// Returns the least clock of the pairs in the front.
+    pub(super) fn clock(&self) -> f64 {
+        let mut least = f64::INFINITY;
+        self.walk(|_, node| {
+            if node.children.is_none() {
+                least = lesser(least, node.clock);
+            }
+        });
+        least
+    }
+
+    /// Returns the pairs whose children are both in the front and do not stay apart to the end, with the
+    /// first child of each.
+    pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
+        let mut above = Vec::new();
+        self.walk(|at, node| {
+            if let Some(first) = node.children
+                && [first, first + 1]
+                    .iter()
+                    .map(|&child| &self.nodes[child as usize])
+                    .all(|child| child.children.is_none() && !child.stays_apart())
+            {
+                above.push((at, first));
+            }
+        });
+        above
+    }
+
+    /// Replaces a pair of the front by two that cover it, and returns the first of them; `None` for a pair of pieces.
+    pub(super) fn drop_below(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
+        let node = &self.nodes[at as usize];
+        let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
+            return None;
+        };
+        // Nearest points of a covering pair are a good start for the pair. This does not hold for
+        // pieces: when they touch, a warm start affects their axis, and so the answer.
+        let cache = match &node.item {
+            Item::Nodes(cache) => cache.clone(),
+            Item::Pieces(_) => C::default(),
+        };
+        let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone()));
+        let first = match self.vacant.pop() {
+            Some(first) => {
+                for (child, at) in children.into_iter().zip(first as usize..) {
+                    self.nodes[at] = child;
+                }
+                first
+            }
+            None => {
+                self.nodes.extend(children);
+                self.nodes.len() as u32 - 2
+            }
+        };
+        self.nodes[at as usize].children = Some(first);
+        self.leaves += 1;
+        self.peak = self.peak.max(self.leaves);
+        Some(first)
+    }
+
+    /// Replaces two pairs of the front by the one that covers them.
+    pub(super) fn raise(&mut self, at: u32) {
+        if let Some(first) = self.nodes[at as usize].children.take() {
+            self.vacant.push(first);
+            self.leaves -= 1;
+        }
+    }
+
+    fn walk(&self, mut visit: impl FnMut(u32, &Node<C>)) {
+        let mut stack = vec![0];
+        while let Some(at) = stack.pop() {
+            let node = &self.nodes[at as usize];
+            visit(at, node);
+            if let Some(first) = node.children {
+                stack.extend([first + 1, first]);
+            }
+        }
+    }
+}
+
+impl<C> Node<C> {
+    /// Returns whether the pair is certified apart to the end of the query.
+    pub(super) fn stays_apart(&self) -> bool {
+        self.clock == f64::INFINITY
+    }
+}
+
+impl<C: Default + Clone> Node<C> {
+    fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C) -> Self {
+        Node {
+            pair,
+            item: match hulls.below(pair, Near::Bridges) {
+                Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
+                Below::Pairs(_) => Item::Nodes(cache),
+            },
+            children: None,
+            lower: f64::NEG_INFINITY,
+            clock: 0.0,
+            near: Near::Bridges,
+            join_below: f64::INFINITY,
+        }
+    }
+}

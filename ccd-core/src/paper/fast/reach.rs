@@ -1,0 +1,40 @@
+//! Distances of nodes from their body's axis of rotation, each computed once a query.
+
+use crate::engine::pieces::snapshot::Snapshot;
+use crate::problem::Problem;
+
+#[derive(Debug, Default)]
+pub(super) struct Reaches {
+    query: u64,
+    /// The query and the result of each computation, by body and node.
+    known: [Vec<(u64, f64)>; 2],
+}
+
+impl Reaches {
+    /// Invalidates all results for another query.
+    pub(super) fn forget(&mut self) {
+        self.query += 1;
+    }
+
+    /// Returns the distances from the axis for both nodes of a pair; `snapshot` has their hulls.
+    pub(super) fn each(
+        &mut self,
+        problem: &Problem<'_>,
+        pair: [u32; 2],
+        snapshot: &Snapshot<'_>,
+    ) -> [f64; 2] {
+        let paths = [&problem.a.path, &problem.b.path];
+        let points = [snapshot.pieces.a.points, snapshot.pieces.b.points];
+        [0, 1].map(|k| {
+            let (known, at) = (&mut self.known[k], pair[k] as usize);
+            if known.len() <= at {
+                known.resize(at + 1, (0, 0.0));
+            }
+            let (query, reach) = &mut known[at];
+            if *query != self.query {
+                (*query, *reach) = (self.query, paths[k].reach(points[k]));
+            }
+            *reach
+        })
+    }
+}

@@ -1,0 +1,118 @@
+//! All pairs of pieces on one common clock: Alg. 1 of the paper, a slow and obvious reference.
+
+use crate::answer::{Answer, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::answer;
+use crate::engine::capacity::empty;
+use crate::engine::meter::Meter;
+use crate::engine::pieces::pair::Pair;
+use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::proven::Proven;
+use crate::engine::scratch::Scratch;
+use crate::engine::solve::Solve;
+use crate::math::order::lesser;
+use crate::motion::bound::Bound;
+use crate::problem::{Problem, Side};
+use std::ops::ControlFlow;
+
+/// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`: the
+/// distance of each pair, divided by a [bound](Bound) of its rate of approach.
+///
+/// Every step costs one distance for each pair of pieces. Grazing passes, fast turning and bodies that are let go
+/// from flush contact cost many steps. This schedule suits only bodies of few pieces, and checks of the other
+/// schedules.
+///
+/// # Guarantee
+/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with
+/// [`Bound::Published`] times may be late.
+#[derive(Debug)]
+pub struct Naive<O: DistanceOracle> {
+    bound: Bound,
+    pairs: Vec<Pair<O::Cache>>,
+    scratch: Scratch,
+}
+
+impl<O: DistanceOracle> Naive<O> {
+    /// Creates a schedule that divides distances by this bound.
+    pub fn new(bound: Bound) -> Self {
+        Naive {
+            bound,
+            pairs: Vec::new(),
+            scratch: None,
+        }
+    }
+}
+
+impl<O: DistanceOracle> Default for Naive<O> {
+    fn default() -> Self {
+        Naive::new(Bound::default())
+    }
+}
+
+impl<O: DistanceOracle> Solve<O> for Naive<O> {
+    fn takes_accelerations(&self) -> bool {
+        false
+    }
+
+    fn scratch(&mut self) -> &mut Scratch {
+        &mut self.scratch
+    }
+
+    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        let mut scratch = self.scratch.take();
+        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
+            let outcome = self.search(problem, oracle, meter);
+            meter.stats.peak_front = self.pairs.len() as u64;
+            outcome
+        });
+        self.scratch = scratch;
+        answer
+    }
+}
+
+impl<O: DistanceOracle> Naive<O> {
+    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
+        let (a, b) = (problem.a.body.pieces().len(), problem.b.body.pieces().len());
+        let unresolved = |s: f64, reason| Outcome::unresolved(problem.time(s), reason);
+        empty(&mut self.pairs);
+        let all = a as u64 * b as u64;
+        if all > problem.budget {
+            return unresolved(0.0, Limit::Budget);
+        }
+        let pairs = (0..a as u32).flat_map(|i| (0..b as u32).map(move |j| Pair::new(i, j)));
+        self.pairs.extend(pairs);
+        let reaches = [&problem.a, &problem.b].map(reaches);
+        let mut proven = Proven::default();
+        let mut s = 0.0;
+        while s < 1.0 {
+            meter.stats.advancements += 1;
+            let mut next = f64::INFINITY;
+            let snapshot = Snapshot::new(problem, 0, 0, s);
+            for pair in &mut self.pairs {
+                if let Err(limit) = meter.visit(problem) {
+                    return unresolved(s, limit);
+                }
+                let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
+                let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
+                let step = pair.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+                    snapshot.directed_time(checked, kept, self.bound, reaches)
+                });
+                match proven.conclude(problem, oracle, meter, step, s) {
+                    ControlFlow::Continue(clock) => next = lesser(next, clock),
+                    ControlFlow::Break(outcome) => return outcome,
+                }
+            }
+            if let Some(outcome) = proven.past_start(problem) {
+                return outcome;
+            }
+            s = next;
+        }
+        proven.end(problem)
+    }
+}
+
+/// Returns the greatest distance of each piece's points from its body's axis of rotation.
+fn reaches(side: &Side<'_>) -> Vec<f64> {
+    let pieces = side.body.pieces().iter();
+    pieces.map(|piece| side.path.reach(piece.points)).collect()
+}

@@ -1,0 +1,9 @@
+//! The questions beside the first contact of two motions, each with its own conclusions from the steps of a search.
+//!
+//! `any.rs` asks whether bodies touch at all, `closest.rs` how close they come. `steps.rs` searches for a first contact
+//! up to a time, and continues later. `along.rs` asks about bodies that move along trajectories.
+
+pub(crate) mod along;
+pub(crate) mod any;
+pub(crate) mod closest;
+pub(crate) mod steps;

@@ -1,0 +1,19 @@
+//! Questions about bodies that move along trajectories, answered stretch by stretch.
+//!
+//! On a stretch of time each body follows a motion, with a constant acceleration of its centre, up to a known
+//! deviation. The query about these motions uses the sum of both deviations as a margin: if the motions keep this
+//! margin, the bodies are apart. A contact within the deviations proves nothing, and the stretch is cut.
+
+pub(crate) mod any;
+pub(crate) mod closest;
+mod contacts;
+mod drive;
+pub(crate) mod farthest;
+pub(crate) mod first;
+pub(crate) mod interval;
+mod lengths;
+mod motions;
+mod stretches;
+
+#[cfg(test)]
+mod tests;

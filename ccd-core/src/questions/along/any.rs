@@ -1,0 +1,103 @@
+//! The search for any contact along trajectories.
+
+use super::contacts::{Seen, SoFar};
+use super::drive::{Question, drive};
+use super::lengths::{cut_at_once, length};
+use super::motions::{Motions, Span};
+use super::stretches::Stretches;
+use crate::answer::{Answer, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::depth_first::DepthFirst;
+use crate::error::InputError;
+use crate::math::order::lesser;
+use crate::problem::Problem;
+use crate::query::Query;
+use crate::questions::any::any;
+use std::ops::ControlFlow;
+
+impl<O: DistanceOracle> DepthFirst<O> {
+    /// Answers whether the bodies touch at all along their trajectories.
+    pub(crate) fn any_contact_along(
+        &mut self,
+        query: &Query<'_>,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        let mut any = Any {
+            schedule: self,
+            kept: SoFar::new(query),
+            undecided: f64::INFINITY,
+        };
+        drive(&mut any, query, oracle)
+    }
+}
+
+struct Any<'s, O: DistanceOracle> {
+    schedule: &'s mut DepthFirst<O>,
+    kept: SoFar,
+    /// The first time at which one body is inside the other.
+    undecided: f64,
+}
+
+impl<O: DistanceOracle> Any<'_, O> {
+    fn unresolved(&self, stretches: &Stretches<'_, '_>, until: f64, limit: Limit) -> Answer {
+        let until = lesser(lesser(until, self.undecided), stretches.first());
+        self.kept.unresolved(stretches, until, limit)
+    }
+}
+
+impl<O: DistanceOracle> Question<O> for Any<'_, O> {
+    fn cut_at_once(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        oracle: &mut O,
+    ) -> Result<bool, InputError> {
+        cut_at_once(stretches, motions, oracle, &mut self.schedule.scratch)
+    }
+
+    fn examine(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+    ) -> Result<ControlFlow<Answer>, InputError> {
+        let answer = self.schedule.any_contact_of(problem, oracle);
+        let seen = match self.kept.see(stretches, motions, &answer)? {
+            Seen::Done => return Ok(ControlFlow::Continue(())),
+            Seen::Stopped(until, limit) => {
+                return Ok(ControlFlow::Break(self.unresolved(stretches, until, limit)));
+            }
+            Seen::Near(s, contact) => (s, contact),
+        };
+        if stretches.is_fine(motions)? {
+            let found = self.kept.found(stretches, motions, answer.outcome)?;
+            // One body is inside the other: they have met before, or overlap at the start.
+            if let Outcome::Unresolved(known) = found.outcome {
+                self.undecided = lesser(self.undecided, known.safe_until);
+                return Ok(ControlFlow::Continue(()));
+            }
+            return Ok(ControlFlow::Break(any(found)));
+        }
+        let scratch = &mut self.schedule.scratch;
+        let length = 2.0 * length(stretches, motions, seen, oracle, scratch)?;
+        if stretches.cut_about(motions.span, motions.time(seen.0), length) {
+            return Ok(ControlFlow::Continue(()));
+        }
+        let stalled = self.unresolved(stretches, motions.span.from, Limit::Stalled);
+        Ok(ControlFlow::Break(stalled))
+    }
+
+    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+        self.unresolved(stretches, span.from, limit)
+    }
+
+    fn done(&mut self, stretches: &mut Stretches<'_, '_>, _: &mut O) -> Result<Answer, InputError> {
+        Ok(if self.undecided.is_finite() {
+            let limit = Limit::Undecided;
+            self.kept.unresolved(stretches, self.undecided, limit)
+        } else {
+            self.kept.free(stretches)
+        })
+    }
+}

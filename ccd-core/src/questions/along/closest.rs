@@ -1,0 +1,305 @@
+//! The search for the closest approach along trajectories.
+
+mod found;
+
+use super::drive::{Question, drive};
+use super::motions::{Motions, Span};
+use super::stretches::Stretches;
+use crate::answer::{Answer, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::depth_first::DepthFirst;
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::problem::Problem;
+use crate::query::Query;
+use crate::questions::closest::required::Required;
+use crate::questions::closest::{Beyond, meets_later};
+use crate::tuning::{COARSE, STRAY_SHARE};
+use found::{Found, Seen};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+impl<O: DistanceOracle> DepthFirst<O> {
+    /// Brackets the least distance of the bodies along their trajectories, or answers whether they keep a required
+    /// clearance.
+    pub(crate) fn closest_approach_along(
+        &mut self,
+        query: &Query<'_>,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        let answer = match query.terms.clearance {
+            Some(distance) => self.keeps_along(query, distance, oracle)?,
+            None => self.approach_of_bodies_along(&query.measuring(), oracle)?,
+        };
+        Ok(answer.of_shapes(query.excess()))
+    }
+
+    /// Brackets the least distance of the bodies themselves, whatever their shapes are.
+    fn approach_of_bodies_along(
+        &mut self,
+        query: &Query<'_>,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        let mut closest = Closest {
+            schedule: self,
+            query,
+            found: Found::new(query),
+        };
+        drive(&mut closest, query, oracle)
+    }
+
+    /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
+    fn keeps_along(
+        &mut self,
+        query: &Query<'_>,
+        distance: f64,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        let required = Required {
+            distance,
+            tolerance: query.terms.tolerance,
+            budget: query.terms.budget,
+            excess: query.excess(),
+        };
+        let begun = query.terms.deadline.map(|_| Instant::now());
+        required.decide(|rung| {
+            let mut query = query.asking(rung);
+            query.terms.deadline = begun.and_then(|begun| {
+                let deadline = query.terms.deadline;
+                deadline.map(|deadline| deadline.saturating_sub(begun.elapsed()))
+            });
+            self.any_contact_along(&query, oracle)
+        })
+    }
+}
+
+struct Closest<'s, 'q, 'a, O: DistanceOracle> {
+    schedule: &'s mut DepthFirst<O>,
+    query: &'q Query<'a>,
+    found: Found,
+}
+
+impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
+    /// Proves a lower bound of the whole query's least distance, as a part of the least distance seen, if one is due.
+    fn prepare(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+    ) -> Result<(), InputError> {
+        let found = &mut self.found;
+        let work = stretches.stats.work();
+        let (Some(rung), Ok(left)) = (found.ladder.due(work, found.upper()), stretches.terms())
+        else {
+            return Ok(());
+        };
+        let mut query = self.query.asking(rung);
+        query.terms.budget = rung.budget;
+        query.terms.deadline = left.deadline;
+        let answer = self.schedule.any_contact_along(&query, oracle)?;
+        stretches.add_for_no_part(&answer.stats);
+        let proven = match answer.outcome {
+            Outcome::Free { proven_gap } => Some(proven_gap),
+            Outcome::Contact { time, contact } => {
+                found.take(time, contact);
+                None
+            }
+            _ => None,
+        };
+        found.ladder.climb(proven);
+        Ok(())
+    }
+
+    fn cut_at_once(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        oracle: &mut O,
+    ) -> Result<bool, InputError> {
+        let Some(time) = stretches.looks_too_long(motions) else {
+            return Ok(false);
+        };
+        let doubt = self.doubt(stretches, oracle, time)?;
+        let Some(doubt) = doubt.filter(|doubt| doubt.rises_into(motions, time)) else {
+            return Ok(false);
+        };
+        let length = doubt.length(motions);
+        Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
+    }
+
+    fn examine(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+    ) -> Result<ControlFlow<Answer>, InputError> {
+        let (found, query) = (&mut self.found, self.query);
+        // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
+        // the upper bound.
+        let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance();
+        let answer = self.schedule.approach_below(problem, beyond, oracle);
+        stretches.add(&answer.stats);
+        let seen = match answer.found {
+            Err(Beyond { lower }) => Seen::beyond(lower),
+            Ok(Outcome::Overlapping { .. }) if stretches.look_at_start(motions)? => {
+                return Ok(ControlFlow::Continue(()));
+            }
+            Ok(outcome @ Outcome::Overlapping { .. }) if stretches.begins_at_start(motions)? => {
+                return Ok(ControlFlow::Break(found.answer(query, stretches, outcome)));
+            }
+            Ok(outcome) => match found.see(motions, &outcome) {
+                Ok(seen) => seen,
+                Err(limit) => {
+                    let stopped = found.unresolved(query, stretches, motions.span, limit);
+                    return Ok(ControlFlow::Break(stopped));
+                }
+            },
+        };
+        let lower = greater(0.0, motions.at_least(seen.lower));
+        let tolerance = query.terms.tolerance;
+        let is_near_enough = lower >= found.upper() - tolerance || seen.is_loose(tolerance);
+        if is_near_enough || stretches.is_fine(motions)? {
+            found.lower = lesser(found.lower, lower);
+            stretches.prove(motions);
+        } else if !self.cut_where_nearest(stretches, oracle, motions, &seen)? {
+            let stalled = self
+                .found
+                .unresolved(query, stretches, motions.span, Limit::Stalled);
+            return Ok(ControlFlow::Break(stalled));
+        }
+        if self.found.upper() > tolerance {
+            return Ok(ControlFlow::Continue(()));
+        }
+        self.found.lower = 0.0;
+        self.done(stretches, oracle).map(ControlFlow::Break)
+    }
+
+    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+        self.found.unresolved(self.query, stretches, span, limit)
+    }
+
+    fn done(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        let nearest = self.found.nearest(self.query, stretches);
+        if meets_later(&nearest.outcome, nearest.tolerance) {
+            self.or_overlap(stretches, oracle, nearest)
+        } else {
+            Ok(nearest)
+        }
+    }
+}
+
+impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
+    /// Returns the answer for bodies that meet, unless they overlap at the start as well.
+    fn or_overlap(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+        nearest: Answer,
+    ) -> Result<Answer, InputError> {
+        let Ok((pose, terms)) = stretches.pose(0.0)? else {
+            return Ok(nearest);
+        };
+        let problem = pose.problem(self.query, &terms)?;
+        let start = self.schedule.approach_of_bodies(&problem, oracle);
+        stretches.add(&start.stats);
+        Ok(Answer {
+            outcome: match start.outcome {
+                overlapping @ Outcome::Overlapping { .. } => overlapping,
+                _ => nearest.outcome,
+            },
+            stats: stretches.stats,
+            ..nearest
+        })
+    }
+
+    /// Cuts a stretch at the time at which its motions are nearest. Returns false if it cannot be cut.
+    fn cut_where_nearest(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+        motions: &Motions,
+        seen: &Seen,
+    ) -> Result<bool, InputError> {
+        let time = motions.time(seen.time);
+        let Query {
+            terms, duration, ..
+        } = self.query;
+        // Halves mostly suffice, and cost less than measuring the distance.
+        if motions.span.length() > COARSE * duration {
+            return Ok(stretches.cut_about(motions.span, time, f64::INFINITY));
+        }
+        // If they are nearest at an end, and still approach there, they get nearer beyond it.
+        if let Some(end) = seen.falls_beyond(motions)
+            && let Some(beyond) = stretches.take_beside(end)
+        {
+            let is_cut = stretches.cut_about(motions.span, time, f64::INFINITY);
+            stretches.push(beyond);
+            return Ok(is_cut);
+        }
+        let length = match self.doubt(stretches, oracle, time)? {
+            Some(doubt) => greater(
+                doubt.length(motions),
+                motions.length_for_rate(doubt.rate.abs()),
+            ),
+            None => motions.length_for(STRAY_SHARE * terms.tolerance),
+        };
+        Ok(stretches.cut_about(motions.span, time, length))
+    }
+
+    /// Measures the bodies at a time. Returns `None` if they overlap, or a limit is reached.
+    fn doubt(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        oracle: &mut O,
+        time: f64,
+    ) -> Result<Option<Doubt>, InputError> {
+        let Ok((pose, terms)) = stretches.pose(time)? else {
+            return Ok(None);
+        };
+        let problem = pose.problem(self.query, &terms)?;
+        let answer = self.schedule.approach_of_bodies(&problem, oracle);
+        stretches.stats.add(&answer.stats);
+        let Outcome::Measured {
+            at: Some((_, contact)),
+            ..
+        } = answer.outcome
+        else {
+            return Ok(None);
+        };
+        let found = &mut self.found;
+        found.take(time, pose.contact(contact));
+        let rounding = 2.0 * pose.stray;
+        let least = greater(terms.tolerance, rounding);
+        Ok(Some(Doubt {
+            stray: greater(least, contact.separation.upper - found.upper()),
+            rate: -pose.approach(0.0, &contact),
+        }))
+    }
+}
+
+/// The limits that the bodies' distance at a time sets for stretches near that time.
+struct Doubt {
+    /// Deviations below this leave no doubt.
+    stray: f64,
+    /// The rate at which the distance grows.
+    rate: f64,
+}
+
+impl Doubt {
+    fn length(&self, motions: &Motions) -> f64 {
+        motions.length_for(STRAY_SHARE * self.stray)
+    }
+
+    /// Returns true if the distance grows from an end of the stretch on.
+    fn rises_into(&self, motions: &Motions, end: f64) -> bool {
+        if end > motions.span.from {
+            self.rate <= 0.0
+        } else {
+            self.rate >= 0.0
+        }
+    }
+}

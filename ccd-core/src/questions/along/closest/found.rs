@@ -1,0 +1,217 @@
+//! The results found so far in a search for the closest approach along trajectories.
+
+use crate::accelerate::out_of_reach::least_distance;
+use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::query::Query;
+use crate::questions::along::motions::{Motions, Span};
+use crate::questions::along::stretches::Stretches;
+use crate::questions::closest::ladder::{Ladder, Rung};
+use crate::settings::Terms;
+use crate::tuning::LEAST_CUT;
+
+impl Query<'_> {
+    /// Returns the query for distances: the margin plays no role in it.
+    pub(in crate::questions::along) fn measuring(&self) -> Self {
+        Query {
+            terms: Terms {
+                margin: 0.0,
+                clearance: None,
+                ..self.terms
+            },
+            problem: None,
+            ..*self
+        }
+    }
+
+    /// Returns the query for contacts with a margin and a tolerance, within a budget.
+    pub(super) fn asking(&self, rung: Rung) -> Self {
+        let Rung {
+            margin,
+            tolerance,
+            budget,
+        } = rung;
+        let mut asking = self.measuring();
+        asking.terms = Terms {
+            margin,
+            tolerance,
+            budget,
+            ..asking.terms
+        };
+        asking
+    }
+}
+
+/// The result of one stretch: bounds of the distance of its motions.
+pub(super) struct Seen {
+    pub(super) lower: f64,
+    pub(super) upper: f64,
+    /// The amount by which the deviations widen these bounds.
+    pub(super) blur: f64,
+    /// The time in the stretch at which the motions are nearest.
+    pub(super) time: f64,
+    /// The rate at which the motions approach each other at that time.
+    pub(super) approach: f64,
+}
+
+impl Seen {
+    /// Returns the result if the motions are farther apart than the least distance found so far. The bodies are so
+    /// despite their deviations.
+    pub(super) fn beyond(lower: f64) -> Self {
+        Seen {
+            lower,
+            upper: lower,
+            blur: 0.0,
+            time: 0.0,
+            approach: 0.0,
+        }
+    }
+
+    /// Returns true if f64 does not certify the tolerance for the motions. Cutting the stretch does not help then.
+    pub(super) fn is_loose(&self, tolerance: f64) -> bool {
+        let width = self.upper - self.lower;
+        width > tolerance && self.blur <= width
+    }
+
+    /// Returns the end of the stretch beyond which the motions get nearer by more than the deviations.
+    pub(super) fn falls_beyond(&self, motions: &Motions) -> Option<f64> {
+        let Span { from, to, .. } = motions.span;
+        let (near, falls) = (
+            LEAST_CUT * motions.span.length(),
+            self.approach * motions.span.length(),
+        );
+        let time = motions.time(self.time);
+        if time - from <= near && -falls > motions.stray {
+            Some(from)
+        } else if to - time <= near && falls > motions.stray {
+            Some(to)
+        } else {
+            None
+        }
+    }
+}
+
+/// The least distance found so far.
+pub(super) struct Found {
+    /// A lower bound of the distance on all finished stretches.
+    pub(super) lower: f64,
+    pub(super) best: Option<(f64, Contact)>,
+    /// The lower bound that is proven for all stretches.
+    pub(super) ladder: Ladder,
+}
+
+impl Found {
+    pub(super) fn new(query: &Query<'_>) -> Self {
+        let ladder = Ladder::new(0.0, query.terms.budget);
+        let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
+        Found {
+            lower: f64::INFINITY,
+            best: None,
+            ladder: if is_timed { ladder.timed() } else { ladder },
+        }
+    }
+
+    pub(super) fn upper(&self) -> f64 {
+        let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
+        self.best.map_or(f64::INFINITY, upper)
+    }
+
+    /// Records the result of the motions in a stretch.
+    ///
+    /// # Errors
+    /// The limit that was reached.
+    pub(super) fn see(&mut self, motions: &Motions, outcome: &Outcome) -> Result<Seen, Limit> {
+        let mut seen = Seen {
+            lower: 0.0,
+            upper: 0.0,
+            blur: motions.stray,
+            time: 0.0,
+            approach: 0.0,
+        };
+        match *outcome {
+            Outcome::Measured {
+                lower,
+                at: Some((time, contact)),
+                ..
+            } => {
+                self.take(motions.time(time), motions.contact(contact));
+                seen.lower = lower;
+                seen.upper = contact.separation.upper;
+                seen.time = time;
+                seen.approach = motions.approach(time, &contact);
+            }
+            Outcome::Overlapping { overlap, .. } => {
+                if let Overlap::Pieces(contact) = overlap {
+                    self.take(motions.span.from, motions.contact(contact));
+                }
+            }
+            Outcome::Unresolved(known) => {
+                if let Some((time, contact)) = known.at {
+                    self.take(motions.time(time), motions.contact(contact));
+                }
+                return Err(known.limit);
+            }
+            _ => unreachable!("no outcome of a search for the least distance"),
+        }
+        Ok(seen)
+    }
+
+    pub(super) fn take(&mut self, time: f64, contact: Contact) {
+        if contact.separation.upper < self.upper() {
+            self.best = Some((time, contact));
+        }
+    }
+
+    pub(super) fn nearest(&self, query: &Query<'_>, stretches: &Stretches<'_, '_>) -> Answer {
+        let Some((time, contact)) = self.best else {
+            let reason = Limit::OracleGaveUp;
+            return self.answer(query, stretches, self.known(0.0, reason));
+        };
+        let lower = lesser(self.lower, contact.separation.upper);
+        let nearest = Outcome::least(lower, time, contact.no_nearer_than(lower));
+        self.answer(query, stretches, nearest)
+    }
+
+    /// Returns the answer when a limit is reached at a stretch. For this stretch and the waiting ones, bounding balls
+    /// of the bodies give the lower bound.
+    pub(super) fn unresolved(
+        &self,
+        query: &Query<'_>,
+        stretches: &Stretches<'_, '_>,
+        span: Span,
+        reason: Limit,
+    ) -> Answer {
+        let apart = |&span: &Span| {
+            let motions = Motions::new(query, span)?;
+            let problem = motions.problem(query, &query.terms)?;
+            Ok(motions.at_least(least_distance(&problem)))
+        };
+        let spans = stretches.waiting().iter().chain([&span]);
+        // Written so that NaN is no bound.
+        let known = |apart: Result<f64, InputError>| apart.ok().filter(|&apart| apart > 0.0);
+        let apart = spans.map(|span| known(apart(span)).unwrap_or(0.0));
+        let lower = apart.fold(self.lower, lesser);
+        self.answer(query, stretches, self.known(lower, reason))
+    }
+
+    /// Returns the outcome when a limit is reached; `lower` is proven for each stretch.
+    fn known(&self, lower: f64, limit: Limit) -> Outcome {
+        let lower = lesser(greater(self.ladder.lower, lower), self.upper());
+        let seen = |(time, contact): (f64, Contact)| (time, contact.no_nearer_than(lower));
+        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
+    }
+
+    pub(super) fn answer(
+        &self,
+        query: &Query<'_>,
+        stretches: &Stretches<'_, '_>,
+        outcome: Outcome,
+    ) -> Answer {
+        Answer {
+            tolerance: greater(query.terms.tolerance, outcome.width()),
+            outcome,
+            stats: stretches.stats,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! The first contact along trajectories, stretch by stretch in order of time.
+
+use super::contacts::{Seen, SoFar};
+use super::drive::{Question, drive};
+use super::lengths::{cut_at_once, length};
+use super::motions::{Motions, Span};
+use super::stretches::Stretches;
+use crate::answer::{Answer, Limit};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::solve::Solve;
+use crate::error::InputError;
+use crate::math::order::lesser;
+use crate::problem::Problem;
+use crate::query::Query;
+use std::ops::ControlFlow;
+
+/// Returns the time at which the bodies first touch along their trajectories.
+pub(crate) fn first_contact<O: DistanceOracle, S: Solve<O>>(
+    schedule: &mut S,
+    query: &Query<'_>,
+    oracle: &mut O,
+) -> Result<Answer, InputError> {
+    let mut first = First {
+        schedule,
+        kept: SoFar::new(query),
+    };
+    drive(&mut first, query, oracle)
+}
+
+struct First<'s, S> {
+    schedule: &'s mut S,
+    kept: SoFar,
+}
+
+impl<O: DistanceOracle, S: Solve<O>> Question<O> for First<'_, S> {
+    fn takes_accelerations(&self) -> bool {
+        self.schedule.takes_accelerations()
+    }
+
+    fn cut_at_once(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        oracle: &mut O,
+    ) -> Result<bool, InputError> {
+        cut_at_once(stretches, motions, oracle, self.schedule.scratch())
+    }
+
+    fn examine(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        motions: &Motions,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+    ) -> Result<ControlFlow<Answer>, InputError> {
+        let kept = &mut self.kept;
+        // The stretches before a contact may not be examined again.
+        kept.keep(motions, problem.proven_gap());
+        let answer = self.schedule.solve(problem, oracle);
+        let (s, contact) = match kept.see(stretches, motions, &answer)? {
+            Seen::Done => return Ok(ControlFlow::Continue(())),
+            Seen::Stopped(until, limit) => {
+                return Ok(ControlFlow::Break(kept.unresolved(stretches, until, limit)));
+            }
+            Seen::Near(s, contact) => (s, contact),
+        };
+        if stretches.is_fine(motions)? {
+            let found = kept.found(stretches, motions, answer.outcome)?;
+            return Ok(ControlFlow::Break(found));
+        }
+        let rest = Span {
+            from: motions.time(s),
+            ..motions.span
+        };
+        let scratch = self.schedule.scratch();
+        let length = length(stretches, motions, (s, contact), oracle, scratch)?;
+        // A much shorter stretch also has much smaller deviations.
+        let is_short = rest.length() <= lesser(length, 0.5 * motions.span.length());
+        if is_short || !stretches.cut(rest, length) {
+            if !(rest.from > motions.span.from) {
+                let stalled = kept.unresolved(stretches, rest.from, Limit::Stalled);
+                return Ok(ControlFlow::Break(stalled));
+            }
+            stretches.push(rest);
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+        self.kept.unresolved(stretches, span.from, limit)
+    }
+
+    fn done(&mut self, stretches: &mut Stretches<'_, '_>, _: &mut O) -> Result<Answer, InputError> {
+        Ok(self.kept.free(stretches))
+    }
+}

@@ -1,0 +1,134 @@
+//! The first and the last contact along trajectories.
+
+use super::first::first_contact;
+use crate::answer::{Answer, Hit, Outcome, Unresolved};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::best_first::BestFirst;
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
+use crate::motion::Motion;
+use crate::motion::trajectory::{Stray, Stretch, Trajectory};
+use crate::query::{Movement, Moving, Query};
+use crate::rounding::U64;
+use std::time::Instant;
+
+impl<O: DistanceOracle> BestFirst<O> {
+    /// Answers when the bodies first and last touch along their trajectories. The last contact is the first contact
+    /// of the reversed trajectories.
+    ///
+    /// # Guarantee
+    /// The guarantee of [`Outcome`], for the trajectories themselves; ends on every input.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
+    pub fn contact_interval(
+        &mut self,
+        query: &Query<'_>,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        let duration = query.duration;
+        let begun = query.terms.deadline.map(|_| Instant::now());
+        let first = first_contact(self, query, oracle)?;
+        let answer = |outcome, of: &Answer| Answer {
+            outcome,
+            tolerance: greater(first.tolerance, of.tolerance),
+            stats: of.stats,
+        };
+        let begins = match first.outcome.hit() {
+            Ok(Some(hit)) => hit,
+            Ok(None) => return Ok(first),
+            Err(known) => {
+                let unresolved = Outcome::Unresolved(Unresolved {
+                    safe_from: duration,
+                    ..known
+                });
+                return Ok(answer(unresolved, &first));
+            }
+        };
+        let [a, b] = [&query.a, &query.b].map(|moving| Reversed {
+            of: moving.movement,
+            duration,
+        });
+        let mut back = Query {
+            a: Moving {
+                body: query.a.body,
+                movement: Movement::Trajectory(&a),
+            },
+            b: Moving {
+                body: query.b.body,
+                movement: Movement::Trajectory(&b),
+            },
+            problem: None,
+            ..*query
+        };
+        if let (Some(deadline), Some(begun)) = (&mut back.terms.deadline, begun) {
+            *deadline = deadline.saturating_sub(begun.elapsed());
+        }
+        let mut last = first_contact(self, &back, oracle)?;
+        last.stats.add(&first.stats);
+        // Rounded so that it is never early.
+        let time = |time: f64| lesser((duration - time).next_up(), duration);
+        let outcome = match last.outcome.hit() {
+            Ok(Some(hit)) if time(hit.time) > begins.time => Outcome::Interval {
+                first: begins,
+                last: Hit {
+                    time: time(hit.time),
+                    ..hit
+                },
+            },
+            // A contact that is found in only one direction of time is a near miss.
+            Ok(_) => Outcome::Interval {
+                first: begins,
+                last: begins,
+            },
+            Err(known) => Outcome::Unresolved(Unresolved {
+                safe_until: begins.time,
+                safe_from: time(known.safe_until),
+                ..known
+            }),
+        };
+        Ok(answer(outcome, &last))
+    }
+}
+
+/// A trajectory that runs from its end to its start.
+struct Reversed<'t> {
+    of: Movement<'t>,
+    duration: f64,
+}
+
+impl Reversed<'_> {
+    fn time(&self, time: f64) -> f64 {
+        greater(0.0, self.duration - time)
+    }
+}
+
+impl Trajectory for Reversed<'_> {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let (first, last) = (self.time(to), self.time(from));
+        let stretch = self.of.stretch(first, last)?;
+        let end = stretch.started(last - first)?;
+        // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
+        let off = 2.0 * U64 * self.duration;
+        let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));
+        let moved = Stray {
+            // The speed is largest at an end.
+            shift: greater(before, after) * off,
+            turn: length(stretch.motion.spin()) * off,
+        };
+        let rounding = end.rounding_of_start(last - first);
+        let Stretch { motion, .. } = end;
+        let [velocity, spin] = [-motion.velocity(), -motion.spin()];
+        Ok(Stretch {
+            motion: Motion::about(motion.start(), velocity, spin, motion.centre())?,
+            stray: end.stray + moved + rounding,
+            ..end
+        })
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let corner = self.of.corner(self.time(to), self.time(from))?;
+        Some(self.duration - corner)
+    }
+}

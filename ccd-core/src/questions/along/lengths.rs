@@ -1,0 +1,79 @@
+//! The length of a stretch to try next: long enough for progress, and so short that the deviations are less than the
+//! bodies' distance.
+
+use super::motions::Motions;
+use super::stretches::Stretches;
+use crate::answer::Contact;
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::scratch::Scratch;
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::query::Query;
+use crate::settings::Terms;
+use crate::tuning::{COARSE, STRAY_SHARE};
+
+/// Cuts a stretch that is probably too long before it is searched: the bodies are measured where it meets a proven
+/// one. Returns false if the stretch is worth a search.
+pub(super) fn cut_at_once<O: DistanceOracle>(
+    stretches: &mut Stretches<'_, '_>,
+    motions: &Motions,
+    oracle: &mut O,
+    scratch: &mut Scratch,
+) -> Result<bool, InputError> {
+    let Some(time) = stretches.looks_too_long(motions) else {
+        return Ok(false);
+    };
+    let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
+        return Ok(false);
+    };
+    // Rates have the opposite sign backwards in time.
+    let approach = if time > motions.span.from {
+        -approach
+    } else {
+        approach
+    };
+    let length = worthwhile(stretches.query(), motions, (contact, approach));
+    Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
+}
+
+/// Returns the length of a stretch worth a search after a contact of the motions at a time.
+pub(super) fn length<O: DistanceOracle>(
+    stretches: &mut Stretches<'_, '_>,
+    motions: &Motions,
+    (time, seen): (f64, Option<Contact>),
+    oracle: &mut O,
+    scratch: &mut Scratch,
+) -> Result<f64, InputError> {
+    let query = stretches.query();
+    let seen = match time > 0.0 {
+        true => seen.map(|contact| (contact, motions.approach(time, &contact))),
+        // Halves mostly suffice, and cost less.
+        false if motions.span.length() > COARSE * query.duration => return Ok(f64::INFINITY),
+        // The motions begin beside the bodies. They do not show the distance of the bodies, which is measured.
+        false => stretches.measure(motions.span.from, oracle, scratch)?,
+    };
+    Ok(match seen {
+        Some(seen) => worthwhile(query, motions, seen),
+        None => motions.length_for(STRAY_SHARE * query.terms.tolerance),
+    })
+}
+
+/// Returns the length of a stretch worth a search, from the bodies' distance at a contact and the rate at which they
+/// approach. In such a stretch the deviation is a part of the distance, and the bodies reach the time at which they
+/// meet or are nearest.
+///
+/// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
+/// and pass each other closely, they are nearest after about `2 d/r`.
+fn worthwhile(query: &Query<'_>, motions: &Motions, (contact, approach): (Contact, f64)) -> f64 {
+    let Terms {
+        margin, tolerance, ..
+    } = query.terms;
+    let gap = greater(contact.separation.upper - margin, tolerance);
+    let nearest = 2.0 * gap / approach;
+    // Written so that NaN is no time.
+    if nearest > 0.0 {
+        lesser(motions.length_for(STRAY_SHARE * gap), nearest)
+    } else {
+        motions.length_for((1.0 - STRAY_SHARE) * gap)
+    }
+}

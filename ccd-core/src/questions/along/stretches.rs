@@ -1,0 +1,347 @@
+//! The stretches of time that are still to be examined, and the work left for them.
+
+use super::motions::{Motions, Span};
+use crate::answer::{Contact, Limit, Outcome, Stats};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::metered;
+use crate::engine::scratch::Scratch;
+use crate::engine::start::at_start;
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::motion::trajectory::Trajectory;
+use crate::query::{Moving, Query};
+use crate::settings::Terms;
+use crate::tuning::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// The waiting stretches, the next one last, and the work so far.
+pub(super) struct Stretches<'j, 'a> {
+    query: &'j Query<'a>,
+    waiting: Vec<Span>,
+    pub(super) stats: Stats,
+    budgets: Budgets,
+    looked_at_start: bool,
+    /// The last stretch that was proven, and its deviations.
+    proven: Option<(Span, f64)>,
+    /// The start of the query; `None` if there is no deadline. No clock is read then.
+    begun: Option<Instant>,
+}
+
+impl<'j, 'a> Stretches<'j, 'a> {
+    /// Starts with one stretch, the whole duration.
+    pub(super) fn new(query: &'j Query<'a>) -> Self {
+        Stretches {
+            query,
+            waiting: vec![Span {
+                from: 0.0,
+                to: query.duration,
+                part: 0,
+            }],
+            stats: Stats::default(),
+            budgets: Budgets::default(),
+            looked_at_start: false,
+            proven: None,
+            begun: query.terms.deadline.map(|_| Instant::now()),
+        }
+    }
+
+    pub(super) fn query(&self) -> &'j Query<'a> {
+        self.query
+    }
+
+    pub(super) fn next(&mut self) -> Option<Span> {
+        self.waiting.pop()
+    }
+
+    /// Returns the waiting stretches.
+    pub(super) fn waiting(&self) -> &[Span] {
+        &self.waiting
+    }
+
+    /// Returns the first time of all waiting stretches; infinite if there are none.
+    pub(super) fn first(&self) -> f64 {
+        let starts = self.waiting.iter().map(|span| span.from);
+        starts.fold(f64::INFINITY, lesser)
+    }
+
+    /// Returns the settings with the rest of the budget and of the deadline.
+    pub(super) fn terms(&self) -> Result<Terms<'a>, Limit> {
+        let terms = &self.query.terms;
+        if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(Limit::Stopped);
+        }
+        let spent = self.budgets.spent(self.stats.work());
+        let budget = terms.budget.checked_sub(spent);
+        let deadline = match (terms.deadline, self.begun) {
+            (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
+                Some(left) => Some(left),
+                None => return Err(Limit::Deadline),
+            },
+            _ => None,
+        };
+        Ok(Terms {
+            budget: budget.filter(|&left| left > 0).ok_or(Limit::Budget)?,
+            deadline,
+            ..*terms
+        })
+    }
+
+    /// Adds the work on a stretch.
+    pub(super) fn add(&mut self, stats: &Stats) {
+        // Each stretch counts as one visit, even if its search made none.
+        self.stats.iterations += 1;
+        self.stats.add(stats);
+    }
+
+    /// Adds work on the whole query, which is charged to no part.
+    pub(super) fn add_for_no_part(&mut self, stats: &Stats) {
+        self.stats.add(stats);
+        self.budgets.begun += stats.work();
+    }
+
+    /// Returns the motions in a stretch with the settings, or the limit that was reached. The stretch is cut until
+    /// the deviations are lengths that queries accept.
+    pub(super) fn motions(
+        &mut self,
+        mut span: Span,
+        accelerations: bool,
+    ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
+        loop {
+            self.turn_to(span);
+            let terms = match self.terms() {
+                Ok(terms) => terms,
+                Err(reason) => return Ok(Err(reason)),
+            };
+            let motions = Motions::new(self.query, span)?;
+            let motions = if accelerations {
+                motions
+            } else {
+                motions.straight()
+            };
+            if motions.is_in_range(self.query) || !self.cut(span, 0.5 * span.length()) {
+                return Ok(Ok((motions, terms)));
+            }
+            self.stats.iterations += 1;
+            span = self.waiting.pop().unwrap_or(span);
+        }
+    }
+
+    /// Returns true if a contact of the motions in a stretch is accepted as one of the bodies: the tolerance is met, or
+    /// cutting does not improve it.
+    pub(super) fn is_fine(&self, motions: &Motions) -> Result<bool, InputError> {
+        Ok(motions.stray <= STRAY_SHARE * self.query.terms.tolerance
+            || self.is_shortest(motions)?)
+    }
+
+    /// Returns true if the deviations are hardly larger than in a stretch of no length: only rounding remains.
+    fn is_shortest(&self, motions: &Motions) -> Result<bool, InputError> {
+        let least = Motions::new(self.query, motions.span.start())?;
+        Ok(motions.stray <= 2.0 * least.stray)
+    }
+
+    /// Returns true if the poses at the start of a stretch are those of the bodies at the start, up to
+    /// rounding.
+    pub(super) fn begins_at_start(&self, motions: &Motions) -> Result<bool, InputError> {
+        Ok(motions.span.from == 0.0 && (motions.stray == 0.0 || self.is_shortest(motions)?))
+    }
+
+    /// Schedules the pose at the start, and then the stretch again, if the motions begin beside that pose: an
+    /// overlap of the motions at the start need not be one of the bodies. Returns false if the start was examined
+    /// already, and for stretches that begin later.
+    pub(super) fn look_at_start(&mut self, motions: &Motions) -> Result<bool, InputError> {
+        if motions.span.from > 0.0 || self.looked_at_start || self.begins_at_start(motions)? {
+            return Ok(false);
+        }
+        self.looked_at_start = true;
+        self.waiting.extend([motions.span, motions.span.start()]);
+        Ok(true)
+    }
+
+    /// Records that the bodies are apart in a stretch.
+    pub(super) fn prove(&mut self, motions: &Motions) {
+        self.proven = Some((motions.span, motions.stray));
+    }
+
+    /// Returns the time at which a stretch begins or ends beside the one that was proven last, if its deviations are
+    /// much larger: they are probably too large.
+    pub(super) fn looks_too_long(&mut self, motions: &Motions) -> Option<f64> {
+        let (proven, stray) = self.proven.take()?;
+        let Span { from, to, .. } = motions.span;
+        let beside = [(from, proven.to), (to, proven.from)];
+        let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
+        (motions.stray > MUCH_LONGER * stray).then_some(time)
+    }
+
+    /// Charges the following work to the part of the query that contains a stretch.
+    pub(super) fn turn_to(&mut self, span: Span) {
+        self.budgets.turn_to(span.part, self.stats.work());
+    }
+
+    /// Returns the pose at a time and the settings, or the limit that was reached.
+    pub(super) fn pose(
+        &self,
+        time: f64,
+    ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
+        let terms = match self.terms() {
+            Ok(terms) => terms,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let span = Span {
+            from: time,
+            to: time,
+            part: self.budgets.part,
+        };
+        Ok(Ok((Motions::new(self.query, span)?, terms)))
+    }
+
+    /// Measures the bodies at a time, up to rounding. Returns the contact and the rate at which the bodies approach;
+    /// `None` if they overlap, or a limit is reached.
+    pub(super) fn measure<O: DistanceOracle>(
+        &mut self,
+        time: f64,
+        oracle: &mut O,
+        scratch: &mut Scratch,
+    ) -> Result<Option<(Contact, f64)>, InputError> {
+        let Ok((motions, terms)) = self.pose(time)? else {
+            return Ok(None);
+        };
+        let problem = motions.problem(self.query, &terms)?.measuring();
+        let answer = metered(&problem, oracle, scratch, |oracle, meter| {
+            (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
+        });
+        self.stats.add(&answer.stats);
+        Ok(match answer.found {
+            Some(Outcome::Touching { contact }) => Some((contact, motions.approach(0.0, &contact))),
+            _ => None,
+        })
+    }
+
+    /// Removes and returns the waiting stretch beside a time; `None` if everything there is proven.
+    pub(super) fn take_beside(&mut self, time: f64) -> Option<Span> {
+        let is_beside = |span: &Span| span.from == time || span.to == time;
+        let index = self.waiting.iter().rposition(is_beside)?;
+        Some(self.waiting.remove(index))
+    }
+
+    /// Makes a stretch the next one.
+    pub(super) fn push(&mut self, span: Span) {
+        self.waiting.push(span);
+    }
+
+    /// Cuts a stretch in two, at a corner or after about this length, and makes the earlier part the next one.
+    /// Returns false if it cannot be cut.
+    pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
+        let Some([early, late]) = self.parts(span, length) else {
+            return false;
+        };
+        self.waiting.extend([late, early]);
+        true
+    }
+
+    /// Cuts a part of about this length around a time out of a stretch, and makes it the next one. At a corner it is
+    /// the part that contains the time. Returns false if the stretch cannot be cut.
+    pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
+        let whole = span.length();
+        let Some([early, late]) = self.parts(span, 0.5 * whole) else {
+            return false;
+        };
+        let half = 0.5 * greater(length, LEAST_CUT * whole);
+        let [first, last] = [time - half, time + half];
+        // Written so that NaN, or a length lost to rounding, gives a half of the stretch.
+        let is_part = length < 0.5 * whole && first < time && last > time;
+        if !is_part || early.to != span.middle() {
+            if time < late.from {
+                self.waiting.extend([late, early]);
+            } else {
+                self.waiting.extend([early, late]);
+            }
+            return true;
+        }
+        let mut middle = span;
+        // The rest beside it would be hardly longer.
+        if last + half < span.to {
+            self.waiting.push(Span { from: last, ..span });
+            middle.to = last;
+        }
+        if first - half > span.from {
+            self.waiting.push(Span { to: first, ..span });
+            middle.from = first;
+        }
+        self.waiting.push(middle);
+        true
+    }
+
+    pub(super) fn parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
+        let Span { from, to, part } = span;
+        let Query { a, b, .. } = self.query;
+        let corner = |body: &Moving<'_>| {
+            let corner = body.movement.corner(from, to)?;
+            (corner > from && corner < to).then_some(corner)
+        };
+        let whole = span.length();
+        let length = greater(LEAST_CUT * whole, lesser(length, 0.5 * whole));
+        let corner = corner(a).or_else(|| corner(b));
+        let at = corner.unwrap_or(from + length);
+        if !(at > from && at < to) {
+            return None;
+        }
+        let [before, after] = match corner {
+            Some(_) => [(); 2].map(|()| self.budgets.another(part)),
+            None => [part; 2],
+        };
+        Some([
+            Span {
+                to: at,
+                part: before,
+                ..span
+            },
+            Span {
+                from: at,
+                part: after,
+                ..span
+            },
+        ])
+    }
+}
+
+/// The work on each part of a query. Each part between two corners has its own budget.
+struct Budgets {
+    spent: Vec<u64>,
+    /// The part that is charged now.
+    part: usize,
+    /// The work on all parts when the charging of this part began.
+    begun: u64,
+}
+
+impl Default for Budgets {
+    fn default() -> Self {
+        Budgets {
+            spent: vec![0],
+            part: 0,
+            begun: 0,
+        }
+    }
+}
+
+impl Budgets {
+    /// Returns the work on the present part; `work` is the total of all parts.
+    fn spent(&self, work: u64) -> u64 {
+        self.spent[self.part] + (work - self.begun)
+    }
+
+    /// Charges the following work to a part.
+    fn turn_to(&mut self, part: usize, work: u64) {
+        self.spent[self.part] = self.spent(work);
+        (self.part, self.begun) = (part, work);
+    }
+
+    /// Returns a new part with its own budget; or the given part, which it was cut from, if there are too many.
+    fn another(&mut self, part: usize) -> usize {
+        if self.spent.len() >= MOST_PARTS {
+            return part;
+        }
+        self.spent.push(0);
+        self.spent.len() - 1
+    }
+}

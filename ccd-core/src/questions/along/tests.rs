@@ -1,0 +1,388 @@
+//! Answers along trajectories, compared with sampled distances, and with the answers for plain motions.
+
+mod budgets;
+
+mod distances;
+
+use crate::answer::Outcome;
+use crate::body::Body;
+use crate::engine::solve::Solve;
+use crate::error::InputError;
+use crate::math::order::lesser;
+use crate::motion::Motion;
+use crate::motion::trajectory::{Accelerations, Smooth};
+use crate::motion::trajectory::{Stretch, Trajectory};
+use crate::query::Query;
+use crate::schedule::{BestFirst, DepthFirst, Naive, Schedule};
+use crate::settings::Settings;
+use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{Kind, Look, Pcg64, RngExt, body, magnitude, rng, scene, soup};
+use crate::tests::trajectories::Swing;
+use glam::DVec3;
+
+/// Two bodies that swing near each other.
+struct Swings {
+    soups: [Vec<Triangle>; 2],
+    bodies: [Body; 2],
+    swings: [Swing; 2],
+    config: Settings,
+}
+
+impl Swings {
+    fn draw(rng: &mut Pcg64) -> Self {
+        let soups = [(); 2].map(|()| {
+            let count = rng.random_range(1..6);
+            soup(rng, Look::Plump, count, 1.0)
+        });
+        let mut swings = [(); 2].map(|()| Swing::draw(rng, 0.7));
+        swings[0].place += 1.2 * DVec3::X;
+        Swings {
+            bodies: [body(&soups[0]), body(&soups[1])],
+            soups,
+            swings,
+            config: Settings {
+                tolerance: magnitude(rng, -6.0, -2.0),
+                margin: [0.0, 0.1][rng.random_range(0..2)],
+                ..Settings::DEFAULT
+            },
+        }
+    }
+
+    fn query(&self) -> Query<'_> {
+        let [a, b] = [0, 1].map(|k| (&self.bodies[k], &self.swings[k]));
+        Query::new(a, b, 1.0, &self.config).unwrap()
+    }
+
+    fn distance(&self, t: f64) -> f64 {
+        let [a, b] = [0, 1].map(|k| {
+            let pose = self.swings[k].pose(t).unwrap();
+            let placed = |triangle: &Triangle| triangle.map(|p| pose.transform_point(p));
+            self.soups[k].iter().map(placed).collect::<Vec<_>>()
+        });
+        let pairs = a
+            .iter()
+            .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
+        pairs.fold(f64::INFINITY, lesser)
+    }
+
+    fn first(&self) -> Outcome {
+        let answer = BestFirst::default().first_contact(&self.query(), &mut Exhaustive);
+        answer.unwrap().outcome
+    }
+}
+
+const ROUNDING: f64 = 1e-12;
+
+#[test]
+fn first_contacts_hold_at_sampled_times() {
+    let mut rng = rng(1);
+    let (mut hits, mut misses, mut starts) = (0, 0, 0);
+    for number in 0..600 {
+        let swings = Swings::draw(&mut rng);
+        let Settings {
+            margin, tolerance, ..
+        } = swings.config;
+        let (until, least) = match swings.first() {
+            Outcome::Contact { time, contact } => {
+                hits += 1;
+                let near = swings.distance(time);
+                assert!(near <= margin + tolerance + ROUNDING, "{number}: {near:e}");
+                assert!(contact.separation.lower <= near + ROUNDING);
+                assert!(contact.separation.upper <= margin + tolerance + ROUNDING);
+                (time, margin)
+            }
+            Outcome::Free { proven_gap } => {
+                misses += 1;
+                (1.0, proven_gap)
+            }
+            Outcome::Touching { .. } | Outcome::Overlapping { .. } => {
+                starts += 1;
+                assert!(swings.distance(0.0) <= margin + tolerance + ROUNDING);
+                continue;
+            }
+            outcome => panic!("{number}: {outcome:?}"),
+        };
+        for k in 0..200 {
+            let found = swings.distance(until * f64::from(k) / 200.0);
+            assert!(
+                found >= least - ROUNDING,
+                "{number}: {found:e} before {until}"
+            );
+        }
+    }
+    assert!(
+        hits > 100 && misses > 100 && starts > 5,
+        "{hits} {misses} {starts}"
+    );
+}
+
+/// Schedules that take no accelerations into account find the same contacts, never late and equally early.
+#[test]
+fn every_schedule_finds_first_contacts_along_trajectories() {
+    let mut rng = rng(31);
+    let (mut hits, mut misses) = (0, 0);
+    for number in 0..60 {
+        let mut swings = Swings::draw(&mut rng);
+        swings.config.tolerance = magnitude(&mut rng, -3.0, -2.0);
+        let Settings {
+            margin, tolerance, ..
+        } = swings.config;
+        let naive = Naive::default().first_contact(&swings.query(), &mut Exhaustive);
+        match (naive.unwrap().outcome, swings.first()) {
+            (Outcome::Contact { time, .. }, other) => {
+                hits += 1;
+                let near = swings.distance(time);
+                assert!(near <= margin + tolerance + ROUNDING, "{number}: {near:e}");
+                for k in 0..200 {
+                    let found = swings.distance(time * f64::from(k) / 200.0);
+                    assert!(
+                        found >= margin - ROUNDING,
+                        "{number}: {found:e} before {time}"
+                    );
+                }
+                let graze = matches!(other, Outcome::Free { proven_gap } if proven_gap <= margin + tolerance);
+                assert!(
+                    graze || other.hit().is_ok_and(|hit| hit.is_some()),
+                    "{number}: {other:?}"
+                );
+            }
+            (Outcome::Free { proven_gap }, _) => {
+                misses += 1;
+                for k in 0..=200 {
+                    let found = swings.distance(f64::from(k) / 200.0);
+                    assert!(found >= proven_gap - ROUNDING, "{number}: {found:e}");
+                }
+            }
+            (Outcome::Touching { .. } | Outcome::Overlapping { .. }, _) => {}
+            (outcome, _) => panic!("{number}: {outcome:?}"),
+        }
+    }
+    assert!(hits > 10 && misses > 10, "{hits} {misses}");
+}
+
+#[test]
+fn any_contact_has_the_verdict_of_the_first() {
+    let mut rng = rng(2);
+    let (mut hits, mut misses, mut grazes) = (0, 0, 0);
+    for number in 0..600 {
+        let swings = Swings::draw(&mut rng);
+        let within = swings.config.margin + swings.config.tolerance;
+        let any = DepthFirst::default().any_contact(&swings.query(), &mut Exhaustive);
+        match (any.unwrap().outcome, swings.first()) {
+            (Outcome::Free { .. }, Outcome::Free { .. }) => misses += 1,
+            (Outcome::Contact { time, .. }, first) => {
+                let near = swings.distance(time);
+                assert!(near <= within + ROUNDING, "{number}: {near:e}");
+                match first {
+                    Outcome::Free { .. } => grazes += 1,
+                    _ => hits += 1,
+                }
+            }
+            (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
+            (Outcome::Free { .. }, Outcome::Contact { time, .. }) => {
+                grazes += 1;
+                assert!(swings.distance(time) > swings.config.margin);
+            }
+            (any, first) => panic!("{number}: {any:?}, {first:?}"),
+        }
+    }
+    assert!(
+        hits > 100 && misses > 100 && grazes < 10,
+        "{hits} {misses} {grazes}"
+    );
+}
+
+#[test]
+fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
+    let mut rng = rng(3);
+    let (mut apart, mut touching) = (0, 0);
+    for number in 0..400 {
+        let swings = Swings::draw(&mut rng);
+        let answer = DepthFirst::default().closest_approach(&swings.query(), &mut Exhaustive);
+        let answer = answer.unwrap();
+        let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
+        match answer.outcome {
+            Outcome::Measured {
+                at: Some((time, _)),
+                ..
+            } => {
+                assert!(
+                    upper - lower <= swings.config.tolerance,
+                    "{number}: {answer:?}"
+                );
+                assert!(
+                    swings.distance(time) <= upper + ROUNDING,
+                    "{number}: {answer:?}"
+                );
+            }
+            Outcome::Overlapping { .. } => {}
+            _ => panic!("{number}: {answer:?}"),
+        }
+        for k in 0..=200 {
+            let found = swings.distance(f64::from(k) / 200.0);
+            assert!(
+                found >= lower - ROUNDING,
+                "{number}: {found:e} in {answer:?}"
+            );
+        }
+        if lower > 0.0 {
+            apart += 1;
+        } else {
+            touching += 1;
+        }
+    }
+    assert!(apart > 60 && touching > 60, "{apart} {touching}");
+}
+
+/// A motion of constant velocities, given as a user's own trajectory.
+struct Own(Motion);
+
+/// A motion given as a trajectory that does not return it as one: the query is answered stretch by stretch.
+struct Unknown(Motion);
+
+impl Trajectory for Unknown {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        self.0.stretch(from, to)
+    }
+}
+
+impl Smooth for Own {
+    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+        let (velocity, spin, centre) = (self.0.velocity(), self.0.spin(), self.0.centre());
+        Motion::about(self.0.pose(time), velocity, spin, centre)
+    }
+
+    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
+        Accelerations::default()
+    }
+}
+
+#[test]
+fn plain_motions_have_their_own_answers() {
+    let mut rng = rng(4);
+    let (mut hits, mut misses) = (0, 0);
+    for number in 0..1_000 {
+        let scene = scene(&mut rng, [Kind::Any, Kind::Rim][number % 2], 8);
+        let problem = scene.problem();
+        let unknown = scene.motions.map(Unknown);
+        let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &unknown[k]));
+        let query = Query::new(a, b, 1.0, &scene.config).unwrap();
+        let answer = BestFirst::default().solve(&problem, &mut Exhaustive);
+        let along = BestFirst::default().first_contact(&query, &mut Exhaustive);
+        assert_eq!(along.unwrap().outcome, answer.outcome, "{number}");
+        match answer.outcome {
+            Outcome::Free { .. } => misses += 1,
+            _ => hits += 1,
+        }
+    }
+    assert!(hits > 30 && misses > 200, "{hits} {misses}");
+}
+
+#[test]
+fn a_motion_as_a_trajectory_of_ones_own_has_the_same_answer_within_the_tolerance() {
+    let mut rng = rng(5);
+    let (mut hits, mut misses, mut grazes) = (0, 0, 0);
+    for number in 0..1_000 {
+        let scene = scene(&mut rng, [Kind::Any, Kind::Rim][number % 2], 8);
+        let problem = scene.problem();
+        let own = scene.motions.map(Own);
+        let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &own[k]));
+        let query = Query::new(a, b, 1.0, &scene.config).unwrap();
+        let answer = BestFirst::default().solve(&problem, &mut Exhaustive);
+        let along = BestFirst::default().first_contact(&query, &mut Exhaustive);
+        match (answer.outcome, along.unwrap().outcome) {
+            (Outcome::Contact { time, .. }, Outcome::Contact { time: other, .. }) => {
+                hits += 1;
+                let within = problem.contact_distance() + 1e-9;
+                for time in [time, other] {
+                    let near = crate::tests::scene::distance(&problem, time);
+                    assert!(near <= within * (1.0 + 1e-9), "{number}: {near:e}");
+                }
+            }
+            (Outcome::Free { .. }, Outcome::Free { .. }) => misses += 1,
+            (Outcome::Touching { .. }, Outcome::Touching { .. })
+            | (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
+            // The coordinates are too large for the tolerance on this path.
+            (_, Outcome::Unresolved(_)) => grazes += 1,
+            (answer, along) => {
+                grazes += 1;
+                assert!(grazes < 20, "{number}: {answer:?}, {along:?}");
+            }
+        }
+    }
+    assert!(hits > 30 && misses > 200, "{hits} {misses} {grazes}");
+}
+
+#[test]
+fn no_contact_is_before_the_first_or_after_the_last() {
+    let mut rng = rng(8);
+    let (mut within, mut early) = (0, 0);
+    for number in 0..400 {
+        let swings = Swings::draw(&mut rng);
+        let Settings {
+            margin, tolerance, ..
+        } = swings.config;
+        let answer = BestFirst::default().contact_interval(&swings.query(), &mut Exhaustive);
+        match (answer.unwrap().outcome, swings.first()) {
+            (Outcome::Free { .. }, Outcome::Free { .. }) => {}
+            (Outcome::Interval { first, last }, first_contact) => {
+                within += 1;
+                if let Outcome::Contact { time, .. } = first_contact {
+                    assert_eq!(first.time, time);
+                }
+                assert!(first.time <= last.time && last.time <= 1.0);
+                early += u32::from(last.time < 1.0);
+                let near = swings.distance(last.time);
+                assert!(near <= margin + tolerance + ROUNDING, "{number}: {near:e}");
+                for k in 1..=100 {
+                    let after = last.time + (1.0 - last.time) * f64::from(k) / 100.0;
+                    if after > last.time {
+                        let found = swings.distance(after);
+                        assert!(found >= margin - ROUNDING, "{number}: {found:e} at {after}");
+                    }
+                }
+            }
+            (interval, first) => panic!("{number}: {interval:?}, {first:?}"),
+        }
+    }
+    assert!(within > 60 && early > 30, "{within} {early}");
+}
+
+#[test]
+fn durations_may_be_very_long() {
+    let ball = Body::ball(0.5).unwrap();
+    let slow = Motion::new(
+        crate::Pose::at(9.0 * DVec3::X).unwrap(),
+        1e-60 * DVec3::Y,
+        DVec3::ZERO,
+    );
+    let (slow, config) = (Unknown(slow.unwrap()), Settings::DEFAULT);
+    let ask = |duration| Query::new((&ball, &slow), (&ball, &Motion::STILL), duration, &config);
+    assert!(ask(1e51).is_err());
+    let query = ask(1e50).unwrap();
+    let answer = BestFirst::default().first_contact(&query, &mut Exhaustive);
+    assert!(matches!(
+        answer.unwrap().outcome,
+        Outcome::Free { proven_gap } if proven_gap > 0.0
+    ));
+}
+
+#[test]
+fn no_time_is_a_pose() {
+    let mut rng = rng(7);
+    for _ in 0..100 {
+        let swings = Swings::draw(&mut rng);
+        let [a, b] = [0, 1].map(|k| (&swings.bodies[k], &swings.swings[k]));
+        let query = Query::new(a, b, 0.0, &swings.config).unwrap();
+        let along = BestFirst::default().first_contact(&query, &mut Exhaustive);
+        let within = swings.config.margin + swings.config.tolerance;
+        match along.unwrap().outcome {
+            Outcome::Free { proven_gap } => assert!(swings.distance(0.0) >= proven_gap - ROUNDING),
+            Outcome::Touching { .. } | Outcome::Overlapping { .. } => {
+                assert!(swings.distance(0.0) <= within + ROUNDING);
+            }
+            outcome => panic!("{outcome:?}"),
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Decides whether two bodies touch at all. The search need not go in order of time.
+
+use crate::accelerate::rounds::in_rounds;
+use crate::answer::{Answer, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::answer_in_any_order;
+use crate::engine::depth_first::DepthFirst;
+use crate::engine::meter::Meter;
+use crate::engine::pieces::pair::Step;
+use crate::engine::proven::{Proven, free_at_once};
+use crate::engine::search::{Advance, Question, Search};
+use crate::engine::start::overlapping;
+use crate::error::InputError;
+use crate::math::order::lesser;
+use crate::problem::Problem;
+use crate::query::Query;
+use std::ops::ControlFlow;
+
+impl<O: DistanceOracle> DepthFirst<O> {
+    /// Answers whether the bodies touch at all, or come within margin + tolerance.
+    ///
+    /// The verdict is that of the first contact, up to near misses within the tolerance. It costs as
+    /// much for bodies that stay apart, and less for others: pairs are followed to a contact without
+    /// regard to those that may touch before.
+    ///
+    /// # Guarantee
+    /// The guarantee of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// [deadline](crate::Settings::deadline) ends it.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
+    pub fn any_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
+        match &query.problem {
+            Some(problem) => Ok(self.any_contact_of(problem, oracle)),
+            None => self.any_contact_along(query, oracle),
+        }
+    }
+
+    /// Answers the same question about two motions.
+    pub(crate) fn any_contact_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        let mut scratch = self.scratch.take();
+        let answer =
+            answer_in_any_order(problem, oracle, &mut scratch, |problem, oracle, meter| {
+                in_rounds(problem, meter, |problem, meter| {
+                    self.stack.clear();
+                    let outcome = self.contact(problem, oracle, meter);
+                    let stats = &mut meter.stats;
+                    stats.peak_front = stats.peak_front.max(self.stack.peak());
+                    outcome
+                })
+            });
+        self.stack.clear();
+        self.scratch = scratch;
+        any(answer)
+    }
+
+    fn contact(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
+        if let Some(free) = free_at_once(problem) {
+            return free;
+        }
+        let mut search = Search {
+            waiting: &mut self.stack,
+            oracle,
+            meter,
+        };
+        let mut any = Any::default();
+        match search.run(problem, &mut any) {
+            // Waiting pairs are proven apart only until their clocks.
+            Outcome::Unresolved(known) => Outcome::unresolved(
+                lesser(known.safe_until, problem.time(self.stack.least_clock())),
+                known.limit,
+            ),
+            outcome => outcome,
+        }
+    }
+}
+
+/// Returns the answer of a search that does not distinguish contacts at the start from later ones.
+pub(crate) fn any(answer: Answer) -> Answer {
+    let outcome = match answer.outcome {
+        Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
+        outcome => outcome,
+    };
+    Answer { outcome, ..answer }
+}
+
+/// The question whether the bodies touch at all.
+#[derive(Default)]
+struct Any {
+    proven: Proven,
+    /// The clock of the first pair that could not be proven further, and the reason.
+    stuck: Option<(f64, Limit)>,
+}
+
+impl Any {
+    /// Abandons a pair that cannot be proven further: another pair may be in contact.
+    fn leave(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
+        if self.stuck.is_none_or(|(first, _)| s < first) {
+            self.stuck = Some((s, limit));
+        }
+        ControlFlow::Continue(f64::INFINITY)
+    }
+
+    fn unresolved(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
+        let stuck = self.stuck.map_or(f64::INFINITY, |(first, _)| first);
+        Outcome::unresolved(problem.time(lesser(s, stuck)), reason)
+    }
+}
+
+impl<O: DistanceOracle> Question<O> for Any {
+    type Found = Outcome;
+
+    fn conclude(
+        &mut self,
+        problem: &Problem<'_>,
+        _: &mut O,
+        _: &mut Meter,
+        advance: Advance,
+    ) -> ControlFlow<Outcome, f64> {
+        let Advance { clock: s, step, .. } = advance;
+        ControlFlow::Break(match step {
+            Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            // A pair that keeps its distance gives no bound for the other pairs.
+            Step::Contact(contact) => Outcome::Contact {
+                time: problem.time(s),
+                contact: contact.no_nearer_than(0.0),
+            },
+            Step::Overlap(contact) => overlapping(contact),
+            Step::Stalled => return self.leave(s, Limit::Stalled),
+            Step::GaveUp => return self.leave(s, Limit::OracleGaveUp),
+        })
+    }
+
+    fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Outcome {
+        self.unresolved(problem, s, limit)
+    }
+
+    fn done(&mut self, problem: &Problem<'_>) -> Outcome {
+        match self.stuck {
+            Some((s, limit)) => self.unresolved(problem, s, limit),
+            None => self.proven.end(problem),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

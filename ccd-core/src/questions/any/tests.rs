@@ -1,0 +1,179 @@
+//! Answers for any contact, compared with the first contact and with samples, with every budget and honest or lying
+//! oracles.
+
+use super::*;
+use crate::answer::Unresolved;
+use crate::body::combination::Combination;
+use crate::distance::oracle::{Claim, GiveUp};
+use crate::engine::solve::Solve;
+use crate::schedule::BestFirst;
+use crate::settings::StartPolicy;
+use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::scene::{Kind, RngExt, direction, distance, rng, scene};
+
+const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
+
+fn any(problem: &Problem<'_>) -> Outcome {
+    let mut schedule = DepthFirst::default();
+    schedule.any_contact_of(problem, &mut Exhaustive).outcome
+}
+
+fn first(problem: &Problem<'_>) -> Outcome {
+    BestFirst::default().solve(problem, &mut Exhaustive).outcome
+}
+
+#[test]
+fn there_is_any_contact_where_there_is_a_first_one() {
+    let mut rng = rng(1);
+    let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
+    for number in 0..2_000 {
+        let scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
+        let problem = scene.problem();
+        let within = problem.contact_distance();
+        match (any(&problem), first(&problem)) {
+            (Outcome::Contact { time, contact }, Outcome::Contact { time: first, .. }) => {
+                hits += 1;
+                later += u32::from(time > first);
+                // Neither contact is much earlier than the other is certain.
+                assert!(time >= first || distance(&problem, time) <= within + problem.rounding);
+                assert!(contact.separation.upper <= within, "{number}: {contact:?}");
+                assert!(distance(&problem, time) <= within + problem.rounding);
+            }
+            (Outcome::Free { proven_gap }, Outcome::Free { .. }) => {
+                misses += 1;
+                for k in 0..=32 {
+                    let found = distance(&problem, f64::from(k) / 32.0);
+                    assert!(
+                        found >= proven_gap - problem.rounding,
+                        "{number}: {found:e}"
+                    );
+                }
+            }
+            (
+                Outcome::Contact { time, .. },
+                Outcome::Touching { .. } | Outcome::Overlapping { .. },
+            ) => {
+                starts += 1;
+                assert!(distance(&problem, time) <= within + problem.rounding);
+            }
+            (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => starts += 1,
+            // The least distance is within the tolerance, but not within half of it: both answers are right.
+            (Outcome::Free { .. }, Outcome::Contact { time, .. })
+            | (Outcome::Contact { time, .. }, Outcome::Free { .. }) => {
+                grazes += 1;
+                let near = distance(&problem, time);
+                assert!(
+                    near >= problem.gap() - problem.rounding,
+                    "{number}: {near:e}"
+                );
+            }
+            (any, first) => panic!("{number}: {any:?}, {first:?}"),
+        }
+    }
+    assert!(hits > 100 && misses > 100, "{hits} {misses}");
+    assert!(starts > 5 && later > 25, "{starts} {later}");
+    assert!(grazes < 5, "{grazes}");
+}
+
+#[test]
+fn bodies_that_are_let_go_have_the_verdict_of_the_first_contact() {
+    let mut rng = rng(2);
+    let (mut free, mut contacts) = (0, 0);
+    for number in 0..600 {
+        let mut scene = scene(&mut rng, KINDS[number % 4], 6);
+        scene.config.start = StartPolicy::Leave;
+        let problem = scene.problem();
+        match (any(&problem), first(&problem)) {
+            (Outcome::Free { .. }, Outcome::Free { .. }) => free += 1,
+            (Outcome::Contact { .. }, Outcome::Contact { .. }) => contacts += 1,
+            (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
+            (Outcome::Unresolved(_), Outcome::Unresolved(_)) => {}
+            (any, first) => panic!("{number}: {any:?}, {first:?}"),
+        }
+    }
+    assert!(free > 200 && contacts > 20, "{free} {contacts}");
+}
+
+#[test]
+fn budgets_end_a_search_with_a_time_that_is_safe() {
+    let mut rng = rng(3);
+    let mut ended = 0;
+    for number in 0..200 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let touch = match first(&scene.problem()) {
+            Outcome::Contact { time, .. } => time,
+            Outcome::Free { .. } => 1.0,
+            _ => continue,
+        };
+        for budget in 0..40 {
+            scene.config.budget = budget;
+            match any(&scene.problem()) {
+                Outcome::Unresolved(Unresolved {
+                    safe_until,
+                    limit: reason,
+                    ..
+                }) => {
+                    assert_eq!(reason, Limit::Budget);
+                    assert!(safe_until <= touch, "{number}: {safe_until} of {touch}");
+                    ended += 1;
+                }
+                _ => break,
+            }
+        }
+    }
+    assert!(ended > 500, "{ended}");
+}
+
+#[test]
+fn false_claims_and_give_ups_never_make_bodies_free() {
+    let mut rng = rng(4);
+    let (mut unresolved, mut others) = (0, 0);
+    for number in 0..300 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 8);
+        scene.config.budget = 20_000;
+        let problem = scene.problem();
+        let touch = (0..=64)
+            .map(|k| f64::from(k) / 64.0)
+            .find(|&s| distance(&problem, s) <= 0.0);
+        let lie = Claim {
+            axis: direction(&mut rng),
+            a: Combination::point(rng.random_range(0..5)),
+            b: Combination::point(rng.random_range(0..5)),
+        };
+        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+            let answer = DepthFirst::default().any_contact_of(&problem, &mut { oracle });
+            match answer.outcome {
+                Outcome::Unresolved(Unresolved { safe_until, .. }) => {
+                    unresolved += 1;
+                    assert!(touch.is_none_or(|touch| safe_until <= touch));
+                }
+                Outcome::Free { .. } => {
+                    others += 1;
+                    assert_eq!(touch, None);
+                }
+                Outcome::Contact { time, .. } => {
+                    others += 1;
+                    let near = distance(&problem, time);
+                    assert!(near <= problem.contact_distance() + problem.rounding);
+                }
+                Outcome::Overlapping { .. } => {}
+                other => panic!("no outcome of any contact: {other:?}"),
+            }
+        }
+    }
+    assert!(unresolved > 50 && others > 50, "{unresolved} {others}");
+}
+
+#[test]
+fn answers_do_not_depend_on_earlier_searches() {
+    let mut rng = rng(5);
+    let mut kept = DepthFirst::default();
+    for number in 0..200 {
+        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let problem = scene.problem();
+        let fresh = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
+        assert_eq!(kept.any_contact_of(&problem, &mut Exhaustive), fresh);
+        kept.closest_approach_of(&problem, &mut Exhaustive);
+        assert_eq!(kept.any_contact_of(&problem, &mut Exhaustive), fresh);
+    }
+}

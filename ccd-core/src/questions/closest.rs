@@ -1,0 +1,321 @@
+//! Brackets the least distance of two bodies over a query, and its time.
+
+mod follow;
+pub(crate) mod guess;
+pub(crate) mod ladder;
+mod nearing;
+pub(crate) mod required;
+
+use crate::accelerate::closer_look::CloserLook;
+use crate::accelerate::out_of_reach::least_distance;
+use crate::accelerate::rounds::Sample;
+use crate::answer::{Answer, Contact, Limit, Outcome, Unresolved};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::{Searched, contact_of_given, metered};
+use crate::engine::depth_first::DepthFirst;
+use crate::engine::meter::Meter;
+use crate::engine::nodes::common::Common;
+use crate::engine::proven::Proven;
+use crate::engine::search::Search;
+use crate::engine::start::at_start;
+use crate::error::InputError;
+use crate::math::order::greater;
+use crate::problem::Problem;
+use crate::query::Query;
+use guess::guess;
+use ladder::Ladder;
+use nearing::Nearing;
+use required::Required;
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+impl<O: DistanceOracle> DepthFirst<O> {
+    /// Brackets the least distance of the bodies over the duration, to within the tolerance; or answers
+    /// whether bodies that move keep a required [clearance](crate::Settings::clearance).
+    ///
+    /// The margin and the [policy](crate::StartPolicy) for the start play no role.
+    ///
+    /// # Guarantee
+    /// The guarantee of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
+    /// [deadline](crate::Settings::deadline) ends it.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
+    pub fn closest_approach(
+        &mut self,
+        query: &Query<'_>,
+        oracle: &mut O,
+    ) -> Result<Answer, InputError> {
+        match &query.problem {
+            Some(problem) => Ok(self.closest_approach_of(problem, oracle)),
+            None => self.closest_approach_along(query, oracle),
+        }
+    }
+
+    /// Answers the same question about two motions.
+    pub(crate) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        let answer = match problem.clearance.filter(|_| moves(problem)) {
+            Some(distance) => self.keeps(problem, distance, oracle),
+            None => self.approach_of_bodies(problem, oracle),
+        };
+        answer.of_shapes(problem.excess())
+    }
+
+    /// Brackets the least distance of the bodies themselves, whatever their shapes are.
+    pub(crate) fn approach_of_bodies(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        let answer = self.measured(problem, f64::INFINITY, oracle, or_overlap);
+        let found = answer.found;
+        Answer {
+            outcome: found
+                .unwrap_or_else(|Beyond { lower }| unresolved(lower, Limit::OracleGaveUp)),
+            tolerance: answer.tolerance,
+            stats: answer.stats,
+        }
+    }
+
+    /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
+    fn keeps(&mut self, problem: &Problem<'_>, distance: f64, oracle: &mut O) -> Answer {
+        let required = Required {
+            distance,
+            tolerance: problem.tolerance,
+            budget: problem.budget,
+            excess: problem.excess(),
+        };
+        let begun = problem.deadline.map(|_| Instant::now());
+        let answer = required.decide(|rung| {
+            let mut problem = rung.problem(&problem.measuring());
+            problem.deadline = begun.and_then(|begun| {
+                (problem.deadline).map(|deadline| deadline.saturating_sub(begun.elapsed()))
+            });
+            Ok::<_, Infallible>(self.any_contact_of(&problem, oracle))
+        });
+        answer.unwrap_or_else(|never| match never {})
+    }
+
+    /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`. If they meet, the answer
+    /// does not say whether they overlap at the start.
+    pub(crate) fn approach_below(
+        &mut self,
+        problem: &Problem<'_>,
+        beyond: f64,
+        oracle: &mut O,
+    ) -> Searched<Result<Outcome, Beyond>> {
+        self.measured(problem, beyond, oracle, |_, _, _, found| found)
+    }
+
+    /// Searches for distances below `beyond`; `last_look` completes the outcome.
+    fn measured(
+        &mut self,
+        problem: &Problem<'_>,
+        beyond: f64,
+        oracle: &mut O,
+        last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, Outcome) -> Outcome,
+    ) -> Searched<Result<Outcome, Beyond>> {
+        let mut scratch = self.scratch.take();
+        let answer = metered(problem, oracle, &mut scratch, |oracle, meter| {
+            let problem = problem.measuring();
+            let found = match Sample::of(&problem) {
+                Some(sample) => {
+                    let found = self.approach(&sample.part, beyond, oracle, meter);
+                    at_all_times(&sample, found)
+                }
+                None => self.approach(&problem, beyond, oracle, meter),
+            };
+            let told = found.map(|found| {
+                let found = last_look(&problem, oracle, meter, found);
+                told(&problem, oracle, meter, found)
+            });
+            let width = told.as_ref().map_or(0.0, Outcome::width);
+            // Distances may not be known to the requested tolerance.
+            (told, greater(problem.tolerance, width))
+        });
+        self.scratch = scratch;
+        answer
+    }
+
+    fn approach(
+        &mut self,
+        problem: &Problem<'_>,
+        beyond: f64,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Result<Outcome, Beyond> {
+        self.stack.clear();
+        let found = self.search(problem, beyond, oracle, meter);
+        let stats = &mut meter.stats;
+        stats.peak_front = stats.peak_front.max(self.stack.peak());
+        self.stack.clear();
+        found
+    }
+
+    fn search(
+        &mut self,
+        problem: &Problem<'_>,
+        beyond: f64,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Result<Outcome, Beyond> {
+        if !moves(problem) {
+            return at_one_pose(problem, beyond, oracle, meter);
+        }
+        let best = match guess(problem, beyond, oracle, meter) {
+            ControlFlow::Continue(best) => best,
+            ControlFlow::Break(found) => return Ok(found),
+        };
+        let mut nearing = Nearing {
+            best,
+            beyond,
+            proven: Proven::default(),
+            stuck: None,
+            ladder: ladder(problem),
+        };
+        let mut search = Search {
+            waiting: &mut self.stack,
+            oracle,
+            meter,
+        };
+        if search.open(problem).is_err() {
+            return Ok(nearing.unresolved(problem, Limit::Budget));
+        }
+        // Pairs that keep the least distance also keep any smaller one.
+        loop {
+            let upper = nearing.upper();
+            let below = problem.below(upper);
+            // Written so that NaN is the end.
+            if !(upper > problem.tolerance && upper > below.contact_distance()) {
+                return nearing.found(problem, 0.0);
+            }
+            let common = Common::new(&below);
+            let mut look = CloserLook::new(&below);
+            while nearing.upper() == upper {
+                if let Some(rung) = nearing.ladder.due(search.meter.stats.work(), upper) {
+                    if let ControlFlow::Break(found) =
+                        nearing.climb(problem, rung, search.oracle, search.meter)
+                    {
+                        return Ok(found);
+                    }
+                    look = CloserLook::new(&below);
+                    continue;
+                }
+                if let ControlFlow::Break(found) = search.visit(&common, &mut look, &mut nearing) {
+                    return nearing.at_last(problem, found, search.oracle, search.meter);
+                }
+            }
+        }
+    }
+}
+
+/// Converts the result for a sample period to an answer for the whole time.
+fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<Outcome, Beyond> {
+    let found = found.map_err(|Beyond { lower }| Beyond {
+        lower: sample.lower(lower),
+    })?;
+    let lower = sample.lower(found.lower());
+    Ok(
+        match found.map_contacts(|contact, _| sample.contact(contact)) {
+            Outcome::Measured { upper, at, .. } => Outcome::Measured { lower, upper, at },
+            Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
+                lower: greater(0.0, lower),
+                ..known
+            }),
+            _ => found,
+        },
+    )
+}
+
+/// Returns the answer for bodies that meet, unless they overlap at the start as well.
+fn or_overlap<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    found: Outcome,
+) -> Outcome {
+    if !meets_later(&found, problem.tolerance) {
+        return found;
+    }
+    match at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
+        Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
+        _ => found,
+    }
+}
+
+/// Measures bodies that do not move.
+fn at_one_pose<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    beyond: f64,
+    oracle: &mut O,
+    meter: &mut Meter,
+) -> Result<Outcome, Beyond> {
+    Ok(match at_start(problem, beyond, oracle, meter) {
+        Some(Outcome::Touching { contact }) => {
+            Outcome::least(greater(0.0, contact.separation.lower), 0.0, contact)
+        }
+        Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
+        Some(Outcome::Unresolved(known)) => {
+            unresolved(greater(0.0, least_distance(problem)), known.limit)
+        }
+        _ => return Err(Beyond { lower: beyond }),
+    })
+}
+
+/// The result for bodies whose distance is at least as large as is of interest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Beyond {
+    /// A lower bound of the distance at all times.
+    pub(crate) lower: f64,
+}
+
+/// Returns the ladder with the lower bound that bounding balls of the bodies prove.
+fn ladder(problem: &Problem<'_>) -> Ladder {
+    let ladder = Ladder::new(least_distance(problem), problem.budget);
+    if problem.deadline.is_some() || problem.stop.is_some() {
+        ladder.timed()
+    } else {
+        ladder
+    }
+}
+
+fn moves(problem: &Problem<'_>) -> bool {
+    problem.a.path.moves() || problem.b.path.moves()
+}
+
+fn unresolved(lower: f64, limit: Limit) -> Outcome {
+    Outcome::Unresolved(Unresolved::least(lower, None, limit))
+}
+
+/// Returns true if the bodies meet, within the tolerance, only after the start.
+pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
+    match *found {
+        Outcome::Measured {
+            at: Some((time, contact)),
+            ..
+        } => time > 0.0 && contact.separation.upper <= tolerance,
+        _ => false,
+    }
+}
+
+/// Translates the answer to the given bodies, if surfaces replaced them in the search.
+fn told<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    found: Outcome,
+) -> Outcome {
+    found.map_contacts(|contact, time| {
+        let within = contact.separation.upper;
+        contact_of_given(problem, oracle, meter, contact, within, time)
+    })
+}
+
+/// The nearest two pieces so far, at their clock.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Best {
+    clock: f64,
+    /// The indices of the pieces in the problem.
+    pieces: [u32; 2],
+    pub(crate) contact: Contact,
+}
+
+#[cfg(test)]
+mod tests;

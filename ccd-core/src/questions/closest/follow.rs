@@ -1,0 +1,139 @@
+//! Follows two pieces to the time at which they are nearest.
+
+use super::Best;
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::meter::Meter;
+use crate::engine::pieces::pair;
+use crate::engine::pieces::snapshot::Snapshot;
+use crate::math::order::lesser;
+use crate::problem::Problem;
+use crate::tuning::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
+
+/// Follows the pieces of a contact to a nearby local minimum of their distance. Returns the nearest pieces that were
+/// measured.
+pub(crate) fn follow<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    seen: Best,
+) -> Best {
+    let mut descent = Descent {
+        problem,
+        oracle,
+        meter,
+        cache: O::Cache::default(),
+        best: seen,
+    };
+    if let Some([falling, other]) = descent.bracket(seen.clock) {
+        descent.narrow(falling, other);
+    }
+    descent.best
+}
+
+struct Descent<'d, O: DistanceOracle> {
+    problem: &'d Problem<'d>,
+    oracle: &'d mut O,
+    meter: &'d mut Meter,
+    cache: O::Cache,
+    best: Best,
+}
+
+/// The rate of the distance of two pieces at a clock.
+#[derive(Clone, Copy)]
+struct Slope {
+    clock: f64,
+    distance: f64,
+    rate: f64,
+}
+
+impl<O: DistanceOracle> Descent<'_, O> {
+    /// Measures the pieces at a clock. Returns `None` if the oracle gives up, or if the pieces are already as near as
+    /// matters.
+    fn look(&mut self, clock: f64) -> Option<Slope> {
+        if self.best.contact.separation.upper <= self.problem.tolerance {
+            return None;
+        }
+        let pieces @ [a, b] = self.best.pieces;
+        let snapshot = Snapshot::new(self.problem, a, b, clock);
+        let checked = snapshot.ask(self.oracle, &mut self.cache, self.meter)?;
+        if checked.upper < self.best.contact.separation.upper {
+            self.best = Best {
+                clock,
+                pieces,
+                contact: pair::contact(&snapshot, pieces, &checked),
+            };
+        }
+        let frame = &snapshot.frames[0];
+        let [on_a, on_b] = [checked.witness_a, checked.witness_b].map(|w| frame.point(w));
+        let velocity = self.problem.b.path.velocity_at(on_b, clock)
+            - self.problem.a.path.velocity_at(on_a, clock);
+        Some(Slope {
+            clock,
+            distance: checked.upper,
+            rate: (frame.rotation * checked.axis).dot(velocity),
+        })
+    }
+
+    /// Descends from a clock until the distance grows again. Returns two clocks with a local minimum of the distance
+    /// between them; the distance falls from the first one on.
+    fn bracket(&mut self, from: f64) -> Option<[Slope; 2]> {
+        let mut here = self.look(from)?;
+        let forward = here.rate < 0.0;
+        let end = if forward { 1.0 } else { 0.0 };
+        // The pieces would meet at this rate. A larger rotation may pass a valley of the distance.
+        let turning = self.problem.a.path.rate + self.problem.b.path.rate;
+        let mut step = lesser((here.distance / here.rate).abs(), FOLLOWED_TURN / turning);
+        for _ in 0..FOLLOWING_LOOKS {
+            let next = if forward {
+                here.clock + step
+            } else {
+                here.clock - step
+            };
+            // Written so that NaN is beyond the end.
+            let next = if (0.0..=1.0).contains(&next) {
+                next
+            } else {
+                end
+            };
+            if next == here.clock {
+                return None;
+            }
+            let there = self.look(next)?;
+            let falls = (there.rate < 0.0) == forward;
+            if !(falls && there.distance < here.distance) {
+                return Some([here, there]);
+            }
+            here = there;
+            step = lesser(2.0 * step, FOLLOWED_TURN / turning);
+        }
+        None
+    }
+
+    /// Narrows the interval around a minimum of the distance, which falls from the first clock on.
+    fn narrow(&mut self, mut falling: Slope, mut other: Slope) {
+        for look in 0..FOLLOWING_LOOKS {
+            let width = other.clock - falling.clock;
+            // Written so that NaN is narrow enough.
+            if !((width * falling.rate).abs() > FOLLOWED * self.problem.tolerance) {
+                return;
+            }
+            // The step goes to the zero of a straight line through both rates. Every other step halves the interval,
+            // for rates that jump.
+            let zero = falling.rate / (falling.rate - other.rate);
+            let share = if look % 2 == 0 && (0.0..=1.0).contains(&zero) {
+                zero
+            } else {
+                0.5
+            };
+            let Some(middle) = self.look(falling.clock + share * width) else {
+                return;
+            };
+            let falls = (middle.rate < 0.0) == (falling.rate < 0.0);
+            if falls && middle.distance < falling.distance {
+                falling = middle;
+            } else {
+                other = middle;
+            }
+        }
+    }
+}

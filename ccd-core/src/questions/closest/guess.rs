@@ -1,0 +1,89 @@
+//! A first guess of the least distance, from measurements at a few times.
+
+use super::follow::follow;
+use super::{Best, unresolved};
+use crate::accelerate::out_of_reach::{least_distance, nearest_clock};
+use crate::answer::{Limit, Outcome, Overlap, Unresolved};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::meter::Meter;
+use crate::engine::nearest::{Nearest, Stop};
+use crate::math::order::greater;
+use crate::problem::Problem;
+use crate::tuning::{FOLLOWED, GUESSES};
+use std::ops::ControlFlow;
+
+/// Measures the bodies when bounding balls are nearest, and follows the nearest pieces from there. The search repeats
+/// this at the time found, as long as it finds nearer pieces.
+///
+/// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
+pub(crate) fn guess<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    beyond: f64,
+    oracle: &mut O,
+    meter: &mut Meter,
+) -> ControlFlow<Outcome, Option<Best>> {
+    let mut best: Option<Best> = None;
+    let mut clock = nearest_clock(problem);
+    for _ in 0..GUESSES {
+        let upper = best.map_or(beyond, |best| best.contact.separation.upper);
+        let found = nearest_at(problem, clock, upper, oracle, meter);
+        let Some(found) = found.map_break(|stop| stopped(problem, best, stop))? else {
+            break;
+        };
+        let followed = follow(problem, oracle, meter, found);
+        let fell = found.contact.separation.upper - followed.contact.separation.upper;
+        best = Some(followed);
+        clock = followed.clock;
+        // Written so that NaN is no fall.
+        if !(fell > FOLLOWED * problem.tolerance) {
+            break;
+        }
+    }
+    // If `beyond` is infinite, every distance is of interest, and none was found.
+    if best.is_none() && beyond == f64::INFINITY {
+        ControlFlow::Break(unresolved(0.0, Limit::OracleGaveUp))
+    } else {
+        ControlFlow::Continue(best)
+    }
+}
+
+/// Returns the nearest pieces at a clock, if they are nearer than `beyond`.
+pub(crate) fn nearest_at<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    clock: f64,
+    beyond: f64,
+    oracle: &mut O,
+    meter: &mut Meter,
+) -> ControlFlow<Stop, Option<Best>> {
+    let mut lists = std::mem::take(&mut meter.memory().nearest);
+    let mut nearest = Nearest::new(problem, clock, &mut lists).nearer_than(beyond);
+    let stopped = nearest.search(oracle, meter);
+    let found = nearest.pieces();
+    lists.clear();
+    meter.memory().nearest = lists;
+    let best = |(pieces, contact)| Best {
+        clock,
+        pieces,
+        contact,
+    };
+    match stopped {
+        // The bodies have met before.
+        Some(Stop::Overlap(pieces, contact)) if clock > 0.0 => {
+            ControlFlow::Continue(Some(best((pieces, contact))))
+        }
+        Some(stop) => ControlFlow::Break(stop),
+        None => ControlFlow::Continue(found.map(best)),
+    }
+}
+
+/// Returns the answer for bodies that overlap at the start, or when a limit is reached.
+fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> Outcome {
+    match stop {
+        Stop::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
+        Stop::Limit(limit) => {
+            let seen = |best: Best| (problem.time(best.clock), best.contact.no_nearer_than(0.0));
+            let lower = greater(0.0, least_distance(problem));
+            Outcome::Unresolved(Unresolved::least(lower, best.map(seen), limit))
+        }
+    }
+}

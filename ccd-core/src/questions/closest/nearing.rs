@@ -1,0 +1,185 @@
+//! The search for the least distance.
+
+use super::follow::follow;
+use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use super::{Best, Beyond};
+use crate::accelerate::closer_look::CloserLook;
+use crate::answer::{Limit, Outcome, Overlap, Unresolved};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::meter::Meter;
+use crate::engine::nodes::common::Common;
+use crate::engine::pieces::pair::Step;
+use crate::engine::proven::Proven;
+use crate::engine::search::{Advance, Question, Search};
+use crate::engine::stack::Stack;
+use crate::math::order::lesser;
+use crate::problem::Problem;
+use std::ops::ControlFlow;
+
+/// The search for the least distance. Each pair is proven to keep the least distance found so far.
+pub(crate) struct Nearing {
+    pub(crate) best: Option<Best>,
+    /// Distances above this are of no interest.
+    pub(crate) beyond: f64,
+    pub(crate) proven: Proven,
+    /// The reason why some pair could not be proven to the end.
+    pub(crate) stuck: Option<Limit>,
+    /// The lower bound that is proven for all pairs.
+    pub(crate) ladder: Ladder,
+}
+
+impl Nearing {
+    pub(crate) fn upper(&self) -> f64 {
+        let upper = |best: Best| best.contact.separation.upper;
+        self.best.map_or(self.beyond, upper)
+    }
+
+    pub(crate) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
+        let best = self.best.ok_or(Beyond { lower })?;
+        let contact = best.contact.no_nearer_than(lower);
+        Ok(Outcome::least(lower, problem.time(best.clock), contact))
+    }
+
+    pub(crate) fn unresolved(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
+        let lower = lesser(self.ladder.lower, self.upper());
+        let seen = |best: Best| {
+            let contact = best.contact.no_nearer_than(lower);
+            (problem.time(best.clock), contact)
+        };
+        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
+    }
+
+    /// Searches for pairs nearer than a rung, in a separate search. It proves the rung, or finds nearer pieces.
+    ///
+    /// Breaks with the answer for bodies that overlap.
+    pub(crate) fn climb<O: DistanceOracle>(
+        &mut self,
+        problem: &Problem<'_>,
+        rung: Rung,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<Outcome> {
+        let work = meter.stats.work();
+        let budget = problem.budget.min(work.saturating_add(rung.budget));
+        let lower = Rung { budget, ..rung }.problem(problem);
+        let mut below = Nearing {
+            best: None,
+            beyond: lower.contact_distance(),
+            proven: Proven::default(),
+            stuck: None,
+            ladder: Ladder::new(0.0, 0),
+        };
+        let mut stack = Stack::default();
+        let mut search = Search {
+            waiting: &mut stack,
+            oracle,
+            meter,
+        };
+        let common = Common::new(&lower);
+        let mut look = CloserLook::new(&lower);
+        let mut found = None;
+        if search.open(&lower).is_ok() {
+            while below.best.is_none() && found.is_none() {
+                found = search.visit(&common, &mut look, &mut below).break_value();
+            }
+        }
+        match found {
+            Some(Ok(overlapping @ Outcome::Overlapping { .. })) => {
+                return ControlFlow::Break(overlapping);
+            }
+            Some(Err(Beyond { lower })) => self.ladder.climb(Some(lower)),
+            _ => self.ladder.climb(None),
+        }
+        if let Some(best) = below
+            .best
+            .filter(|best| best.contact.separation.upper < self.upper())
+        {
+            self.best = Some(best);
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Returns the answer of a search. A search with a pair that could not be proven to the end proves the best bound
+    /// it can.
+    pub(crate) fn at_last<O: DistanceOracle>(
+        &mut self,
+        problem: &Problem<'_>,
+        found: Result<Outcome, Beyond>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Result<Outcome, Beyond> {
+        let limit = match (&found, self.stuck) {
+            (Ok(Outcome::Unresolved(known)), Some(_)) => known.limit,
+            _ => return found,
+        };
+        for _ in 0..LAST_RUNGS {
+            let left = problem.budget.saturating_sub(meter.stats.work());
+            let Some(rung) = self.ladder.rung(self.upper(), left / 2) else {
+                break;
+            };
+            if let ControlFlow::Break(found) = self.climb(problem, rung, oracle, meter) {
+                return Ok(found);
+            }
+        }
+        Ok(self.unresolved(problem, limit))
+    }
+}
+
+impl<O: DistanceOracle> Question<O> for Nearing {
+    type Found = Result<Outcome, Beyond>;
+
+    fn conclude(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        advance: Advance,
+    ) -> ControlFlow<Self::Found, f64> {
+        let Advance {
+            pieces,
+            clock,
+            step,
+        } = advance;
+        match step {
+            Step::FreeUntil(clock) => ControlFlow::Continue(clock),
+            Step::Contact(contact) => {
+                let seen = Best {
+                    clock,
+                    pieces,
+                    contact,
+                };
+                self.best = Some(follow(problem, oracle, meter, seen));
+                // The pair is examined again, since it keeps a smaller distance.
+                ControlFlow::Continue(clock)
+            }
+            Step::Overlap(contact) => {
+                let overlap = Overlap::Pieces(contact);
+                ControlFlow::Break(Ok(Outcome::overlapping(overlap)))
+            }
+            Step::Stalled => {
+                self.stuck = Some(Limit::Stalled);
+                ControlFlow::Continue(f64::INFINITY)
+            }
+            Step::GaveUp => {
+                self.stuck = Some(Limit::OracleGaveUp);
+                ControlFlow::Continue(f64::INFINITY)
+            }
+        }
+    }
+
+    fn stopped(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
+        Ok(self.unresolved(problem, limit))
+    }
+
+    fn done(&mut self, problem: &Problem<'_>) -> Self::Found {
+        if let Some(limit) = self.stuck {
+            return Ok(self.unresolved(problem, limit));
+        }
+        match self.proven.end(problem) {
+            overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
+            Outcome::Free { proven_gap } => self.found(problem, proven_gap),
+            Outcome::Unresolved(known) => Ok(self.unresolved(problem, known.limit)),
+            _ => unreachable!("pairs that waited are in no contact"),
+        }
+    }
+}

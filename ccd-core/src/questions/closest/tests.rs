@@ -1,0 +1,262 @@
+//! Brackets of the least distance, compared with samples, with every budget and honest or lying oracles.
+
+mod conforming;
+mod excess;
+mod required;
+
+use super::*;
+use crate::answer::Clearance;
+use crate::body::combination::Combination;
+use crate::distance::oracle::{Claim, GiveUp};
+use crate::engine::solve::Solve;
+use crate::math::order::lesser;
+use crate::motion::Motion;
+use crate::schedule::BestFirst;
+use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::scene::{Kind, RngExt, direction, distance, magnitude, rng, scene};
+
+const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
+
+fn approach(problem: &Problem<'_>) -> Answer {
+    DepthFirst::default().closest_approach_of(problem, &mut Exhaustive)
+}
+
+/// Returns the least of the distances at equal steps.
+fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
+    let at = |k| distance(problem, f64::from(k) / f64::from(steps));
+    (0..=steps).map(at).fold(f64::INFINITY, lesser)
+}
+
+#[test]
+fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
+    let mut rng = rng(1);
+    let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
+    for number in 0..1_000 {
+        let mut scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
+        scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
+        let problem = scene.problem();
+        let Answer {
+            outcome, tolerance, ..
+        } = approach(&problem);
+        let slack = 2.0 * problem.rounding;
+        let found = sampled(&problem, 64);
+        match outcome {
+            Outcome::Measured {
+                lower,
+                at: Some((time, contact)),
+                ..
+            } => {
+                let upper = outcome.upper();
+                assert!(upper - lower <= tolerance, "{number}: {outcome:?}");
+                assert!(
+                    tolerance <= 2.0 * problem.tolerance,
+                    "{number}: {tolerance:e}"
+                );
+                assert!(found >= lower - slack, "{number}: {found:e} in {outcome:?}");
+                let near = distance(&problem, time);
+                // The reference finds common points of crossing needles with some error only.
+                let cross = contact.separation.lower < -slack;
+                assert!(
+                    cross || near <= upper + 1e-9 * near + slack,
+                    "{number}: {near:e} in {outcome:?}"
+                );
+                assert!(contact.separation.lower <= lower);
+                if lower > 0.0 {
+                    apart += 1;
+                } else {
+                    touching += 1;
+                }
+            }
+            Outcome::Overlapping { .. } => {
+                overlapping += 1;
+                assert!(distance(&problem, 0.0) <= slack);
+            }
+            outcome => panic!("{number}: {outcome:?}"),
+        }
+    }
+    assert!(
+        apart > 80 && touching > 80 && overlapping > 0,
+        "{apart} {touching} {overlapping}"
+    );
+}
+
+/// The brackets agree with the first contact, with their ends as margins.
+#[test]
+fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
+    let mut rng = rng(2);
+    let mut compared = 0;
+    for number in 0..600 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let Answer {
+            outcome, tolerance, ..
+        } = approach(&scene.problem());
+        let Outcome::Measured { lower, .. } = outcome else {
+            continue;
+        };
+        let mut at = |margin: f64| {
+            scene.config.margin = margin;
+            BestFirst::default()
+                .solve(&scene.problem(), &mut Exhaustive)
+                .outcome
+        };
+        if lower > 2.0 * tolerance {
+            compared += 1;
+            let less = at(lower - 2.0 * tolerance);
+            assert!(matches!(less, Outcome::Free { .. }), "{number}: {less:?}");
+        }
+        let more = at(outcome.upper());
+        assert!(!matches!(more, Outcome::Free { .. }), "{number}: {more:?}");
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+#[test]
+fn a_clearance_is_kept_violated_or_unknown() {
+    let mut rng = rng(3);
+    for number in 0..200 {
+        let scene = scene(&mut rng, KINDS[number % 3], 8);
+        let outcome = approach(&scene.problem()).outcome;
+        let (lower, upper) = (outcome.lower(), outcome.upper());
+        assert_eq!(outcome.clearance(upper.next_up()), Clearance::Violated);
+        assert_ne!(outcome.clearance(f64::NAN), Clearance::Kept);
+        // Bodies that may touch keep no clearance.
+        if lower > 0.0 {
+            assert_eq!(outcome.clearance(lower), Clearance::Kept);
+        } else {
+            assert_ne!(outcome.clearance(0.0), Clearance::Kept);
+        }
+        if lower < upper {
+            let between = 0.5 * (lower + upper);
+            assert_eq!(outcome.clearance(between), Clearance::Unverified);
+        }
+    }
+}
+
+#[test]
+fn budgets_end_a_search_with_what_was_seen() {
+    let mut rng = rng(4);
+    let (mut ended, mut seen, mut proven) = (0, 0, 0);
+    for number in 0..100 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let (visits, least) = {
+            let answer = approach(&scene.problem());
+            (answer.stats.iterations, answer.outcome.lower())
+        };
+        let found = sampled(&scene.problem(), 64);
+        for budget in 0..visits.min(60) {
+            scene.config.budget = budget;
+            let problem = scene.problem();
+            let outcome = approach(&problem).outcome;
+            let Outcome::Unresolved(Unresolved {
+                lower,
+                at: nearest,
+                limit: reason,
+                ..
+            }) = outcome
+            else {
+                panic!("{number}: {outcome:?} for {budget} of {visits}");
+            };
+            assert_eq!(reason, Limit::Budget);
+            assert!(lower <= found + problem.rounding, "{number}: {outcome:?}");
+            ended += 1;
+            proven += u32::from(lower > 0.0);
+            if let Some((time, contact)) = nearest {
+                seen += 1;
+                let near = distance(&problem, time);
+                assert!(near <= contact.separation.upper * (1.0 + 1e-9) + 2.0 * problem.rounding);
+                assert!(outcome.upper() >= least);
+            }
+        }
+    }
+    assert!(
+        ended > 1_000 && seen > 200 && proven > 200,
+        "{ended} {seen} {proven}"
+    );
+}
+
+#[test]
+fn false_claims_and_give_ups_never_raise_the_lower_bound() {
+    let mut rng = rng(5);
+    let (mut unresolved, mut others) = (0, 0);
+    for number in 0..300 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 8);
+        scene.config.budget = 20_000;
+        let problem = scene.problem();
+        let found = sampled(&problem, 64);
+        let lie = Claim {
+            axis: direction(&mut rng),
+            a: Combination::point(rng.random_range(0..5)),
+            b: Combination::point(rng.random_range(0..5)),
+        };
+        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+            let answer = DepthFirst::default().closest_approach_of(&problem, &mut { oracle });
+            let outcome = answer.outcome;
+            assert!(
+                outcome.lower() <= found + problem.rounding,
+                "{number}: {outcome:?}"
+            );
+            match outcome {
+                Outcome::Unresolved(_) => unresolved += 1,
+                _ => others += 1,
+            }
+        }
+    }
+    assert!(unresolved > 50 && others > 20, "{unresolved} {others}");
+}
+
+#[test]
+fn answers_do_not_depend_on_earlier_searches() {
+    let mut rng = rng(6);
+    let mut kept = DepthFirst::default();
+    for number in 0..200 {
+        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let problem = scene.problem();
+        let fresh = approach(&problem);
+        assert_eq!(kept.closest_approach_of(&problem, &mut Exhaustive), fresh);
+        assert_eq!(kept.closest_approach_of(&problem, &mut Exhaustive), fresh);
+    }
+}
+
+#[test]
+fn bodies_at_rest_have_a_distance() {
+    let mut rng = rng(7);
+    let (mut apart, mut overlapping) = (0, 0);
+    for number in 0..1_000 {
+        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        let clock = scene.clock;
+        scene.motions = scene
+            .motions
+            .map(|motion| Motion::still(motion.pose(clock)));
+        let problem = scene.problem();
+        let outcome = approach(&problem).outcome;
+        let found = distance(&problem, 0.0);
+        let slack = 2.0 * problem.rounding;
+        match outcome {
+            Outcome::Measured {
+                lower,
+                at: Some((_, contact)),
+                ..
+            } => {
+                apart += 1;
+                let upper = contact.separation.upper;
+                assert!(lower <= found + slack && found <= upper * (1.0 + 1e-9) + slack);
+                // The bracket is as exact as f64 allows, whatever the tolerance.
+                assert!(
+                    upper - lower <= 2e-5 * upper + 2.0 * slack,
+                    "{number}: {outcome:?}"
+                );
+            }
+            Outcome::Overlapping { .. } => {
+                overlapping += 1;
+                assert!(found <= slack, "{number}: {found:e}");
+            }
+            // A corner is on a face, up to rounding.
+            Outcome::Unresolved(Unresolved { limit: reason, .. }) => {
+                assert_eq!(reason, Limit::Undecided);
+                assert!(found <= slack, "{number}: {found:e}");
+            }
+            outcome => panic!("{number}: {outcome:?}"),
+        }
+    }
+    assert!(apart > 100 && overlapping > 10, "{apart} {overlapping}");
+}

@@ -1,0 +1,47 @@
+//! Bodies with surfaces that stay beside each other while one of them turns.
+
+use super::*;
+use crate::engine::solve::Solve;
+use crate::motion::pose::Pose;
+use crate::settings::Settings;
+use crate::tests::nearest::Triangle;
+use crate::tests::scene::body;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// Returns the triangles of a surface of revolution about z, with a ring of corners at each radius and height.
+fn revolved(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
+    let at = |[r, z]: [f64; 2], k: u32| {
+        let (sin, cos) = (TAU * f64::from(k % count) / f64::from(count)).sin_cos();
+        DVec3::new(r * cos, r * sin, z)
+    };
+    let strip = |pair: &[[f64; 2]]| {
+        let [low, high] = [pair[0], pair[1]];
+        let quad = move |k| [at(low, k), at(low, k + 1), at(high, k + 1), at(high, k)];
+        let halves = |[a, b, c, d]: [DVec3; 4]| [[a, b, c], [a, c, d]];
+        (0..count)
+            .flat_map(move |k| halves(quad(k)))
+            .collect::<Vec<_>>()
+    };
+    outline.windows(2).flat_map(strip).collect()
+}
+
+/// The closest approach of a wheel on its axle takes at most twenty times the work of the first contact.
+#[test]
+fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
+    let wheel = body(&revolved(&[[5.2, 0.0], [5.2, 8.0]], 192));
+    let axle = body(&revolved(&[[5.0, -4.0], [5.0, 12.0]], 192));
+    let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, TAU * DVec3::Z).unwrap();
+    let config = Settings::DEFAULT;
+    let problem = Problem::about((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
+    let first = BestFirst::default().solve(&problem, &mut Exhaustive);
+    assert!(matches!(first.outcome, Outcome::Free { .. }));
+    let closest = approach(&problem);
+    assert!(
+        matches!(closest.outcome, Outcome::Measured { .. }),
+        "{closest:?}"
+    );
+    assert!(closest.outcome.upper() - closest.outcome.lower() <= config.tolerance);
+    let (most, work) = (20 * first.stats.work(), closest.stats.work());
+    assert!(work <= most, "{work} of {most}");
+}

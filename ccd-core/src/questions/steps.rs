@@ -1,0 +1,277 @@
+//! A search for the first contact in steps: it stops at a time, and continues later.
+
+use super::along::first::first_contact;
+use crate::accelerate::closer_look::CloserLook;
+use crate::accelerate::rounds::Rounds;
+use crate::answer::{Answer, Limit, Outcome};
+use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::{let_go, of_given, shown};
+use crate::engine::best_first::BestFirst;
+use crate::engine::meter::Meter;
+use crate::engine::proven::{Proven, free_at_once};
+use crate::engine::search::{Question, Search};
+use crate::error::InputError;
+use crate::problem::Problem;
+use crate::query::Query;
+use crate::settings::StartPolicy;
+use std::ops::ControlFlow;
+
+/// A search for the first contact that advances to a requested time.
+///
+/// It serves queries for the first contact among many pairs of bodies. No pair is proven further than the answer
+/// needs: the pair that is proven least far continues next.
+///
+/// ```
+/// use ccd_core::{schedule::{BestFirst, FirstContact, Progress}, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
+/// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
+/// let mut search = FirstContact::new(query, BestFirst::default());
+/// let Progress::ApartUntil(time) = search.advance(&mut Balls, 0.5)? else { panic!("they are far apart") };
+/// assert!(time >= 0.5 && time <= 2.0);
+/// let Progress::Answered(answer) = search.advance(&mut Balls, 4.0)? else { panic!("all time is up") };
+/// assert!(matches!(answer.outcome, Outcome::Contact { .. }));
+/// # Ok::<(), InputError>(())
+/// ```
+pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
+
+#[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
+enum Kind<'a, O: DistanceOracle> {
+    /// A search about motions.
+    InSteps(Steps<'a, O>),
+    /// A search along trajectories, which are searched as a whole.
+    AtOnce {
+        query: Query<'a>,
+        memory: BestFirst<O>,
+        answer: Option<Answer>,
+    },
+}
+
+/// A search about two motions.
+struct Steps<'a, O: DistanceOracle> {
+    problem: Problem<'a>,
+    /// The problem that is searched now: it ends at a contact at the start, or lets the bodies go.
+    current: Problem<'a>,
+    /// For a problem that repeats itself: its rounds, and the part that is searched.
+    part: Option<(Rounds<'a>, Problem<'a>)>,
+    /// The policy for a contact at the start, as far as it is still to be applied.
+    start: StartPolicy,
+    memory: BestFirst<O>,
+    meter: Meter,
+    /// The state of the search; `None` before the first step.
+    begun: Option<Begun>,
+    answer: Option<Answer>,
+}
+
+/// The state of a search besides the waiting pairs.
+#[derive(Debug)]
+struct Begun {
+    look: CloserLook,
+    proven: Proven,
+}
+
+/// The progress of a search for the first contact.
+#[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// The bodies stay apart until this time, certified.
+    ApartUntil(f64),
+    /// The answer.
+    Answered(Answer),
+}
+
+impl<'a, O: DistanceOracle> FirstContact<'a, O> {
+    /// Creates the search for a query, with the memory of a schedule. A [deadline](crate::Settings::deadline) counts
+    /// from now.
+    pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
+        FirstContact(match query.problem.take() {
+            Some(problem) => Kind::InSteps(Steps::new(problem, memory)),
+            None => Kind::AtOnce {
+                query,
+                memory,
+                answer: None,
+            },
+        })
+    }
+
+    /// Returns the memory, for another search.
+    pub fn into_memory(self) -> BestFirst<O> {
+        match self.0 {
+            Kind::InSteps(steps) => steps.into_memory(),
+            Kind::AtOnce { memory, .. } => memory,
+        }
+    }
+
+    /// Continues until the bodies are proven apart up to a time, or later, or there is an answer. Along trajectories
+    /// other than [motions](crate::Motion), the search continues to the answer.
+    ///
+    /// # Guarantee
+    /// [Never late](crate#guarantee); ends on every input. The answer has the same bits as that of [`BestFirst`],
+    /// whatever the steps, unless a deadline ends the search.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
+    pub fn advance(&mut self, oracle: &mut O, until: f64) -> Result<Progress, InputError> {
+        match &mut self.0 {
+            Kind::InSteps(steps) => Ok(steps.advance(oracle, until)),
+            Kind::AtOnce {
+                query,
+                memory,
+                answer,
+            } => {
+                if answer.is_none() {
+                    *answer = Some(first_contact(memory, query, oracle)?);
+                }
+                Ok(answer.map_or(Progress::ApartUntil(0.0), Progress::Answered))
+            }
+        }
+    }
+}
+
+impl<'a, O: DistanceOracle> Steps<'a, O> {
+    fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
+        let mut meter = Meter::new(&problem);
+        meter.scratch = memory.scratch.take();
+        memory.queue.clear();
+        let current = problem.reporting();
+        Steps {
+            part: first_part(&current),
+            current,
+            start: problem.start,
+            problem,
+            memory,
+            meter,
+            begun: None,
+            answer: None,
+        }
+    }
+
+    fn into_memory(mut self) -> BestFirst<O> {
+        self.memory.queue.clear();
+        self.memory.scratch = self.meter.scratch;
+        self.memory
+    }
+
+    fn advance(&mut self, oracle: &mut O, until: f64) -> Progress {
+        if let Some(answer) = self.answer {
+            return Progress::Answered(answer);
+        }
+        let before = oracle.effort();
+        let progress = match self.search(oracle, until) {
+            ControlFlow::Continue(time) => Progress::ApartUntil(time),
+            ControlFlow::Break((outcome, tolerance)) => {
+                let within = self.problem.margin + tolerance;
+                let meter = &mut self.meter;
+                let outcome = of_given(&self.problem, oracle, meter, outcome, within);
+                Progress::Answered(Answer {
+                    outcome,
+                    tolerance,
+                    stats: meter.stats,
+                })
+            }
+        };
+        let stats = &mut self.meter.stats;
+        stats.effort = stats.effort + (oracle.effort() - before);
+        match progress {
+            Progress::ApartUntil(_) => progress,
+            Progress::Answered(answer) => Progress::Answered(*self.answer.insert(Answer {
+                stats: *stats,
+                ..answer
+            })),
+        }
+    }
+
+    /// Searches up to a time. Returns the time that is reached, or the outcome with its tolerance.
+    fn search(&mut self, oracle: &mut O, until: f64) -> ControlFlow<(Outcome, f64), f64> {
+        loop {
+            let outcome = match self.run(oracle, until) {
+                ControlFlow::Continue(time) => return ControlFlow::Continue(time),
+                ControlFlow::Break(outcome) => outcome,
+            };
+            let stats = &mut self.meter.stats;
+            stats.peak_front = stats.peak_front.max(self.memory.queue.peak());
+            self.memory.queue.clear();
+            self.begun = None;
+            let outcome = match &mut self.part {
+                None => outcome,
+                Some((rounds, part)) => match rounds.conclude(&outcome, &mut self.meter) {
+                    ControlFlow::Break(outcome) => outcome,
+                    ControlFlow::Continue(()) => {
+                        *part = rounds.part();
+                        continue;
+                    }
+                },
+            };
+            let parting = let_go(&self.current, self.start, &outcome, oracle, &mut self.meter);
+            match parting {
+                Some(parting) => {
+                    self.part = first_part(&parting);
+                    self.current = parting;
+                    self.start = StartPolicy::Report;
+                }
+                None => {
+                    let tolerance = if self.start == self.problem.start {
+                        self.problem.tolerance
+                    } else {
+                        shown(&self.current, &outcome)
+                    };
+                    return ControlFlow::Break((outcome, tolerance));
+                }
+            }
+        }
+    }
+
+    /// Searches until a time. Returns the time that is reached, or the outcome.
+    fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
+        // The time of the clock that is reached is rounded down, but not to before the requested time.
+        let (problem, until) = match &self.part {
+            Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
+            None => (&self.current, until.next_up()),
+        };
+        let clock = problem.clock(until);
+        let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
+        let mut search = Search {
+            waiting: &mut self.memory.queue,
+            oracle,
+            meter: &mut self.meter,
+        };
+        let Begun { look, proven } = match &mut self.begun {
+            Some(begun) => begun,
+            begun => {
+                if let Some(free) = free_at_once(problem) {
+                    return ControlFlow::Break(free);
+                }
+                let mut proven = Proven::default();
+                if search.open(problem).is_err() {
+                    return ControlFlow::Break(Question::<O>::stopped(
+                        &mut proven,
+                        problem,
+                        0.0,
+                        Limit::Budget,
+                    ));
+                }
+                let look = CloserLook::new(problem);
+                begun.insert(Begun { look, proven })
+            }
+        };
+        let reached = search.until(problem, look, proven, until);
+        reached.map_continue(|s| problem.time(s))
+    }
+}
+
+fn first_part<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
+    let rounds = Rounds::of(problem)?;
+    let part = rounds.part();
+    Some((rounds, part))
+}
+
+#[cfg(test)]
+mod tests;
