@@ -58,7 +58,7 @@
 //! | `motion/` | motions `[FAST06 §4.1]`, bounds of rates `[FAST06 §4.2]`, Δt = d / μ `[FAST06 Eq. 2]`, trajectories of any kind |
 //! | `distance/` | oracles, and the check of their claims |
 //! | `engine/` | the search: the first contact by conservative advancement, best first |
-//! | `accelerate/` | what makes the search faster and can be left out |
+//! | `shortcuts/` | what makes the search faster and can be left out |
 //! | `questions/` | any contact, the closest approach, searches in steps, trajectories stretch by stretch |
 //! | `paper/` | all pairs on one clock `[FAST06 Alg. 1]`, hull trees and a front `[FAST06 Alg. 2, §5.1]` |
 //! | `contacts/` | the features of all contacts at a time `[FAST06 §5.2]` |
@@ -79,7 +79,6 @@ compile_error!(
      worth nothing then: remove `-C target-cpu=native` from the rustflags, or replace it by `x86-64-v3`; add \
      the feature `avx512` if your compiler is known to be free of the fault"
 );
-mod accelerate;
 mod answer;
 mod body;
 mod contacts;
@@ -96,6 +95,7 @@ mod questions;
 pub mod rounding;
 pub mod schedule;
 mod settings;
+mod shortcuts;
 mod swept_box;
 #[cfg(test)]
 mod tests;
@@ -134,4 +134,5 @@ pub use motion::trajectory::{Acceleration, Accelerations, Smooth, Stray, Stretch
 pub use query::{Movement, Moving, Query};
 pub use schedule::Schedule;
 pub use settings::{Instructions, Settings, StartPolicy};
+pub use shortcuts::{Shortcut, Shortcuts};
 pub use swept_box::SweptBox;

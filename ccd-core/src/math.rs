@@ -3,6 +3,7 @@
 #[cfg(feature = "exact")]
 pub mod exact;
 pub(crate) mod instructions;
+pub(crate) mod lanes;
 pub mod order;
 pub(crate) mod packed;
 pub mod point_tree;

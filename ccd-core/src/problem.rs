@@ -11,6 +11,7 @@ use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::rounding::{self, NODE_GAP};
 use crate::settings::{StartPolicy, Terms};
+use crate::shortcuts::{Shortcut, Shortcuts};
 use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
 use glam::DVec3;
@@ -43,6 +44,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) rounding: f64,
     /// The vector instructions to use.
     pub(crate) level: Level,
+    pub(crate) shortcuts: Shortcuts,
 }
 
 /// A body on its path, in the problem's units.
@@ -142,6 +144,7 @@ impl<'a> Problem<'a> {
             stop: terms.stop,
             rounding,
             level: terms.level,
+            shortcuts: terms.shortcuts,
         })
     }
 
@@ -155,6 +158,12 @@ impl<'a> Problem<'a> {
     pub(crate) fn excess(&self) -> Excess {
         let given = |side: &Side<'a>| side.given.unwrap_or(side.body);
         Excess::of(given(&self.a), given(&self.b))
+    }
+
+    /// Returns true if the query takes a shortcut.
+    #[inline]
+    pub(crate) fn takes(&self, shortcut: Shortcut) -> bool {
+        self.shortcuts.has(shortcut)
     }
 
     /// Returns a piece of A and one of B.

@@ -325,7 +325,7 @@ pub const ADVANCE_F64: f64 = 32.0 * U64;
 pub const TURNS_F64: f64 = 1e-9;
 
 /// Bounds the rounding of `f = a r + b ζ` of a node, with its reach, computed in f64 (see
-/// `accelerate/screw/profile.rs`): `n` are `|a|` and `|b|`; `arm` is the distance of the node's centre
+/// `shortcuts/screw/profile.rs`): `n` are `|a|` and `|b|`; `arm` is the distance of the node's centre
 /// from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per
 /// radian, divided by the distance from the axis.
 ///

@@ -3,6 +3,7 @@
 
 use crate::error::{InputError, check};
 use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE};
+use crate::shortcuts::Shortcuts;
 use fearless_simd::Level;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -49,6 +50,8 @@ pub struct Settings {
     pub deadline: Option<Duration>,
     /// The vector instructions to compute with. Answers are the same, to the last bit.
     pub instructions: Instructions,
+    /// The shortcuts to take. Answers have the same guarantee.
+    pub shortcuts: Shortcuts,
     /// A flag by which other threads stop queries: soon after it is set, a query ends as
     /// [`Limit::Stopped`](crate::Limit::Stopped), with a certified time. It is read as often as the clock is for a
     /// deadline.
@@ -72,6 +75,7 @@ impl Settings {
         budget: limits::DEFAULT_BUDGET,
         deadline: None,
         instructions: Instructions::Best,
+        shortcuts: Shortcuts::ALL,
         stop: None,
     };
 
@@ -85,6 +89,7 @@ impl Settings {
             budget: self.budget,
             deadline: self.deadline,
             level: self.instructions.level(),
+            shortcuts: self.shortcuts,
             stop: self.stop.as_deref(),
         }
     }
@@ -106,6 +111,7 @@ pub(crate) struct Terms<'a> {
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
     pub(crate) level: Level,
+    pub(crate) shortcuts: Shortcuts,
     pub(crate) stop: Option<&'a AtomicBool>,
 }
 

@@ -7,10 +7,10 @@ use super::queue::Queue;
 use super::scratch::Scratch;
 use super::search::{Advance, Item, Question, Search};
 use super::solve::Solve;
-use crate::accelerate::rounds::in_rounds;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
+use crate::shortcuts::rounds::in_rounds;
 use std::ops::ControlFlow;
 
 /// Best-first search by time, the default.

@@ -9,7 +9,7 @@ use crate::distance::oracle::DistanceOracle;
 /// Depth-first search, for [any contact](DepthFirst::any_contact) and for the [closest
 /// approach](DepthFirst::closest_approach).
 ///
-/// Pairs are split and followed like those of [`BestFirst`](super::BestFirst), but the newest is examined next. A
+/// Pairs are split and followed like those of [`BestFirst`](crate::schedule::BestFirst), but the newest is examined next. A
 /// search reaches pieces at once, and few pairs wait.
 ///
 /// Keep the value between queries: it owns the memory.

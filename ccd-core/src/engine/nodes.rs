@@ -10,7 +10,6 @@ pub(crate) mod common;
 pub(crate) mod eight_pairs;
 pub(crate) mod expand;
 mod free_times;
-pub(crate) mod lanes;
 pub(crate) mod shape;
 pub(crate) mod siblings;
 mod turn;

@@ -3,17 +3,20 @@
 use super::meter::Meter;
 use super::pieces::pair::Step;
 use super::start::{contained, overlapping, touching};
-use crate::accelerate::out_of_reach::out_of_reach;
-use crate::accelerate::roots::keep_apart;
 use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
+use crate::shortcuts::Shortcut;
+use crate::shortcuts::out_of_reach::out_of_reach;
+use crate::shortcuts::roots::keep_apart;
 use std::ops::ControlFlow;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for good.
 pub(crate) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
-    (out_of_reach(problem) || keep_apart(problem)).then(|| Outcome::Free {
+    let by_balls = problem.takes(Shortcut::Balls) && out_of_reach(problem);
+    let is_free = by_balls || problem.takes(Shortcut::Boxes) && keep_apart(problem);
+    is_free.then(|| Outcome::Free {
         proven_gap: problem.proven_gap(),
     })
 }

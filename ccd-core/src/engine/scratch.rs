@@ -1,9 +1,9 @@
 //! Scratch memory that is kept from query to query, so that queries allocate nothing.
 
 use super::nearest::lists::Lists;
-use crate::accelerate::screw::Profiles;
 use crate::distance::common_normals::CommonNormals;
 use crate::distance::overlap::Inner;
+use crate::shortcuts::screw::Profiles;
 
 /// The scratch memory, created when it is first needed.
 pub(crate) type Scratch = Option<Box<Memory>>;

@@ -6,10 +6,10 @@ use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::{Pair, Step};
 use super::waiting::{Full, Rank, Waiting};
-use crate::accelerate::closer_look::CloserLook;
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
+use crate::shortcuts::closer_look::CloserLook;
 use std::ops::ControlFlow;
 
 /// A waiting item: siblings of nodes, or a pair of pieces.

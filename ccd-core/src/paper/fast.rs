@@ -5,7 +5,6 @@ mod front;
 mod hull_pair;
 mod reach;
 
-use crate::accelerate::rounds::in_rounds;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::answer;
@@ -16,6 +15,7 @@ use crate::engine::scratch::Scratch;
 use crate::engine::solve::Solve;
 use crate::motion::bound::Bound;
 use crate::problem::Problem;
+use crate::shortcuts::rounds::in_rounds;
 use descent::Descent;
 use front::Front;
 use hull_pair::HullPair;
@@ -41,7 +41,7 @@ use std::ops::ControlFlow;
 /// [`BestFirst`] answers the query.
 ///
 /// # Guarantee
-/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with
+/// The guarantee of [`Schedule::first_contact`](crate::Schedule::first_contact) with [`Bound::Sound`]; with
 /// [`Bound::Published`] times may be late and contacts missed.
 ///
 /// The bodies come nearer by a share of their distance in every step. Grazing passes and fast

@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 /// schedules.
 ///
 /// # Guarantee
-/// The guarantee of [`Schedule::first_contact`](super::Schedule::first_contact) with [`Bound::Sound`]; with
+/// The guarantee of [`Schedule::first_contact`](crate::Schedule::first_contact) with [`Bound::Sound`]; with
 /// [`Bound::Published`] times may be late.
 #[derive(Debug)]
 pub struct Naive<O: DistanceOracle> {

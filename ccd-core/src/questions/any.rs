@@ -1,6 +1,5 @@
 //! Decides whether two bodies touch at all. The search need not go in order of time.
 
-use crate::accelerate::rounds::in_rounds;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::answer_in_any_order;
@@ -14,6 +13,7 @@ use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
+use crate::shortcuts::rounds::in_rounds;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {

@@ -1,8 +1,6 @@
 //! A search for the first contact in steps: it stops at a time, and continues later.
 
 use super::along::first::first_contact;
-use crate::accelerate::closer_look::CloserLook;
-use crate::accelerate::rounds::Rounds;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{let_go, of_given, shown};
@@ -14,6 +12,8 @@ use crate::error::InputError;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::settings::StartPolicy;
+use crate::shortcuts::closer_look::CloserLook;
+use crate::shortcuts::rounds::Rounds;
 use std::ops::ControlFlow;
 
 /// A search for the first contact that advances to a requested time.

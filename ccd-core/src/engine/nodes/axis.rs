@@ -1,7 +1,7 @@
 //! Separating axes of eight pairs of nodes.
 
-use super::lanes::{TINY, Vec3x8, choose, splat};
 use super::shape::{Children, OtherNode};
+use crate::math::lanes::{TINY, Vec3x8, choose, splat};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// Eight axes, the gaps along them, and each side's extent towards the other.

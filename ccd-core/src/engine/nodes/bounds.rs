@@ -6,8 +6,8 @@
 use super::axis::{self, Axis};
 use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
 use super::free_times::FreeTimes;
-use super::lanes::splat;
 use super::shape::{Children, OtherNode};
+use crate::math::lanes::splat;
 use crate::tuning::{LOOK_AGAIN, SWEPT, THICKNESS};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 

@@ -6,7 +6,8 @@ use crate::math::vector::{distance, length};
 use crate::motion::relative::View;
 use crate::problem::{Problem, Side, Which};
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32};
-use crate::tuning::CLOSED_GAP;
+use crate::shortcuts::Shortcut;
+use crate::tuning::{CLOSED_GAP, MUCH_LARGER};
 use glam::Vec3;
 use std::cell::OnceCell;
 
@@ -30,6 +31,8 @@ pub(crate) struct Common<'p> {
     pub(crate) rate_slack: f32,
     /// A gap above the slack by at most this counts as closed.
     pub(crate) closed: f32,
+    /// The ratio of radii above which a node is much larger than another one.
+    pub(crate) much_larger: f32,
 }
 
 /// Bounds the speeds whose difference is a rate. The rounding of the positions of arms adds a share.
@@ -69,6 +72,11 @@ impl<'p> Common<'p> {
             rounding: up(problem.rounding),
             rate_slack: RATE_F32 * up(speed(&problem.a, &problem.b)),
             closed: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
+            much_larger: if problem.takes(Shortcut::TurningNodes) {
+                MUCH_LARGER
+            } else {
+                f32::INFINITY
+            },
         }
     }
 

@@ -2,9 +2,9 @@
 
 use super::axis::Axis;
 use super::clock;
-use super::lanes::{Vec3x8, splat};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
+use crate::math::lanes::{Vec3x8, splat};
 use crate::rounding::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;

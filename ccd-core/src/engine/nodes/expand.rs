@@ -11,7 +11,6 @@ use crate::math::packed::{Packed, PackedMatrix, as_vec3};
 use crate::motion::relative::{Seen, View};
 use crate::problem::{Side, Which};
 use crate::rounding::{REACH_F32, WAY_F32};
-use crate::tuning::MUCH_LARGER;
 use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
@@ -278,9 +277,9 @@ impl<L: Simd> GroupView<'_, L> {
             slack,
             closed: common.closed,
             rate_slack: common.rate_slack,
-            larger: if split.turns && reach > MUCH_LARGER * radius {
+            larger: if split.turns && reach > common.much_larger * radius {
                 Some(Larger::Split)
-            } else if other.turns && radius > MUCH_LARGER * reach {
+            } else if other.turns && radius > common.much_larger * reach {
                 Some(Larger::Other)
             } else {
                 None

@@ -1,7 +1,7 @@
 //! The free times of eight pairs, from which the least is removed repeatedly.
 
-use super::lanes::splat;
 use crate::body::tree::LANES;
+use crate::math::lanes::splat;
 use crate::math::order::lesser;
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 

@@ -1,7 +1,7 @@
 //! The shapes of nodes, as seen from the split group.
 
-use super::lanes::{TINY, Vec3x8, choose, load, splat};
 use crate::body::tree::{BoxGroup, TriangleGroup};
+use crate::math::lanes::{TINY, Vec3x8, choose, load, splat};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 

@@ -1,6 +1,6 @@
 //! The rotation of a body, as seen from the group that is split.
 
-use super::lanes::Vec3x8;
+use crate::math::lanes::Vec3x8;
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 

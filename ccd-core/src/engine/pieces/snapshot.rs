@@ -1,7 +1,6 @@
 //! Two pieces at one instant, and the time for which an axis keeps them apart from that instant on.
 
 use super::heights::{Heights, Point, least_free, least_free_of_many};
-use crate::accelerate::sweeping_piece::{Member, SweepingPiece};
 use crate::body::facing::Facing;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{DistanceOracle, PiecePair};
@@ -14,6 +13,8 @@ use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{RATE_F64, RESTING};
+use crate::shortcuts::Shortcut;
+use crate::shortcuts::sweeping_piece::{Member, SweepingPiece};
 use crate::tuning::{A_WHILE, AXIS_ROUNDS, RESTED, TURNED_SHARE, USUAL_STEPS};
 use glam::DVec3;
 use std::cell::Cell;
@@ -271,6 +272,9 @@ impl<'p> Snapshot<'p> {
         plane: &Plane,
         free: f64,
     ) -> Option<f64> {
+        if !self.problem.takes(Shortcut::TurningPieces) {
+            return Some(0.0);
+        }
         let [a, b] = members;
         let uses_up = |swing: f64| swing * free > TURNED_SHARE * plane.slack;
         let mut longest = 0.0f64;

@@ -2,13 +2,13 @@
 
 use super::follow::follow;
 use super::{Best, unresolved};
-use crate::accelerate::out_of_reach::{least_distance, nearest_clock};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::nearest::{Nearest, Stop};
 use crate::math::order::greater;
 use crate::problem::Problem;
+use crate::shortcuts::out_of_reach::{least_distance, nearest_clock};
 use crate::tuning::{FOLLOWED, GUESSES};
 use std::ops::ControlFlow;
 

@@ -3,7 +3,6 @@
 use super::follow::follow;
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
 use super::{Best, Beyond};
-use crate::accelerate::closer_look::CloserLook;
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -14,6 +13,7 @@ use crate::engine::search::{Advance, Question, Search};
 use crate::engine::stack::Stack;
 use crate::math::order::lesser;
 use crate::problem::Problem;
+use crate::shortcuts::closer_look::CloserLook;
 use std::ops::ControlFlow;
 
 /// The search for the least distance. Each pair is proven to keep the least distance found so far.

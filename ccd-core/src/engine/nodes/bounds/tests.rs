@@ -9,7 +9,7 @@ use super::*;
 use crate::body::tree::LANES;
 use crate::engine::nodes::axis::Axis;
 use crate::engine::nodes::clock;
-use crate::engine::nodes::lanes::{Vec3x8, load};
+use crate::math::lanes::{Vec3x8, load};
 use crate::math::order::{greater, lesser};
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};

@@ -5,6 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
+use crate::tuning::MUCH_LARGER;
 
 /// The number of samples of a lane within its free time, ends included.
 const SAMPLES: usize = 17;

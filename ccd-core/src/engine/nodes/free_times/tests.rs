@@ -1,8 +1,8 @@
 //! Free times, compared with a sorted list.
 
-use super::super::lanes::load;
 use super::{FreeTimes, LANE_BITS};
 use crate::body::tree::LANES;
+use crate::math::lanes::load;
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;

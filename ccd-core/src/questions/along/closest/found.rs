@@ -1,6 +1,5 @@
 //! The results found so far in a search for the closest approach along trajectories.
 
-use crate::accelerate::out_of_reach::least_distance;
 use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
@@ -9,6 +8,7 @@ use crate::questions::along::motions::{Motions, Span};
 use crate::questions::along::stretches::Stretches;
 use crate::questions::closest::ladder::{Ladder, Rung};
 use crate::settings::Terms;
+use crate::shortcuts::out_of_reach::least_distance;
 use crate::tuning::LEAST_CUT;
 
 impl Query<'_> {

@@ -1,12 +1,12 @@
 //! Bodies proven apart, compared with samples of their distance and with balls.
 
 use super::out_of_reach;
-use crate::accelerate::roots::keep_apart;
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::settings::Settings;
+use crate::shortcuts::roots::keep_apart;
 use crate::tests::scene::{
     Look, Passage, RngExt, body, direction, distance, magnitude, rng, rotation, soup, within,
 };

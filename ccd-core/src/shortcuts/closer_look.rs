@@ -2,8 +2,8 @@
 //!
 //! These bounds are computed only where splits would prove little.
 
-use super::flat_pair;
 use super::screw::Screw;
+use super::{Shortcut, flat_pair};
 use crate::engine::meter::Meter;
 use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
@@ -26,7 +26,7 @@ impl CloserLook {
         let radius = |side: &Side<'_>| f64::from(side.body.tree().radius());
         let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
         CloserLook {
-            fine: rounding > COARSE_F32 * problem.node_gap(),
+            fine: problem.takes(Shortcut::FlatNodes) && rounding > COARSE_F32 * problem.node_gap(),
             splits: 0,
             screw: None,
         }
@@ -73,7 +73,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits == SCREW_AFTER {
+        if self.splits == SCREW_AFTER && problem.takes(Shortcut::Screw) {
             self.screw = Screw::of(problem, &mut meter.memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.

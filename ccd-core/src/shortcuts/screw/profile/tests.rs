@@ -1,7 +1,6 @@
 //! Profiles, compared with the exact surfaces through the corners of a triangle.
 
 use super::{Profile, ScrewAxis};
-use crate::accelerate::placed::Placed;
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
@@ -9,6 +8,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::rounding::profile_rounding;
 use crate::settings::Settings;
+use crate::shortcuts::placed::Placed;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::body;
 use crate::tests::worst::{Tape, Worst, share};

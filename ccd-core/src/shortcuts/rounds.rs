@@ -6,6 +6,7 @@
 //! differ by too much, some are searched in full, ever more of them in a row. The work therefore depends on how much
 //! the distances change, and not on the number of turns.
 
+use super::Shortcut;
 use crate::answer::{Contact, Limit, Outcome, Separation};
 use crate::engine::meter::Meter;
 use crate::engine::proven::free_at_once;
@@ -76,6 +77,9 @@ impl<'a> Rounds<'a> {
 
     #[cold]
     fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
+        if !problem.takes(Shortcut::Rounds) {
+            return None;
+        }
         // Bodies that rest on each other are let go pair by pair, from the start on.
         if problem.start == StartPolicy::Leave {
             return None;

@@ -11,8 +11,8 @@
 use crate::engine::nodes::axis::Axis;
 use crate::engine::nodes::clock;
 use crate::engine::nodes::eight_pairs::{EightPairs, bending};
-use crate::engine::nodes::lanes::{Vec3x8, splat};
 use crate::engine::nodes::shape::{Children, OtherNode};
+use crate::math::lanes::{Vec3x8, splat};
 use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
 use crate::tuning::ATTACHED_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};

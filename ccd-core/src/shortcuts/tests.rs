@@ -1,0 +1,202 @@
+//! Answers with and without each shortcut: they agree, and each shortcut saves work in its scene.
+
+use super::*;
+use crate::answer::{Answer, Outcome};
+use crate::body::Body;
+use crate::engine::solve::Solve;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::schedule::BestFirst;
+use crate::settings::Settings;
+use crate::tests::nearest::Triangle;
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{Kind, body, distance, rng, scene};
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+fn solve(problem: &Problem<'_>) -> Answer {
+    BestFirst::default().solve(problem, &mut Exhaustive)
+}
+
+/// Checks that bodies come as near at the earlier of two times as the proof of the later one allows.
+fn agree(problem: &Problem<'_>, earlier: f64, number: usize) {
+    let near = distance(problem, earlier);
+    assert!(
+        near >= problem.gap() - problem.rounding,
+        "{number}: {near:e}"
+    );
+}
+
+#[test]
+fn answers_without_a_shortcut_agree_with_those_of_all() {
+    const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
+    let mut rng = rng(7);
+    let (mut contacts, mut free, mut changed) = (0, 0, 0);
+    for number in 0..2_800 {
+        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        scene.config.budget = 20_000;
+        let with = solve(&scene.problem());
+        scene.config.shortcuts = Shortcuts::ALL.without(Shortcut::ALL[number / 4 % 7]);
+        let problem = scene.problem();
+        let without = solve(&problem);
+        changed += u32::from(with.stats.work() != without.stats.work());
+        match (with.outcome, without.outcome) {
+            (Outcome::Contact { time: one, .. }, Outcome::Contact { time: other, .. }) => {
+                contacts += 1;
+                if one != other {
+                    agree(&problem, if one < other { one } else { other }, number);
+                }
+            }
+            (Outcome::Free { .. }, Outcome::Free { .. }) => free += 1,
+            (Outcome::Touching { .. }, Outcome::Touching { .. }) => {}
+            (Outcome::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
+            (Outcome::Contact { time, .. }, Outcome::Free { .. })
+            | (Outcome::Free { .. }, Outcome::Contact { time, .. }) => {
+                agree(&problem, time, number);
+            }
+            (Outcome::Unresolved(known), Outcome::Contact { time, .. })
+            | (Outcome::Contact { time, .. }, Outcome::Unresolved(known)) => {
+                assert!(known.safe_until <= time || distance(&problem, time) >= problem.gap());
+            }
+            (Outcome::Unresolved(_), Outcome::Free { .. } | Outcome::Unresolved(_))
+            | (Outcome::Free { .. }, Outcome::Unresolved(_)) => {}
+            (with, without) => panic!("{number}: {with:?}, {without:?}"),
+        }
+    }
+    assert!(contacts > 200 && free > 600, "{contacts} {free}");
+    assert!(changed > 150, "{changed}");
+}
+
+/// Two bodies, their motions and the tolerance.
+type Pair = ([Body; 2], [Motion; 2], f64);
+
+fn at(place: [f64; 3]) -> Pose {
+    Pose::at(place).unwrap()
+}
+
+fn moving(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
+    Motion::new(at(place), velocity, spin).unwrap()
+}
+
+/// Returns two triangles for each square of a sheet with corners at `point(i, j)`.
+fn sheet(rows: usize, columns: usize, point: impl Fn(f64, f64) -> [f64; 3]) -> Vec<Triangle> {
+    let point = |i: usize, j: usize| {
+        DVec3::from_array(point(i as f64 / rows as f64, j as f64 / columns as f64))
+    };
+    let squares = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
+    squares
+        .flat_map(|(i, j)| {
+            let [a, b] = [point(i, j), point(i + 1, j)];
+            let [c, d] = [point(i + 1, j + 1), point(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect()
+}
+
+fn plate(half: f64, squares: usize) -> Body {
+    let plate = sheet(squares, squares, |u, v| {
+        [half * (2.0 * u - 1.0), half * (2.0 * v - 1.0), 0.0]
+    });
+    body(&plate)
+}
+
+fn tube(radius: f64, segments: usize) -> Body {
+    let tube = sheet(4, segments, |u, v| {
+        let (sin, cos) = (TAU * v).sin_cos();
+        [radius * cos, radius * sin, u]
+    });
+    body(&tube)
+}
+
+/// Returns a disc of triangles that all have a corner in its middle.
+fn disc(segments: usize) -> Body {
+    let rim = |k: usize| {
+        let (sin, cos) = (TAU * k as f64 / segments as f64).sin_cos();
+        DVec3::new(cos, sin, 0.0)
+    };
+    let fan: Vec<Triangle> = (0..segments)
+        .map(|k| [DVec3::ZERO, rim(k), rim(k + 1)])
+        .collect();
+    body(&fan)
+}
+
+/// Returns the scene that a shortcut is made for.
+fn scene_of(shortcut: Shortcut) -> Pair {
+    let still = Motion::STILL;
+    match shortcut {
+        Shortcut::Balls => {
+            let passing = moving([-5.0, 4.0, 0.0], [10.0, 0.0, 0.0], [0.0; 3]);
+            ([plate(1.0, 4), tube(1.0, 16)], [passing, still], 1e-3)
+        }
+        Shortcut::Boxes => {
+            let above = moving([-0.5, 0.0, 0.1], [1.0, 0.0, 0.0], [0.0; 3]);
+            ([plate(1.0, 8), plate(1.0, 8)], [above, still], 1e-3)
+        }
+        Shortcut::Rounds => {
+            let crank = |x: f64, y: f64| {
+                let spin = [0.0, 0.0, 200.0 * TAU];
+                Motion::about(at([x, 0.0, 0.0]), [0.0; 3], spin, [y, 0.0, 0.0]).unwrap()
+            };
+            let ball = || Body::ball(1.0).unwrap();
+            (
+                [ball(), ball()],
+                [crank(3.0, -1.0), crank(-0.5, -1.0)],
+                1e-3,
+            )
+        }
+        Shortcut::Screw => {
+            let turning = moving([0.0; 3], [0.0; 3], [0.0, 0.0, TAU]);
+            ([tube(1.0, 64), tube(1.05, 64)], [turning, still], 1e-3)
+        }
+        Shortcut::FlatNodes => {
+            let falling = moving([0.0, 0.0, 1e-3], [0.0, 0.0, -1.0], [0.0; 3]);
+            ([plate(1.0, 16), plate(1.0, 16)], [falling, still], 1e-9)
+        }
+        Shortcut::TurningNodes => {
+            let turning = moving([0.0; 3], [0.0; 3], [1.5, 0.0, 0.0]);
+            let beside = moving([0.8, -0.02, 0.03], [0.0; 3], [0.0; 3]);
+            ([disc(8), plate(0.01, 8)], [turning, beside], 1e-5)
+        }
+        Shortcut::TurningPieces => {
+            let turning = moving([0.0; 3], [0.0; 3], [0.0, 0.0, 3.0]);
+            let beside = moving([0.0, -1.0, 0.0], [0.0, 0.9, 0.0], [0.0; 3]);
+            ([plate(0.5, 1), plate(0.01, 1)], [turning, beside], 1e-4)
+        }
+    }
+}
+
+/// The last two columns of the README's row of each shortcut: the work without any and with it alone.
+fn documented() -> Vec<[u64; 2]> {
+    let rows = include_str!("README.md")
+        .lines()
+        .filter(|line| line.starts_with("| `"));
+    rows.map(|row| {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').collect();
+        [3, 4].map(|at| cells[at].trim().replace(',', "").parse().unwrap())
+    })
+    .collect()
+}
+
+#[test]
+fn each_shortcut_saves_the_work_that_is_documented() {
+    let none = Shortcut::ALL
+        .iter()
+        .fold(Shortcuts::ALL, |left, &each| left.without(each));
+    let measured = Shortcut::ALL.map(|shortcut| {
+        let ([a, b], [of_a, of_b], tolerance) = scene_of(shortcut);
+        [none, Shortcuts(1 << shortcut as u8)].map(|shortcuts| {
+            let settings = Settings {
+                tolerance,
+                shortcuts,
+                ..Settings::DEFAULT
+            };
+            let problem = Problem::about((&a, of_a), (&b, of_b), 1.0, &settings).unwrap();
+            solve(&problem).stats.work()
+        })
+    });
+    assert_eq!(measured.to_vec(), documented());
+    for (shortcut, [without, with]) in Shortcut::ALL.iter().zip(measured) {
+        assert!(2 * with < without, "{shortcut:?}: {with} of {without}");
+    }
+}
