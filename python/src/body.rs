@@ -4,12 +4,13 @@ use crate::arrays::{rows, triangles};
 use crate::errors::{InputError, input, of_file, warn, wrong_type};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
+use rigid_ccd::body::{Round, Volume};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
     Adjustments, Axis, Detail, MeshSource, Model, STORED_EXTENSION, SourceError, StoreFault,
     TriangleMesh, Unit, prepare,
 };
-use rigid_ccd::{Body, Remark, Round, Volume};
+use rigid_ccd::{Body, Remark};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
