@@ -18,7 +18,7 @@ use super::view::{Chosen, Drawn, title, write_rows};
 use super::{Exit, complain, complain_of};
 use crate::batch::{BatchSize, BoundKind, Question, ScheduleKind, SolverKind, Timing, on_threads};
 use crate::command::pair::{Loading, Pair};
-use crate::command::progress::{Progress, Total};
+use crate::command::progress::Progress;
 use crate::picture::{Asked, Claim};
 use crate::table::results::Status;
 use answering::Answering;
@@ -75,11 +75,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
             .map(|_| Chosen::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
         bad_rows: BadRows::new(input_name(&args.motions)),
-        progress: if args.quiet {
-            Progress::hidden()
-        } else {
-            Progress::new(length.map_or(Total::Unknown, Total::Bytes))
-        },
+        progress: Progress::of_rows(length, args.quiet),
     };
     let end = answering.answer_all(&mut rows, start)?;
     answering.outputs.finish(end)?;
