@@ -231,7 +231,7 @@ fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
 }
 
 fn leaves(args: &QueryArgs) -> bool {
-    StartPolicy::from(args.start) == StartPolicy::Leave
+    args.start == StartPolicy::Leave
 }
 
 /// Returns all settings that determine the tables, except the motions.
@@ -261,10 +261,10 @@ fn timing(args: &QueryArgs) -> Timing {
             tolerance: args.tolerance,
             margin: args.margin,
             clearance: args.clearance,
-            start: args.start.into(),
+            start: args.start,
             budget: args.budget,
             deadline: args.deadline,
-            instructions: args.instructions.into(),
+            instructions: args.instructions,
             stop: None,
         },
         repeat: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
