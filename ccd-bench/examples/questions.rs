@@ -9,9 +9,10 @@
 
 use anyhow::{Context, bail, ensure};
 use rigid_ccd::batch::median;
+use rigid_ccd::oracle::Direct;
 use rigid_ccd::schedule::{BestFirst, DepthFirst, Schedule};
 use rigid_ccd::table::motions::{MotionTable, Motions};
-use rigid_ccd::{Answer, Body, Direct, InputError, Outcome, Settings, load};
+use rigid_ccd::{Answer, Body, InputError, Outcome, Settings, load};
 use std::fs::File;
 use std::io::Write;
 use std::time::{Duration, Instant};

@@ -4,12 +4,13 @@ use crate::arrays::{rows, triangles};
 use crate::errors::{InputError, input, of_file, warn, wrong_type};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
+use rigid_ccd::body::{Round, Volume};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
     Adjustments, Axis, Detail, MeshSource, Model, STORED_EXTENSION, SourceError, StoreFault,
     TriangleMesh, Unit, prepare,
 };
-use rigid_ccd::{Body, Remark, Round, Volume};
+use rigid_ccd::{Body, Remark};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -39,30 +40,14 @@ pub(crate) struct PyBody {
     #[pyo3(get)]
     /// The message about the mesh.
     report: String,
-    #[pyo3(get)]
-    /// How far the body may exceed what it was made of: contacts may be early by that, never late, and upper bounds of
-    /// distances are larger by that. 0 for exact bodies.
-    sticks_out: f64,
 }
 
 /// The data from which pickle makes the body again.
 enum Made {
-    Shape(Shape),
-    /// A round shape, by the name of its constructor.
-    Round(&'static str, RoundSizes),
+    /// The name of a shape's constructor, and its arguments.
+    Shape(&'static str, Vec<Option<f64>>),
     Mesh(Box<Model>),
 }
-
-/// A body that is not a mesh.
-#[derive(Clone, Copy)]
-enum Shape {
-    Box([f64; 3]),
-    Sphere(f64),
-    Capsule(f64, f64),
-}
-
-/// Radius, half height and allowed excess of a cylinder or a cone.
-type RoundSizes = (f64, f64, Option<f64>);
 
 /// Extracts a `Body` from a Python argument; `what` names it in errors.
 pub(crate) fn body_of<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
@@ -209,21 +194,22 @@ impl PyBody {
     #[classmethod]
     fn r#box(_class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
         let report = format!("box of half extents {x}, {y}, {z}");
-        PyBody::simple(Shape::Box([x, y, z]), report)
+        PyBody::shape("box", [x, y, z], Body::cuboid([x, y, z]), report)
     }
 
     /// Makes a ball about its origin.
     #[classmethod]
     fn sphere(_class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
         let report = format!("ball of radius {radius}");
-        PyBody::simple(Shape::Sphere(radius), report)
+        PyBody::shape("sphere", [radius], Body::ball(radius), report)
     }
 
     /// Makes a capsule along z; half its height is from its middle to the centre of either cap.
     #[classmethod]
     fn capsule(_class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
         let report = format!("capsule of radius {radius} and half height {half_height}");
-        PyBody::simple(Shape::Capsule(radius, half_height), report)
+        let body = Body::capsule(radius, half_height);
+        PyBody::shape("capsule", [radius, half_height], body, report)
     }
 
     /// Makes a cylinder along z, as a polytope around it: `sticks_out` tells by how much it exceeds the cylinder.
@@ -241,7 +227,7 @@ impl PyBody {
         excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = Round::cylinder(radius, half_height).map_err(input)?;
-        PyBody::round("cylinder", &round, (radius, half_height, excess))
+        PyBody::round("cylinder", &round, [radius, half_height], excess)
     }
 
     /// Makes a cone along z with its apex up, as a polytope around it, like `Body.cylinder`.
@@ -259,13 +245,20 @@ impl PyBody {
         excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = Round::cone(radius, half_height).map_err(input)?;
-        PyBody::round("cone", &round, (radius, half_height, excess))
+        PyBody::round("cone", &round, [radius, half_height], excess)
     }
 
     /// Whether the inside of the body is solid.
     #[getter]
     fn is_solid(&self) -> bool {
         self.body.volume() == Volume::Solid
+    }
+
+    /// How far the body may exceed what it was made of: contacts may be early by that, never late, and upper bounds of
+    /// distances are larger by that. 0 for exact bodies.
+    #[getter]
+    fn sticks_out(&self) -> f64 {
+        self.body.excess()
     }
 
     /// The number of convex pieces.
@@ -295,12 +288,7 @@ impl PyBody {
         let py = slf.py();
         let make = |name: &str| py.get_type::<PyBody>().getattr(name);
         Ok(match &slf.get().made {
-            Made::Shape(Shape::Box(sides)) => (make("box")?, PyTuple::new(py, sides)?),
-            Made::Shape(Shape::Sphere(radius)) => (make("sphere")?, PyTuple::new(py, [*radius])?),
-            Made::Shape(Shape::Capsule(radius, half_height)) => {
-                (make("capsule")?, PyTuple::new(py, [*radius, *half_height])?)
-            }
-            Made::Round(name, sizes) => (make(name)?, sizes.into_pyobject(py)?),
+            Made::Shape(name, sizes) => (make(name)?, PyTuple::new(py, sizes)?),
             Made::Mesh(model) => {
                 let mut bytes = Vec::new();
                 py.detach(|| model.write(&mut bytes)).map_err(input)?;
@@ -326,56 +314,52 @@ impl PyBody {
 }
 
 impl PyBody {
-    fn from_model(model: Model) -> PyResult<Self> {
-        let body = model.body().map_err(input)?;
-        Ok(PyBody {
-            size: Remark::size(&body),
+    fn new_of(body: Body, made: Made, report: String) -> Self {
+        let size = Remark::size(&body);
+        PyBody {
             body,
-            report: model.report.to_string(),
-            sticks_out: model.report.sticks_out,
-            made: Made::Mesh(Box::new(model)),
-        })
-    }
-
-    fn simple(shape: Shape, report: String) -> PyResult<Self> {
-        let body = match shape {
-            Shape::Box(sides) => Body::cuboid(sides),
-            Shape::Sphere(radius) => Body::ball(radius),
-            Shape::Capsule(radius, half_height) => Body::capsule(radius, half_height),
-        };
-        let (body, made) = (body.map_err(input)?, Made::Shape(shape));
-        Ok(PyBody {
-            size: Remark::size(&body),
-            body,
+            size,
             made,
             report,
-            sticks_out: 0.0,
-        })
+        }
     }
 
-    fn round(name: &'static str, round: &Round, sizes: RoundSizes) -> PyResult<Self> {
-        let (radius, half_height, excess) = sizes;
+    fn from_model(model: Model) -> PyResult<Self> {
+        let (body, report) = (model.body().map_err(input)?, model.report.to_string());
+        Ok(PyBody::new_of(body, Made::Mesh(Box::new(model)), report))
+    }
+
+    fn shape<const N: usize>(
+        name: &'static str,
+        sizes: [f64; N],
+        body: Result<Body, rigid_ccd::InputError>,
+        report: String,
+    ) -> PyResult<Self> {
+        let made = Made::Shape(name, sizes.map(Some).to_vec());
+        Ok(PyBody::new_of(body.map_err(input)?, made, report))
+    }
+
+    fn round(
+        name: &'static str,
+        round: &Round,
+        [radius, half_height]: [f64; 2],
+        excess: Option<f64>,
+    ) -> PyResult<Self> {
         let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()));
-        let enclosure = enclosure.map_err(input)?;
-        let sticks_out = enclosure.excess();
-        let body = enclosure.body().map_err(input)?;
-        Ok(PyBody {
-            size: Remark::size(&body),
-            body,
-            made: Made::Round(name, sizes),
-            report: format!(
-                "{name} of radius {radius} and half height {half_height}, sticking out by up to {sticks_out:.3e}"
-            ),
-            sticks_out,
-        })
+        let body = enclosure.and_then(|enclosure| enclosure.body());
+        let body = body.map_err(input)?;
+        let report = format!(
+            "{name} of radius {radius} and half height {half_height}, sticking out by up to {:.3e}",
+            body.excess()
+        );
+        let sizes = vec![Some(radius), Some(half_height), excess];
+        Ok(PyBody::new_of(body, Made::Shape(name, sizes), report))
     }
 
     fn model(&self) -> PyResult<Cow<'_, Model>> {
         match &self.made {
             Made::Mesh(model) => Ok(Cow::Borrowed(model)),
-            Made::Shape(_) | Made::Round(..) => {
-                Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?))
-            }
+            Made::Shape(..) => Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?)),
         }
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! The engine checks each result: with a wrong backend, a query is slow or unresolved, never late.
 
+use rigid_ccd::body::Combination;
+use rigid_ccd::oracle::{Claim, DistanceOracle, GiveUp, Gjk, PiecePair};
 use rigid_ccd::{Body, Motion, Pose, Solver};
-use rigid_ccd::{Claim, Combination, DistanceOracle, GiveUp, Gjk, PiecePair};
 use std::error::Error;
 
 /// A distance backend for pieces of one or two points.

@@ -10,6 +10,7 @@ mod decompose;
 mod files;
 mod man;
 mod meshes;
+mod named;
 mod numbers;
 mod output;
 mod pair;

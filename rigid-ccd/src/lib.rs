@@ -29,10 +29,10 @@
 //! | set a tolerance, a margin, a budget or a deadline | [`Settings`], [`Solver::with_settings`] |
 //! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], [`load`] for a file |
 //! | make a body of each part of a file, convert units, scale or mirror it | [`load_parts`], [`load_in`], [`load_adjusted`], [`mesh::MeshFile`] |
-//! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`Pieces::triangles`] |
+//! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`body::Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Query::contacts_at`] |
-//! | choose or write a distance backend | [`Solver::with_oracle`], [`DistanceOracle`] |
+//! | choose or write a distance backend | [`Solver::with_oracle`], [`oracle`] |
 //!
 //! Vectors are arrays, or types that convert into them: those of [`glam`] and `nalgebra`. Lengths are in
 //! any one unit, times in the motions' unit, angles in radians.
@@ -41,9 +41,9 @@
 //! - A *piece* is a convex part of a body: the convex hull of a few points, rounded by a radius. A ball
 //!   is one point with a radius, a box one piece of eight points; a mesh is many pieces, often one for
 //!   each triangle.
-//! - A *distance backend* ([`DistanceOracle`]) computes the distance of two pieces. The engine checks
+//! - A *distance backend* ([`oracle::DistanceOracle`]) computes the distance of two pieces. The engine checks
 //!   each result before it uses it, so a wrong backend makes a query slow or unresolved, never wrong.
-//!   The default, [`Direct`], suits all bodies.
+//!   The default, [`oracle::Direct`], suits all bodies.
 //! - A contact is a distance of at most margin + *tolerance*. The *margin* is a distance to keep,
 //!   0 by default.
 //! - *Witnesses* are a pair of nearest points of the two bodies.
@@ -61,7 +61,7 @@
 //! - `tables`, `pages`: what the command and the Python package share; no stable interface.
 //! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
 //! - `scenes` (default): [`Scene`], many moving bodies.
-//! - `vmarch`: the distance backend [`Vmarch`].
+//! - `vmarch`: the distance backend [`oracle::Vmarch`].
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
 //!
 //! The README of this crate lists the time that each feature takes to build.
@@ -91,22 +91,25 @@
 )]
 #![cfg_attr(feature = "scenes", doc = "[`Scene`]: Scene")]
 #![cfg_attr(not(feature = "scenes"), doc = "[`Scene`]: #features")]
-#![cfg_attr(feature = "vmarch", doc = "[`Vmarch`]: Vmarch")]
-#![cfg_attr(not(feature = "vmarch"), doc = "[`Vmarch`]: #features")]
+#![cfg_attr(feature = "vmarch", doc = "[`oracle::Vmarch`]: oracle::Vmarch")]
+#![cfg_attr(not(feature = "vmarch"), doc = "[`oracle::Vmarch`]: #features")]
 
 #[cfg(feature = "tables")]
 pub mod batch;
+pub mod body;
 #[cfg(feature = "command")]
 pub mod command;
+pub mod contacts;
 mod error;
 #[cfg(feature = "meshes")]
 mod load;
+pub mod oracle;
 mod parallel;
 #[cfg(feature = "pages")]
 pub mod picture;
 mod remark;
 #[cfg(feature = "scenes")]
-mod scene;
+pub mod scene;
 mod solver;
 #[cfg(feature = "tables")]
 pub mod table;
@@ -117,27 +120,19 @@ pub mod trajectory;
 pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
-    Answer, Body, Claim, Clearance, Combination, Contact, ContactsError, DistanceOracle, Effort,
-    Enclosure, Face, Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode, Hit,
-    HitKind, InputError, Instructions, Limit, Motion, Movement, Moving, OrElse, Origin, Outcome,
-    Overlap, Piece, PiecePair, Pieces, Polytope, Pose, Query, Round, Schedule, Separation,
-    Settings, StartPolicy, Stats, SweptBox, Unresolved, Volume,
+    Answer, Body, Clearance, Contact, Hit, HitKind, InputError, Instructions, Limit, Motion,
+    Movement, Moving, Outcome, Overlap, Pose, Query, Settings, StartPolicy, Stats, Unresolved,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]
 pub use ccd_decomp as mesh;
-#[cfg(feature = "meshes")]
-pub use ccd_decomp::BodyError;
-pub use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
-#[cfg(feature = "vmarch")]
-pub use ccd_distance_vmarch::Vmarch;
 pub use error::Error;
 #[cfg(feature = "meshes")]
 pub use load::{load, load_adjusted, load_in, load_parts};
 pub use parallel::{ParallelSolver, QueryError, first_contacts};
 pub use remark::Remark;
 #[cfg(feature = "scenes")]
-pub use scene::{FixedBody, Groups, Impact, PairError, Scene, Stop};
+pub use scene::Scene;
 pub use solver::{Solver, first_contact};
 
 /// The example in the README, run as a doctest.

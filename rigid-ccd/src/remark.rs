@@ -79,17 +79,7 @@ impl Remark {
     /// # Complexity
     /// Linear in the body's points.
     pub fn size(body: &Body) -> f64 {
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for piece in body.pieces().iter() {
-            for point in piece.points {
-                for (axis, x) in point.to_array().into_iter().enumerate() {
-                    low[axis] = lesser(low[axis], x - piece.radius);
-                    high[axis] = greater(high[axis], x + piece.radius);
-                }
-            }
-        }
-        let sides = low.into_iter().zip(high).map(|(low, high)| high - low);
-        sides.fold(0.0, greater)
+        sides(corners(body)).to_array().into_iter().fold(0.0, greater)
     }
 
     /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their
@@ -149,6 +139,27 @@ impl Remark {
     pub(crate) fn is_fast(spin: DVec3, duration: f64) -> bool {
         length(spin) * duration > MANY_TURNS
     }
+}
+
+/// Returns the corners of boxes about the points of a body, grown by their pieces' radii.
+pub(crate) fn corners(body: &Body) -> impl Iterator<Item = DVec3> {
+    body.pieces().iter().flat_map(|piece| {
+        let radius = DVec3::splat(piece.radius);
+        let both = move |&point: &DVec3| [point - radius, point + radius];
+        piece.points.iter().flat_map(both)
+    })
+}
+
+/// Returns the side lengths of the axis-aligned bounding box of points.
+pub(crate) fn sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for point in points {
+        for (axis, x) in point.to_array().into_iter().enumerate() {
+            low[axis] = lesser(low[axis], x);
+            high[axis] = greater(high[axis], x);
+        }
+    }
+    DVec3::from(high) - DVec3::from(low)
 }
 
 fn may_be_degrees(angle: f64) -> bool {

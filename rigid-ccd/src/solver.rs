@@ -75,7 +75,7 @@ impl Default for Solver {
 }
 
 impl<O: DistanceOracle> Solver<O> {
-    /// Creates a solver with another distance backend, such as [`Gjk`](crate::Gjk) or your own.
+    /// Creates a solver with another distance backend, such as [`Gjk`](crate::oracle::Gjk) or your own.
     pub fn with_oracle(oracle: O) -> Self {
         Solver {
             best_first: BestFirst::default(),

@@ -1,10 +1,12 @@
 //! The public interface gives the same answers as the engine.
 
 use rigid_ccd::glam::DVec3;
+use rigid_ccd::oracle::{Direct, DistanceOracle, Gjk};
 use rigid_ccd::schedule::BestFirst;
+use rigid_ccd::schedule::Schedule;
 use rigid_ccd::{
-    Answer, Body, Direct, DistanceOracle, Error, Gjk, HitKind, InputError, Limit, Motion, Outcome,
-    Overlap, Pose, Query, Schedule, Settings, Solver, first_contact,
+    Answer, Body, Error, HitKind, InputError, Limit, Motion, Outcome, Overlap, Pose, Query,
+    Settings, Solver, first_contact,
 };
 
 fn capsule() -> Body {
@@ -114,7 +116,7 @@ fn backends_agree() {
     let time = |found: Result<Answer, InputError>| found.unwrap().hit().unwrap().unwrap().time;
     let by_default = time(first_contact(query.0, query.1, 1.0));
     let mut gjk = Solver::with_oracle(Gjk);
-    let mut both = Solver::with_oracle(rigid_ccd::ClosedForm::default().or_else(Gjk));
+    let mut both = Solver::with_oracle(rigid_ccd::oracle::ClosedForm::default().or_else(Gjk));
     for other in [
         time(gjk.first_contact(query.0, query.1, 1.0)),
         time(both.first_contact(query.0, query.1, 1.0)),

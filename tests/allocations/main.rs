@@ -4,7 +4,8 @@
 
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_tests::mixed::Mixed;
-use rigid_ccd::{DistanceOracle, Outcome, Solver};
+use rigid_ccd::oracle::DistanceOracle;
+use rigid_ccd::{Outcome, Solver};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 

@@ -5,7 +5,7 @@ use ccd_bench::method::peer::parry::double::shapes::{pose, rigid_motion};
 use ccd_core::Motion;
 use parry3d_f64::query::{cast_shapes_nonlinear, distance};
 use parry3d_f64::shape::SharedShape;
-use rigid_ccd::Impact;
+use rigid_ccd::scene::Impact;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 

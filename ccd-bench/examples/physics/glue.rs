@@ -5,7 +5,8 @@ use ccd_core::Trajectory;
 use rapier3d_f64::prelude::{
     PhysicsWorld, Pose as At, RigidBody, RigidBodyHandle, Rotation, Vector,
 };
-use rigid_ccd::{Motion, Pose, Scene, Stop};
+use rigid_ccd::scene::Stop;
+use rigid_ccd::{Motion, Pose, Scene};
 
 /// Steps a world, and stops each body at its first contact. `moving` are the bodies of the scene that move, by their
 /// indices in it. Returns until when each body of the scene moved.

@@ -9,7 +9,7 @@ use clap::Args;
 use rigid_ccd::ParallelSolver;
 use rigid_ccd::batch::{BatchSize, on_threads};
 use rigid_ccd::command::{
-    BadRows, CannotWrite, Exit, Progress, Size, Table, Total, complain, input_name, open_motions,
+    BadRows, CannotWrite, Exit, Progress, Size, Table, complain, input_name, open_motions,
     refuse_overwriting, same_file,
 };
 use rigid_ccd::table::motions::MotionRow;
@@ -89,11 +89,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     // A referee has no scratch memory, so that all threads share one.
     let mut referees = on_threads(args.threads, || &referee);
     let mut size = BatchSize::new(referees.threads());
-    let progress = if args.quiet {
-        Progress::hidden()
-    } else {
-        Progress::new(length.map_or(Total::Unknown, Total::Bytes))
-    };
+    let progress = Progress::of_rows(length, args.quiet);
     let mut bad_rows = BadRows::new(input_name(&args.motions));
     let (mut counts, start) = (TruthCounts::default(), Instant::now());
     loop {
@@ -137,11 +133,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
 /// Returns both surfaces. B is `None` if it comes from the same file as A.
 fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
     let surface = |option: &str, path: &Path| -> Result<(Surface, Size)> {
-        let progress = if args.quiet {
-            Progress::hidden()
-        } else {
-            Progress::of(&format!("reading {}", path.display()))
-        };
+        let progress = Progress::of(&format!("reading {}", path.display()), args.quiet);
         let mesh = TriangleMesh::read(path).with_context(|| option.to_owned())?;
         let surface = Surface::new(&mesh);
         drop(progress);

@@ -2,8 +2,9 @@
 
 use crate::double::make;
 use crate::scenes::{Moves, Recipe, motions, number, random, shape, vector};
+use rigid_ccd::body::{Pieces, Volume};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::{Body, Motion, Pieces, Pose, Settings, Solver, Volume};
+use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
 use rigid_ccd_parry::f64::cast_shapes_nonlinear;
 
 fn wide(v: [f32; 3]) -> [f64; 3] {
@@ -18,10 +19,10 @@ fn body(recipe: &Recipe) -> Body {
     let made = match recipe {
         Recipe::Ball(radius) => Body::ball(f64::from(*radius)),
         Recipe::Cuboid(half) => Body::cuboid(wide(*half)),
-        Recipe::Capsule(a, b, radius) => Body::polytope(rigid_ccd::Polytope {
+        Recipe::Capsule(a, b, radius) => Body::polytope(rigid_ccd::body::Polytope {
             points: points(&[*a, *b]),
             radius: f64::from(*radius),
-            ..rigid_ccd::Polytope::default()
+            ..rigid_ccd::body::Polytope::default()
         }),
         Recipe::Mesh(vertices, faces) => {
             let ids: Vec<u32> = (0..faces.len() as u32).collect();

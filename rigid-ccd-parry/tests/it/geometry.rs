@@ -11,7 +11,7 @@ use rigid_ccd_parry::{Options, Prepared};
 /// Returns the extent of a body in a direction.
 fn reach(body: &Prepared, direction: DVec3) -> f64 {
     let pieces = body.body().pieces();
-    let of_piece = |piece: rigid_ccd::Piece<'_>| {
+    let of_piece = |piece: rigid_ccd::body::Piece<'_>| {
         let points = piece.points.iter().map(|p| p.dot(direction));
         points.fold(f64::NEG_INFINITY, greater) + piece.radius
     };

@@ -47,10 +47,10 @@ impl Question {
 
     /// Returns whether the answer is a distance.
     pub fn is_for_a_distance(self) -> bool {
-        match self {
-            Question::ClosestApproach | Question::GreatestDistance | Question::Distance => true,
-            Question::FirstContact | Question::IsFree | Question::ContactInterval => false,
-        }
+        matches!(
+            self,
+            Question::ClosestApproach | Question::GreatestDistance | Question::Distance
+        )
     }
 
     /// Returns whether the answer is a distance that can be compared with a clearance.
@@ -60,24 +60,14 @@ impl Question {
 
     /// Returns whether the answer has a single time at which all contacts can be listed.
     pub fn is_for_one_contact(self) -> bool {
-        match self {
-            Question::FirstContact | Question::IsFree => true,
-            Question::ContactInterval
-            | Question::ClosestApproach
-            | Question::GreatestDistance
-            | Question::Distance => false,
-        }
+        matches!(self, Question::FirstContact | Question::IsFree)
     }
 
     /// Returns which rows of a table form one path.
     pub fn grouping(self) -> Grouping {
         match self {
             Question::Distance => Grouping::EachRow,
-            Question::FirstContact
-            | Question::IsFree
-            | Question::ContactInterval
-            | Question::ClosestApproach
-            | Question::GreatestDistance => Grouping::ById,
+            _ => Grouping::ById,
         }
     }
 }

@@ -5,7 +5,7 @@ use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::numbers::{not_negative, seconds, tolerance};
 use super::output::{CannotWrite, Output};
 use super::pair::{BodiesArgs, Loading, Pair};
-use super::progress::{Progress, Total};
+use super::progress::Progress;
 use super::table::Table;
 use super::view::{answered, title};
 use super::{Exit, complain, complain_of};
@@ -113,11 +113,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
         pages: pages(args, &pair)?,
         counts: [0; Status::ALL.len()],
         bad_rows: BadRows::new(input_name(&args.motions)),
-        progress: if args.quiet {
-            Progress::hidden()
-        } else {
-            Progress::new(length.map_or(Total::Unknown, Total::Bytes))
-        },
+        progress: Progress::of_rows(length, args.quiet),
     };
     audit.all(&mut rows)?;
     let exit = audit.finish()?;

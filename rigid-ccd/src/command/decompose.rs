@@ -5,6 +5,7 @@ mod statistics;
 use super::Exit;
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
+use super::named::{ORDERS, named};
 use super::output::{CannotWrite, Output};
 use super::pieces::PiecesArgs;
 use crate::command::progress::Progress;
@@ -34,8 +35,8 @@ pub(super) struct DecomposeArgs {
     #[command(flatten)]
     pieces: PiecesArgs,
     /// Order in which --pieces patches grow [default: cresting]
-    #[arg(long, value_enum)]
-    order: Option<OrderArg>,
+    #[arg(long, value_parser = named(ORDERS))]
+    order: Option<Order>,
     /// Also build the tree of convex hulls, for `ccd query --schedule fast`
     #[arg(long)]
     hull_tree: bool,
@@ -92,17 +93,6 @@ Examples:
   ccd decompose knot.obj --hull-tree --out knot.ccd
   ccd query --a knot.ccd --b knot.ccd --motions motions.csv --schedule fast";
 
-/// The order in which patches grow.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum OrderArg {
-    /// From the crests of the surface outward
-    Cresting,
-    /// Breadth first, in the order of the faces of the mesh
-    BreadthFirst,
-    /// Depth first, in the order of the faces of the mesh
-    DepthFirst,
-}
-
 /// The output format of the statistics.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 enum FormatArg {
@@ -129,11 +119,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let out = args.out.as_deref().map(|out| claim(out, &source.file));
     let out = out.transpose()?;
     let (mesh, unit) = source.read()?;
-    let spinner = if args.quiet {
-        Progress::hidden()
-    } else {
-        Progress::of("preparing")
-    };
+    let spinner = Progress::of("preparing", args.quiet);
     let name = source.to_string();
     let start = Instant::now();
     let (model, body) = args.build(&mesh, detail).with_context(|| name.clone())?;
@@ -174,7 +160,7 @@ fn check_mesh(mesh: &Path) -> Result<()> {
 impl DecomposeArgs {
     fn detail(&self) -> Result<Detail> {
         match (self.pieces.detail()?, self.order) {
-            (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order.into())),
+            (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order)),
             (_, Some(_)) => bail!("--order needs --pieces patches"),
             (detail, None) => Ok(detail),
         }
@@ -222,15 +208,5 @@ impl Form {
                 fault => io::Error::other(fault),
             }),
         })
-    }
-}
-
-impl From<OrderArg> for Order {
-    fn from(order: OrderArg) -> Self {
-        match order {
-            OrderArg::Cresting => Order::Cresting,
-            OrderArg::BreadthFirst => Order::BreadthFirst,
-            OrderArg::DepthFirst => Order::DepthFirst,
-        }
     }
 }

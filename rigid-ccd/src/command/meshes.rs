@@ -1,23 +1,24 @@
 //! The options for reading mesh files, shared by the subcommands.
 
-use super::pieces::{NOT_GIVEN, value_name};
+use super::named::{AXES, UNITS, name_of, named};
+use super::pieces::NOT_GIVEN;
 use crate::text::Number;
 use ccd_decomp::{Adjustments, Axis, Unit};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 /// The options for reading mesh files.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
     /// Unit of all lengths: files in another one (glTF: metres; 3MF; part.stl@mm) are converted to it, all other numbers
     /// are taken to be in it [default: the numbers of the files]
-    #[arg(long, value_name = "UNIT", value_enum, hide_possible_values = false)]
-    unit: Option<UnitArg>,
+    #[arg(long, value_name = "UNIT", value_parser = named(UNITS), hide_possible_values = false)]
+    unit: Option<Unit>,
     /// Multiply the coordinates of all mesh files by this; of one of them: part.stl@scale=0.001
     #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
     scale: Option<f64>,
     /// Mirror all mesh files across an axis; one of them: part.stl@mirror=x
-    #[arg(long, value_name = "AXIS", value_enum)]
-    mirror: Option<AxisArg>,
+    #[arg(long, value_name = "AXIS", value_parser = named(AXES))]
+    mirror: Option<Axis>,
     /// Take all mesh files as hollow surfaces, also closed ones; one of them: part.stl@surface
     #[arg(long, conflicts_with = "pieces")]
     surface: bool,
@@ -29,39 +30,11 @@ fn factor(text: &str) -> Result<f64, String> {
     allowed.map(|_| factor).map_err(|error| error.to_string())
 }
 
-/// A coordinate axis.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AxisArg {
-    /// Change the signs of x
-    X,
-    /// Change the signs of y
-    Y,
-    /// Change the signs of z
-    Z,
-}
-
-/// A unit of length, by its symbol.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum UnitArg {
-    /// Micrometre
-    Um,
-    /// Millimetre
-    Mm,
-    /// Centimetre
-    Cm,
-    /// Metre
-    M,
-    /// Inch, 25.4 mm
-    In,
-    /// Foot, 12 inches
-    Ft,
-}
-
 impl MeshArgs {
     /// Returns the corresponding value of the library.
     pub(super) fn adjustments(&self) -> Adjustments {
         let mut all = Adjustments::NONE;
-        if let Some(unit) = self.unit() {
+        if let Some(unit) = self.unit {
             all = all.converted_to(unit);
         }
         // The parser has refused invalid factors.
@@ -69,25 +42,15 @@ impl MeshArgs {
             .scale
             .and_then(|scale| all.scaled(scale).ok())
             .unwrap_or(all);
-        all = match self.mirror {
-            Some(AxisArg::X) => all.mirrored(Axis::X),
-            Some(AxisArg::Y) => all.mirrored(Axis::Y),
-            Some(AxisArg::Z) => all.mirrored(Axis::Z),
-            None => all,
-        };
+        if let Some(axis) = self.mirror {
+            all = all.mirrored(axis);
+        }
         if self.surface { all.hollow() } else { all }
     }
 
     /// Returns the unit of all lengths, if it is given.
     pub(super) fn unit(&self) -> Option<Unit> {
-        self.unit.map(|unit| match unit {
-            UnitArg::Um => Unit::Micrometre,
-            UnitArg::Mm => Unit::Millimetre,
-            UnitArg::Cm => Unit::Centimetre,
-            UnitArg::M => Unit::Metre,
-            UnitArg::In => Unit::Inch,
-            UnitArg::Ft => Unit::Foot,
-        })
+        self.unit
     }
 
     /// Returns the options with their values, as the journal records them.
@@ -95,9 +58,9 @@ impl MeshArgs {
         let scale = self.scale.map(|factor| Number(factor).to_string());
         let surface = self.surface.then(|| "given".to_owned());
         [
-            ("--unit", self.unit.as_ref().map(value_name)),
+            ("--unit", self.unit.map(|unit| name_of(UNITS, &unit))),
             ("--scale", scale),
-            ("--mirror", self.mirror.as_ref().map(value_name)),
+            ("--mirror", self.mirror.map(|axis| name_of(AXES, &axis))),
             ("--surface", surface),
         ]
         .map(|(option, value)| (option, value.unwrap_or_else(|| NOT_GIVEN.to_owned())))

@@ -116,11 +116,7 @@ fn load(
         quiet,
     } = loading;
     let detail = bodies.pieces.detail()?;
-    let progress = if quiet {
-        Progress::hidden()
-    } else {
-        Progress::of(&format!("preparing {text}"))
-    };
+    let progress = Progress::of(&format!("preparing {text}"), quiet);
     let loaded = source.load_adjusted(&bodies.meshes.adjustments(), detail);
     let Prepared {
         mut body,

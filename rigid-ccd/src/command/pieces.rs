@@ -37,12 +37,6 @@ enum PiecesArg {
     Vhacd,
 }
 
-/// Returns the command-line name of a value.
-pub(super) fn value_name(value: &impl ValueEnum) -> String {
-    let value = value.to_possible_value();
-    value.map_or_else(String::new, |value| value.get_name().to_owned())
-}
-
 impl PiecesArgs {
     /// Returns the options with their effective values.
     pub(super) fn recorded(&self) -> [(&'static str, String); 2] {
@@ -50,7 +44,9 @@ impl PiecesArgs {
             PiecesArg::Vhacd => self.hulls.unwrap_or(DEFAULT_HULLS).to_string(),
             _ => NOT_GIVEN.to_owned(),
         };
-        [("--pieces", value_name(&self.pieces)), ("--hulls", hulls)]
+        let pieces = self.pieces.to_possible_value();
+        let pieces = pieces.map_or_else(String::new, |value| value.get_name().to_owned());
+        [("--pieces", pieces), ("--hulls", hulls)]
     }
 
     /// Returns the corresponding value of the library.

@@ -82,8 +82,20 @@ impl Progress {
         progress
     }
 
-    /// Starts to show one long step with a message.
-    pub fn of(message: &str) -> Self {
+    /// Starts to show progress through an input of known or unknown length in bytes, or shows nothing.
+    pub fn of_rows(length: Option<u64>, quiet: bool) -> Self {
+        if quiet {
+            Progress::hidden()
+        } else {
+            Progress::new(length.map_or(Total::Unknown, Total::Bytes))
+        }
+    }
+
+    /// Starts to show one long step with a message, or shows nothing.
+    pub fn of(message: &str, quiet: bool) -> Self {
+        if quiet {
+            return Progress::hidden();
+        }
         let progress = Progress::new(Total::One);
         progress.say(message);
         progress

@@ -18,7 +18,7 @@ use super::view::{Chosen, Drawn, title, write_rows};
 use super::{Exit, complain, complain_of};
 use crate::batch::{BatchSize, BoundKind, Question, ScheduleKind, SolverKind, Timing, on_threads};
 use crate::command::pair::{Loading, Pair};
-use crate::command::progress::{Progress, Total};
+use crate::command::progress::Progress;
 use crate::picture::{Asked, Claim};
 use crate::table::results::Status;
 use answering::Answering;
@@ -75,11 +75,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
             .map(|_| Chosen::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
         bad_rows: BadRows::new(input_name(&args.motions)),
-        progress: if args.quiet {
-            Progress::hidden()
-        } else {
-            Progress::new(length.map_or(Total::Unknown, Total::Bytes))
-        },
+        progress: Progress::of_rows(length, args.quiet),
     };
     let end = answering.answer_all(&mut rows, start)?;
     answering.outputs.finish(end)?;
@@ -235,7 +231,7 @@ fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
 }
 
 fn leaves(args: &QueryArgs) -> bool {
-    StartPolicy::from(args.start) == StartPolicy::Leave
+    args.start == StartPolicy::Leave
 }
 
 /// Returns all settings that determine the tables, except the motions.
@@ -265,10 +261,10 @@ fn timing(args: &QueryArgs) -> Timing {
             tolerance: args.tolerance,
             margin: args.margin,
             clearance: args.clearance,
-            start: args.start.into(),
+            start: args.start,
             budget: args.budget,
             deadline: args.deadline,
-            instructions: args.instructions.into(),
+            instructions: args.instructions,
             stop: None,
         },
         repeat: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),

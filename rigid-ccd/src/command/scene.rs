@@ -8,14 +8,14 @@ use super::pieces::PiecesArgs;
 use super::scene_table::{self, SceneArgs};
 use super::table::Table;
 use super::{Exit, complain};
+use crate::Error;
 use crate::picture::scene_verdict;
-use crate::table::results::Status;
-use crate::{Error, Hit, Impact, PairError};
+use crate::scene::{Impact, PairError};
+use crate::table::results::{self, ResultRow, Status};
 use anyhow::Result;
 use ccd_core::Settings;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use clap::Args;
-use serde::Serialize;
 use std::path::PathBuf;
 
 /// List which bodies of a scene touch: when, where, with which features
@@ -70,40 +70,8 @@ Pairs that are not listed are proven free.
 
 Exit code: 0 if every pair has an answer, 2 for bad input, 1 if nothing can be written.";
 
-const COLUMNS: [&str; 18] = [
-    "a",
-    "b",
-    "status",
-    "time",
-    "distance_lower",
-    "distance_upper",
-    "normal_x",
-    "normal_y",
-    "normal_z",
-    "witness_a_x",
-    "witness_a_y",
-    "witness_a_z",
-    "witness_b_x",
-    "witness_b_y",
-    "witness_b_z",
-    "feature_a",
-    "feature_b",
-    "reason",
-];
-
-/// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
-#[derive(Serialize)]
-struct Row<'a> {
-    a: &'a str,
-    b: &'a str,
-    status: Status,
-    time: Option<f64>,
-    distance: [Option<f64>; 2],
-    normal: [Option<f64>; 3],
-    witnesses: [Option<f64>; 6],
-    features: [Option<String>; 2],
-    reason: Option<String>,
-}
+/// The columns of results that contacts of a scene do not have.
+const LEFT_OUT: [&str; 4] = ["id", "iterations", "oracle_calls", "micros"];
 
 /// Runs `ccd scene`.
 pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
@@ -134,73 +102,47 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         complain(&scene_verdict(&table.shown(), &contacts, table.duration));
     }
     let ids: Vec<&str> = table.ids().collect();
-    let mut out = Table::start(out, &COLUMNS)?;
+    let of_results = results::COLUMNS.into_iter();
+    let of_results = of_results.filter(|column| !LEFT_OUT.contains(column));
+    let columns: Vec<&str> = ["a", "b"].into_iter().chain(of_results).collect();
+    let mut out = Table::start(out, &columns)?;
     let mut exit = Exit::AllAnswered;
     for contact in &contacts {
-        let row = Row::new(&ids, contact);
+        let bodies = match contact {
+            Ok(impact) => impact.bodies,
+            Err(error) => error.bodies,
+        };
+        let row = row(contact);
         if row.status == Status::Error {
             exit = Exit::SomeRowsBad;
         }
-        out.write(|writer| writer.serialize(row))?;
+        out.write(|writer| {
+            writer.serialize((
+                bodies.map(|body| ids[body]),
+                (row.status, row.time),
+                [row.distance_lower, row.distance_upper],
+                [row.normal, row.witness_a, row.witness_b],
+                [row.feature_a, row.feature_b, row.reason],
+            ))
+        })?;
     }
     out.finish()?;
     Ok(exit)
 }
 
-impl<'a> Row<'a> {
-    fn new(ids: &[&'a str], contact: &Result<Impact, PairError>) -> Self {
-        match contact {
-            Ok(Impact { bodies, hit }) => Row::touching(bodies.map(|k| ids[k]), hit),
-            Err(PairError { bodies, error }) => {
-                let (status, time, reason) = match error {
-                    Error::Unresolved(known) => {
-                        let (until, limit) = (known.safe_until, known.limit);
-                        (Status::Unresolved, Some(until), limit.to_string())
-                    }
-                    error => (Status::Error, None, error.to_string()),
-                };
-                Row {
-                    time,
-                    reason: Some(reason),
-                    ..Row::empty(bodies.map(|k| ids[k]), status)
-                }
-            }
-        }
-    }
-
-    fn touching(ids: [&'a str; 2], hit: &Hit) -> Self {
-        let status = Status::from(&hit.kind);
-        let [[ax, ay, az], [bx, by, bz]] =
-            [hit.witness_a(), hit.witness_b()].map(|witness| witness.to_array());
-        let row = Row {
-            time: Some(hit.time),
-            witnesses: [ax, ay, az, bx, by, bz].map(Some),
-            ..Row::empty(ids, status)
-        };
-        // Without pieces that intersect, one body is inside the other.
-        let Some(contact) = hit.contact() else {
-            return row;
-        };
-        let separation = &contact.separation;
-        Row {
-            distance: [separation.lower, separation.upper].map(Some),
-            normal: separation.normal.to_array().map(Some),
-            features: [contact.feature_a, contact.feature_b].map(|f| Some(f.to_string())),
-            ..row
-        }
-    }
-
-    fn empty([a, b]: [&'a str; 2], status: Status) -> Self {
-        Row {
-            a,
-            b,
-            status,
-            time: None,
-            distance: [None; 2],
-            normal: [None; 3],
-            witnesses: [None; 6],
-            features: [None, None],
-            reason: None,
-        }
+/// Returns the row of a pair, as of a table of results.
+fn row(contact: &Result<Impact, PairError>) -> ResultRow {
+    match contact.as_ref().map_err(|pair| &pair.error) {
+        Ok(impact) => ResultRow::of_hit(&impact.hit),
+        Err(Error::Unresolved(known)) => ResultRow {
+            status: Status::Unresolved,
+            time: Some(known.safe_until),
+            reason: Some(known.limit.to_string()),
+            ..ResultRow::default()
+        },
+        Err(error) => ResultRow {
+            reason: Some(error.to_string()),
+            ..ResultRow::default()
+        },
     }
 }

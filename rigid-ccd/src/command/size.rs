@@ -1,10 +1,11 @@
 //! The sizes of bodies, for detecting different units of length.
 
 use super::complain;
+use crate::remark::{corners, sides};
 use crate::text::Number;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::greater;
 use std::fmt;
 
 /// The side lengths of a body's axis-aligned bounding box.
@@ -17,24 +18,12 @@ const RATIO: f64 = 100.0;
 impl Size {
     /// Returns the size of a body.
     pub fn of(body: &Body) -> Self {
-        let pieces = body.pieces().iter();
-        Size::of_points(pieces.flat_map(|piece| {
-            let radius = DVec3::splat(piece.radius);
-            let both = move |&point: &DVec3| [point - radius, point + radius];
-            piece.points.iter().flat_map(both)
-        }))
+        Size(sides(corners(body)))
     }
 
     /// Returns the size of a set of points.
     pub fn of_points(points: impl IntoIterator<Item = DVec3>) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for point in points {
-            for (axis, x) in point.to_array().into_iter().enumerate() {
-                low[axis] = lesser(low[axis], x);
-                high[axis] = greater(high[axis], x);
-            }
-        }
-        Size(DVec3::from(high) - DVec3::from(low))
+        Size(sides(points))
     }
 
     fn largest(self) -> f64 {

@@ -3,7 +3,7 @@
 /// The groups of a body, and the groups that it is checked against, as 32-bit masks.
 ///
 /// ```
-/// use rigid_ccd::Groups;
+/// use rigid_ccd::scene::Groups;
 /// let ship = Groups { memberships: 0b01, filter: 0b10 };
 /// let shot = Groups { memberships: 0b10, filter: 0b01 };
 /// assert!(ship.pairs_with(shot) && !ship.pairs_with(ship));

@@ -1,8 +1,9 @@
 //! Scenes compared with queries on every pair.
 
 use super::*;
+use crate::body::{Pieces, Volume};
 use crate::trajectory::Ballistic;
-use crate::{Error, Hit, HitKind, Limit, Pieces, Solver, StartPolicy, Volume};
+use crate::{Error, Hit, HitKind, Limit, Solver, StartPolicy};
 use ccd_core::Trajectory;
 use ccd_core::Unresolved;
 use rand::{RngExt, SeedableRng};

@@ -5,9 +5,7 @@ mod tests;
 
 use crate::batch::{Bodies, Question};
 use crate::table::courses::Course;
-use ccd_core::glam::DVec3;
 use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Separation, Settings};
-use serde::Serialize;
 
 /// The columns, in order.
 pub(crate) const COLUMNS: [&str; 15] = [
@@ -28,28 +26,9 @@ pub(crate) const COLUMNS: [&str; 15] = [
     "witness_b_z",
 ];
 
-/// One row: a pair of features, in the order of [`COLUMNS`]. Numbers read back to the same bits.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct ContactRow {
-    /// The id in the table of motions.
-    pub(crate) id: String,
-    /// The time of the answer.
-    pub(crate) time: f64,
-    /// The feature of A.
-    pub(crate) feature_a: String,
-    /// The feature of B.
-    pub(crate) feature_b: String,
-    /// A lower bound of the distance of the features at `time`.
-    pub(crate) distance_lower: f64,
-    /// An upper bound of the same distance.
-    pub(crate) distance_upper: f64,
-    /// The unit vector from A to B, in the world frame.
-    pub(crate) normal: [f64; 3],
-    /// The nearest point of A's feature, in the world frame at `time`.
-    pub(crate) witness_a: [f64; 3],
-    /// The nearest point of B's feature.
-    pub(crate) witness_b: [f64; 3],
-}
+/// One row, in the order of [`COLUMNS`]: id, time, features, bounds of the distance, then normal and witnesses. Numbers
+/// read back to the same bits.
+pub(crate) type ContactRow = (String, f64, [String; 2], [f64; 2], [[f64; 3]; 3]);
 
 /// The error of listing contacts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -77,7 +56,7 @@ pub(crate) fn rows(
     };
     let query = bodies.query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
-    let row = |pair: &FeaturePair| ContactRow::new(course.id(), course.earliest(time), pair);
+    let row = |pair: &FeaturePair| row(course.id(), course.earliest(time), pair);
     Ok(pairs.iter().map(row).collect())
 }
 
@@ -90,26 +69,20 @@ fn time_of_contact(question: Question, outcome: &Outcome) -> Option<f64> {
     }
 }
 
-impl ContactRow {
-    /// Creates the row of a pair.
-    pub(crate) fn new(id: &str, time: f64, pair: &FeaturePair) -> Self {
-        let Separation {
-            lower,
-            upper,
-            normal,
-            witness_a,
-            witness_b,
-        } = pair.separation;
-        ContactRow {
-            id: id.to_owned(),
-            time,
-            feature_a: pair.feature_a.to_string(),
-            feature_b: pair.feature_b.to_string(),
-            distance_lower: lower,
-            distance_upper: upper,
-            normal: DVec3::to_array(&normal),
-            witness_a: DVec3::to_array(&witness_a),
-            witness_b: DVec3::to_array(&witness_b),
-        }
-    }
+/// Returns the row of a pair.
+fn row(id: &str, time: f64, pair: &FeaturePair) -> ContactRow {
+    let Separation {
+        lower,
+        upper,
+        normal,
+        witness_a,
+        witness_b,
+    } = pair.separation;
+    (
+        id.to_owned(),
+        time,
+        [pair.feature_a, pair.feature_b].map(|feature| feature.to_string()),
+        [lower, upper],
+        [normal, witness_a, witness_b].map(|vector| vector.to_array()),
+    )
 }

@@ -143,15 +143,17 @@ pub struct RowError {
 }
 
 /// A problem of a row.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowProblem {
     /// A cell is not text in UTF-8.
+    #[error("column {column}: is not text in UTF-8")]
     NotText {
         /// The column of the cell.
         column: String,
     },
     /// The row has more or fewer cells than the header.
+    #[error("has {cells} cells, but the header has {columns} columns")]
     WrongLength {
         /// The number of cells of the row.
         cells: usize,
@@ -159,6 +161,7 @@ pub enum RowProblem {
         columns: usize,
     },
     /// A cell is not a finite number.
+    #[error("column {column}: `{value}` is not a finite number")]
     NotANumber {
         /// The column of the cell.
         column: String,
@@ -166,11 +169,17 @@ pub enum RowProblem {
         value: String,
     },
     /// A cell is empty.
+    #[error("column {column}: no value, and an empty cell has no default")]
     EmptyCell {
         /// The column of the cell.
         column: String,
     },
     /// A quaternion is zero.
+    #[error(
+        "columns {}: ({}) is a zero quaternion, not an orientation",
+        .columns.join(" "),
+        .value.map(|part| Number(part).to_string()).join(" ")
+    )]
     ZeroQuaternion {
         /// The four columns.
         columns: Vec<String>,
@@ -178,6 +187,7 @@ pub enum RowProblem {
         value: [f64; 4],
     },
     /// A row gives both the end pose and a velocity of a body.
+    #[error("columns {end} and {velocity}: give either the end pose or the velocities")]
     EndPoseAndVelocity {
         /// A column of the end pose.
         end: String,
@@ -185,6 +195,7 @@ pub enum RowProblem {
         velocity: String,
     },
     /// The duration is out of range.
+    #[error("column duration: {} is not {allowed}", Number(*.value))]
     BadDuration {
         /// The duration.
         value: f64,
@@ -192,6 +203,11 @@ pub enum RowProblem {
         allowed: &'static str,
     },
     /// The times of a path do not increase.
+    #[error(
+        "column t: {} is not later than {}, the time of the row before; sort the rows of each id by t",
+        Number(*.time),
+        Number(*.before)
+    )]
     NotLater {
         /// The time of the row.
         time: f64,
@@ -199,6 +215,11 @@ pub enum RowProblem {
         before: f64,
     },
     /// A time is so large relative to the path's first time that it rounds to the time of the row before.
+    #[error(
+        "column t: {} is so long after {}, where the path begins, that times cannot be told apart",
+        Number(*.time),
+        Number(*.first)
+    )]
     TooLate {
         /// The time of the row.
         time: f64,
@@ -206,18 +227,27 @@ pub enum RowProblem {
         first: f64,
     },
     /// A row has no id, in a table with ids.
+    #[error("column id: no value; each row of a path needs its name")]
     NoId,
     /// The rows of a path are not consecutive.
+    #[error("path `{id}` goes on here after rows of other paths; sort the table by id, then by t")]
     PathApart {
         /// The id of the path.
         id: String,
     },
     /// The centre of rotation differs from that of the path's row before.
+    #[error(
+        "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one centre of rotation"
+    )]
     CentreMoves {
         /// The prefix of the body.
         body: char,
     },
     /// The angular velocity of the row before does not lead to the orientation of this one.
+    #[error(
+        "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {left:.3} radians away from this orientation; \
+         a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
+    )]
     LedElsewhere {
         /// The prefix of the body.
         body: char,
@@ -225,76 +255,12 @@ pub enum RowProblem {
         left: f64,
     },
     /// Only the default schedule answers this question.
+    #[error("needs --schedule best-first")]
     NeedsBestFirst,
     /// The numbers are valid, but the query is not.
+    #[error("{0}")]
     Input(InputError),
 }
-
-impl fmt::Display for RowProblem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotText { column } => write!(f, "column {column}: is not text in UTF-8"),
-            Self::WrongLength { cells, columns } => {
-                write!(f, "has {cells} cells, but the header has {columns} columns")
-            }
-            Self::NotANumber { column, value } => {
-                write!(f, "column {column}: `{value}` is not a finite number")
-            }
-            Self::EmptyCell { column } => {
-                write!(
-                    f,
-                    "column {column}: no value, and an empty cell has no default"
-                )
-            }
-            Self::ZeroQuaternion { columns, value } => write!(
-                f,
-                "columns {}: ({} {} {} {}) is a zero quaternion, not an orientation",
-                columns.join(" "),
-                Number(value[0]),
-                Number(value[1]),
-                Number(value[2]),
-                Number(value[3]),
-            ),
-            Self::EndPoseAndVelocity { end, velocity } => write!(
-                f,
-                "columns {end} and {velocity}: give either the end pose or the velocities"
-            ),
-            Self::BadDuration { value, allowed } => {
-                write!(f, "column duration: {} is not {allowed}", Number(*value))
-            }
-            Self::NotLater { time, before } => write!(
-                f,
-                "column t: {} is not later than {}, the time of the row before; sort the rows of each id by t",
-                Number(*time),
-                Number(*before)
-            ),
-            Self::TooLate { time, first } => write!(
-                f,
-                "column t: {} is so long after {}, where the path begins, that times cannot be told apart",
-                Number(*time),
-                Number(*first)
-            ),
-            Self::NoId => write!(f, "column id: no value; each row of a path needs its name"),
-            Self::PathApart { id } => write!(
-                f,
-                "path `{id}` goes on here after rows of other paths; sort the table by id, then by t"
-            ),
-            Self::CentreMoves { body } => write!(
-                f,
-                "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one centre of rotation"
-            ),
-            Self::LedElsewhere { body, left } => write!(
-                f,
-                "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {left:.3} radians away from this \
-                 orientation; a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
-            ),
-            Self::NeedsBestFirst => write!(f, "needs --schedule best-first"),
-            Self::Input(error) => write!(f, "{error}"),
-        }
-    }
-}
-
-impl std::error::Error for RowProblem {}
 
 impl From<InputError> for RowProblem {
     fn from(error: InputError) -> Self {

@@ -11,7 +11,7 @@ use crate::batch::{Bodies, Question};
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
+use ccd_core::{Answer, Contact, Hit, HitKind, Outcome, Overlap, Stats};
 use serde::{Deserialize, Serialize};
 use std::io;
 
@@ -95,7 +95,7 @@ pub struct Extent {
 }
 
 /// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ResultRow {
     /// The id in the table of motions.
     pub id: String,
@@ -140,31 +140,20 @@ impl ResultRow {
     /// Creates the row of an invalid query.
     pub fn error(id: &str, why: &RowProblem) -> Self {
         ResultRow {
+            id: id.to_owned(),
             reason: Some(why.to_string()),
-            ..ResultRow::empty(id, Status::Error)
+            ..ResultRow::default()
         }
     }
 
-    /// Creates a row with an id and a status, and no other cells.
-    fn empty(id: &str, status: Status) -> Self {
-        ResultRow {
-            id: id.to_owned(),
-            status,
-            time: None,
-            distance_lower: None,
-            distance_upper: None,
-            normal: [None; 3],
-            witness_a: [None; 3],
-            witness_b: [None; 3],
-            feature_a: None,
-            feature_b: None,
-            iterations: None,
-            oracle_calls: None,
-            micros: None,
-            reason: None,
-            last_time: None,
-            counters: None,
-        }
+    /// Creates the row of a contact, without an id and counts.
+    #[cfg(feature = "command")]
+    pub(crate) fn of_hit(hit: &Hit) -> Self {
+        let row = ResultRow {
+            status: Status::from(&hit.kind),
+            ..ResultRow::default()
+        };
+        row.at(hit.time).with_hit(&hit.kind)
     }
 
     /// Creates the row of an answer to a question.
@@ -186,7 +175,9 @@ impl ResultRow {
                 (None, _) => None,
             },
             counters: Some(answer.stats),
-            ..ResultRow::empty(course.id(), status)
+            id: course.id().to_owned(),
+            status,
+            ..ResultRow::default()
         };
         let row = if question.is_for_a_distance() {
             row.with_distance(outcome, course.duration())

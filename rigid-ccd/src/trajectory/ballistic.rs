@@ -2,6 +2,7 @@
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
+use super::checks::finite;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -33,17 +34,10 @@ impl Ballistic {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let acceleration = DVec3::from_array(acceleration.into());
-        if acceleration.is_finite() {
-            Ok(Ballistic {
-                thrown,
-                acceleration,
-            })
-        } else {
-            Err(InputError::NotFinite {
-                what: "acceleration",
-            })
-        }
+        Ok(Ballistic {
+            thrown,
+            acceleration: finite(acceleration, "acceleration")?,
+        })
     }
 }
 

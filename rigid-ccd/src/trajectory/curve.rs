@@ -1,7 +1,8 @@
 //! Curves in space: Bézier curves and B-splines.
 
 use super::U;
-use super::knots::{middle_knot, overlapping, spread};
+use super::checks::{check_duration, finite, out_of_range};
+use super::segments::{self, Segments};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
@@ -22,16 +23,11 @@ use ccd_core::{Acceleration, InputError};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    segments: Vec<Segment>,
+    segments: Segments<Vec<DVec3>>,
 }
 
-/// A Bézier curve between two times.
-#[derive(Clone, Debug, PartialEq)]
-struct Segment {
-    from: f64,
-    to: f64,
-    points: Vec<DVec3>,
-}
+/// A Bézier curve between two times, by its control points.
+type Segment = segments::Segment<Vec<DVec3>>;
 
 impl Curve {
     /// Creates a Bézier curve of any degree from its control points.
@@ -42,11 +38,11 @@ impl Curve {
     pub fn bezier(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
         let points = checked(points, 1, duration)?;
         Ok(Curve {
-            segments: vec![Segment {
+            segments: Segments(vec![Segment {
                 from: 0.0,
                 to: duration,
-                points,
-            }],
+                course: points,
+            }]),
         })
     }
 
@@ -67,17 +63,17 @@ impl Curve {
             Segment {
                 from: at(k),
                 to: at(k + 1),
-                points: vec![ends[0], inner[0], inner[1], ends[1]],
+                course: vec![ends[0], inner[0], inner[1], ends[1]],
             }
         };
         Ok(Curve {
-            segments: (0..count).map(segment).collect(),
+            segments: Segments((0..count).map(segment).collect()),
         })
     }
 
     /// Returns the end time.
     pub fn duration(&self) -> f64 {
-        self.segments[self.segments.len() - 1].to
+        self.last().to
     }
 
     /// Returns the position at a time.
@@ -97,25 +93,26 @@ impl Curve {
     }
 
     fn at(&self, time: f64) -> &Segment {
-        let next = self.segments.partition_point(|segment| segment.to < time);
-        &self.segments[next.min(self.segments.len() - 1)]
+        self.segments.at(time).unwrap_or(self.last())
+    }
+
+    /// Returns the last segment; there is at least one.
+    fn last(&self) -> &Segment {
+        &self.segments.0[self.segments.0.len() - 1]
     }
 
     /// Bounds the acceleration between two times. A velocity that jumps counts as one that changes in half of
     /// the time, by which a curve strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
-        let smooth = self.overlapping(from, to).iter().map(|segment| {
-            let [from, to] = [greater(from, segment.from), lesser(to, segment.to)];
-            segment.most(2, from, to)
-        });
-        smooth.fold(0.0, greater) + spread(self.jumps(from, to), from, to)
+        let velocity = |segment: &Segment, time| segment.derivative(1, segment.share(time));
+        self.most(2, from, to) + self.segments.jumps(from, to, velocity)
     }
 
     /// Returns the acceleration at a time, with a bound on its rate of change between two times; `None` if these span
     /// several segments.
     pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
         // A segment that only touches the interval overlaps it, too.
-        let mut overlapping = self.overlapping(from, to).iter();
+        let mut overlapping = self.segments.overlapping(from, to).iter();
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
             vector: segment.derivative(2, segment.share(time)),
@@ -125,52 +122,28 @@ impl Curve {
 
     /// Bounds the speed between two times.
     pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
-        let speeds = self.overlapping(from, to).iter().map(|segment| {
-            let [from, to] = [greater(from, segment.from), lesser(to, segment.to)];
-            segment.most(1, from, to)
-        });
-        speeds.fold(0.0, greater)
+        self.most(1, from, to)
+    }
+
+    /// Bounds the magnitude of a derivative on the segments between two times.
+    fn most(&self, order: usize, from: f64, to: f64) -> f64 {
+        self.segments.most(from, to, |segment| {
+            segment.most(order, greater(from, segment.from), lesser(to, segment.to))
+        })
     }
 
     /// Returns a knot strictly between two times, about in the middle; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let times = |segment: &Segment| [segment.from, segment.to];
-        middle_knot(self.overlapping(from, to), times, from, to)
+        self.segments.corner(from, to)
     }
 
     /// Bounds the rounding of a position.
     pub(super) fn rounding(&self) -> f64 {
-        let lengths = self.segments.iter().flat_map(|segment| {
-            let degree = segment.points.len() as f64;
-            segment.points.iter().map(move |&p| length(p) * degree)
+        let lengths = self.segments.0.iter().flat_map(|segment| {
+            let degree = segment.course.len() as f64;
+            segment.course.iter().map(move |&p| length(p) * degree)
         });
         8.0 * U * lengths.fold(0.0, greater)
-    }
-
-    fn overlapping(&self, from: f64, to: f64) -> &[Segment] {
-        overlapping(
-            &self.segments,
-            |segment| [segment.from, segment.to],
-            from,
-            to,
-        )
-    }
-
-    /// Returns the magnitudes of the velocity jumps strictly between two times.
-    fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
-        let segments = self.overlapping(from, to);
-        // The velocity is zero before the first segment and after the last.
-        let before = segments
-            .iter()
-            .map(|segment| Some(segment.derivative(1, 1.0)));
-        let after = segments
-            .iter()
-            .map(|segment| (segment.from, segment.derivative(1, 0.0)));
-        let end = segments.last().map(|segment| (segment.to, DVec3::ZERO));
-        let starts = std::iter::once(None).chain(before).zip(after.chain(end));
-        starts
-            .filter(move |&(_, (knot, _))| knot > from && knot < to)
-            .map(|(before, (_, velocity))| before.unwrap_or(DVec3::ZERO).distance(velocity))
     }
 }
 
@@ -191,7 +164,7 @@ impl Segment {
 
     /// Returns the control points of a derivative by time; empty if it is zero.
     fn differences(&self, order: usize) -> Vec<DVec3> {
-        let mut points = self.points.clone();
+        let mut points = self.course.clone();
         for _ in 0..order {
             let factor = points.len().saturating_sub(1) as f64 / (self.to - self.from);
             points = points.windows(2).map(|p| factor * (p[1] - p[0])).collect();
@@ -213,27 +186,17 @@ impl Segment {
 }
 
 fn checked(points: &[[f64; 3]], least: usize, duration: f64) -> Result<Vec<DVec3>, InputError> {
-    let refuse = |what, value, allowed| {
-        Err(InputError::OutOfRange {
-            what,
-            value,
-            allowed,
-        })
-    };
     if points.len() < least {
         let allowed = match least {
             1 => "at least 1",
             _ => "at least 4, of a B-spline",
         };
-        return refuse("number of points", points.len() as f64, allowed);
+        return Err(out_of_range(
+            "number of points",
+            points.len() as f64,
+            allowed,
+        ));
     }
-    if !(duration > 0.0 && duration.is_finite()) {
-        return refuse("duration", duration, "positive and finite");
-    }
-    let points: Vec<DVec3> = points.iter().map(|&p| DVec3::from_array(p)).collect();
-    if points.iter().all(|p| p.is_finite()) {
-        Ok(points)
-    } else {
-        Err(InputError::NotFinite { what: "point" })
-    }
+    check_duration(duration)?;
+    points.iter().map(|&point| finite(point, "point")).collect()
 }

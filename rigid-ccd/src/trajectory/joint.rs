@@ -1,7 +1,8 @@
 //! A joint, and the motion of the link after it.
 
-use super::screw::{turn, unit_axis};
-use ccd_core::glam::DVec3;
+use super::checks::out_of_range;
+use super::screw::unit_axis;
+use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::RangeInclusive;
@@ -100,7 +101,7 @@ impl Joint {
     pub(super) fn placed(&self, position: f64) -> Result<Pose, InputError> {
         let moved = match self.kind {
             Kind::Fixed => Pose::IDENTITY,
-            Kind::Revolute(axis) => Pose::new(DVec3::ZERO, turn(axis, position))?,
+            Kind::Revolute(axis) => Pose::new(DVec3::ZERO, DQuat::from_axis_angle(axis, position))?,
             Kind::Prismatic(axis) => Pose::at(axis * position)?,
         };
         Ok(self.origin.compose(&moved))
@@ -118,11 +119,7 @@ impl Joint {
         // A joint at rest may take no time.
         let least = if from == to { 0.0 } else { f64::from_bits(1) };
         if !(least..=f64::MAX).contains(&duration) {
-            return Err(InputError::OutOfRange {
-                what: "duration",
-                value: duration,
-                allowed: "positive and finite",
-            });
+            return Err(out_of_range("duration", duration, "positive and finite"));
         }
         let rate = if from == to {
             0.0

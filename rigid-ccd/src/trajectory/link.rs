@@ -3,9 +3,9 @@
 use super::U;
 use super::bounded::{Bounded, Speeds};
 use super::chain::Chain;
+use super::checks::check_duration;
 use super::joint::{Joint, Kind};
-use super::screw::turn;
-use ccd_core::glam::DVec3;
+use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
 use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
@@ -92,13 +92,7 @@ impl<'c> Link<'c> {
                 joint.check(position, Some(k))?;
             }
         }
-        if !(duration > 0.0 && duration.is_finite()) {
-            return Err(InputError::OutOfRange {
-                what: "duration",
-                value: duration,
-                allowed: "positive and finite",
-            });
-        }
+        check_duration(duration)?;
         Ok(Link {
             chain,
             seen_from: None,
@@ -330,7 +324,7 @@ impl Moved {
                 if rate > 0.0 {
                     self.turn(axis, rate);
                 } else {
-                    let held = turn(axis, -positions.first);
+                    let held = DQuat::from_axis_angle(axis, -positions.first);
                     self.axis = self.axis.map(|before| held * before);
                 }
             }

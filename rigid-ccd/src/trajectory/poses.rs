@@ -5,6 +5,7 @@ mod segment;
 pub(crate) use segment::{MOST_LEFT, leftover};
 
 use super::U;
+use super::checks::{check_later, finite, out_of_range};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -46,25 +47,12 @@ impl Poses {
     /// # Errors
     /// [`InputError::OutOfRange`] for no pose, and for times that do not increase.
     pub fn new(poses: Vec<(f64, Pose)>) -> Result<Self, InputError> {
-        let refuse = |value| {
-            Err(InputError::OutOfRange {
-                what: "time of a pose",
-                value,
-                allowed: "finite and later than the one before",
-            })
-        };
         if poses.is_empty() {
-            return Err(InputError::OutOfRange {
-                what: "number of poses",
-                value: 0.0,
-                allowed: "at least 1",
-            });
+            return Err(out_of_range("number of poses", 0.0, "at least 1"));
         }
-        for (k, &(time, _)) in poses.iter().enumerate() {
-            // Written so that NaN is refused.
-            if !(time.is_finite() && (k == 0 || time > poses[k - 1].0)) {
-                return refuse(time);
-            }
+        let mut before = None;
+        for &(time, _) in &poses {
+            check_later("time of a pose", time, before.replace(time))?;
         }
         Ok(Poses {
             poses,
@@ -78,12 +66,8 @@ impl Poses {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = DVec3::from_array(centre.into());
-        if centre.is_finite() {
-            Ok(Poses { centre, ..self })
-        } else {
-            Err(InputError::NotFinite { what: "centre" })
-        }
+        let centre = finite(centre, "centre")?;
+        Ok(Poses { centre, ..self })
     }
 
     /// Sets the approximate angular velocity from each pose to the next, in the world, for rotations of any number of
@@ -111,28 +95,22 @@ impl Poses {
     /// ```
     pub fn turning(self, spins: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if spins.len() + 1 != self.poses.len() {
-            return Err(InputError::OutOfRange {
-                what: "number of angular velocities",
-                value: spins.len() as f64,
-                allowed: "one for each pose but the last",
-            });
+            let allowed = "one for each pose but the last";
+            let given = spins.len() as f64;
+            return Err(out_of_range("number of angular velocities", given, allowed));
         }
         let spins: Vec<DVec3> = spins.into_iter().map(DVec3::from).collect();
         for (two, &spin) in self.poses.windows(2).zip(&spins) {
             let [(begin, from), (end, to)] = [two[0], two[1]];
-            if !spin.is_finite() {
-                return Err(InputError::NotFinite {
-                    what: "angular velocity",
-                });
-            }
+            finite(spin, "angular velocity")?;
             let left = length(leftover([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
             if spin != DVec3::ZERO && !(left <= MOST_LEFT) {
-                return Err(InputError::OutOfRange {
-                    what: "angle from where an angular velocity leads to the next pose",
-                    value: left,
-                    allowed: "at most a quarter turn",
-                });
+                return Err(out_of_range(
+                    "angle from where an angular velocity leads to the next pose",
+                    left,
+                    "at most a quarter turn",
+                ));
             }
         }
         Ok(Poses { spins, ..self })

@@ -1,6 +1,7 @@
 //! Screw motions.
 
-use ccd_core::glam::{DQuat, DVec3};
+use super::checks::{finite, out_of_range};
+use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use ccd_core::{InputError, Motion, Pose};
 
@@ -38,19 +39,6 @@ pub fn screw(
 
 /// Normalises an axis.
 pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
-    let axis = DVec3::from_array(axis.into());
-    unit(axis).ok_or(if axis.is_finite() {
-        InputError::OutOfRange {
-            what: "the length of an axis",
-            value: 0.0,
-            allowed: "positive",
-        }
-    } else {
-        InputError::NotFinite { what: "axis" }
-    })
-}
-
-/// Returns the rotation by an angle about an axis of unit length.
-pub(super) fn turn(axis: DVec3, angle: f64) -> DQuat {
-    DQuat::from_axis_angle(axis, angle)
+    let axis = finite(axis, "axis")?;
+    unit(axis).ok_or_else(|| out_of_range("the length of an axis", 0.0, "positive"))
 }

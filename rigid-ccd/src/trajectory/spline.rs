@@ -1,6 +1,7 @@
 //! A body that follows a curve and rotates.
 
 use super::bounded::{Bounded, Speeds};
+use super::checks::finite;
 use super::curve::Curve;
 use super::turns::Turns;
 use ccd_core::glam::DVec3;
@@ -37,12 +38,8 @@ impl Spline {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = DVec3::from_array(centre.into());
-        if centre.is_finite() {
-            Ok(Spline { centre, ..self })
-        } else {
-            Err(InputError::NotFinite { what: "centre" })
-        }
+        let centre = finite(centre, "centre")?;
+        Ok(Spline { centre, ..self })
     }
 }
 

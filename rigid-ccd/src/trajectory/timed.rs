@@ -2,6 +2,7 @@
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
+use super::checks::{check_duration, out_of_range};
 use ccd_core::order::greater;
 use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
 use std::ops::Range;
@@ -75,25 +76,10 @@ impl<T> Timed<T> {
     /// [`InputError::OutOfRange`] for times that are not finite, or a duration that is not positive.
     pub fn new(inner: T, times: Range<f64>, duration: f64, pace: Pace) -> Result<Self, InputError> {
         let length = times.end - times.start;
-        let check = |what, value: f64, allowed: bool, words| {
-            if allowed {
-                Ok(())
-            } else {
-                Err(InputError::OutOfRange {
-                    what,
-                    value,
-                    allowed: words,
-                })
-            }
-        };
-        check(
-            "length",
-            length,
-            (0.0..=f64::MAX).contains(&length),
-            "at least 0",
-        )?;
-        let positive = duration > 0.0 && duration.is_finite();
-        check("duration", duration, positive, "positive and finite")?;
+        if !(0.0..=f64::MAX).contains(&length) {
+            return Err(out_of_range("length", length, "at least 0"));
+        }
+        check_duration(duration)?;
         Ok(Timed {
             inner,
             first: times.start,

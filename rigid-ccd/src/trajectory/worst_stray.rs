@@ -5,7 +5,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{InputError, Trajectory};
 
 /// The sample with the largest deviation relative to its bound.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Worst {
     /// The deviation divided by its bound: at most 1 for a sound trajectory.
     pub ratio: f64,
@@ -67,14 +67,7 @@ pub fn worst_stray(
             worst = Some((draw, found));
         }
     }
-    let none = Worst {
-        ratio: 0.0,
-        from: 0.0,
-        to: 0.0,
-        time: 0.0,
-        arm: DVec3::ZERO,
-    };
-    Ok(worst.map_or(none, |(_, worst)| worst))
+    Ok(worst.map(|(_, worst)| worst).unwrap_or_default())
 }
 
 /// Numbers from 0 to 1 that determine a segment, a time and a point.

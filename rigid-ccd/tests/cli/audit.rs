@@ -1,6 +1,6 @@
 //! `ccd audit`: motions that another checker has called free.
 
-use super::command::{Run, Scene, parse, stderr};
+use super::command::{Run, Scene, has, parse, stderr};
 
 /// A ball that flies through a plate. Of ten equal steps of the fast shots none is in the plate.
 const BALL_AND_PLATE: [&str; 4] = ["--a", "sphere:0.5", "--b", "box:0.001,5,5"];
@@ -13,8 +13,7 @@ fn audit() -> Run {
 
 #[test]
 fn rows_that_are_not_free_are_listed() {
-    let output = audit().stdin(SHOTS).output();
-    assert_eq!(output.status.code(), Some(3));
+    let output = audit().stdin(SHOTS).ends(3);
     let rows = parse(&output.stdout);
     let ids: Vec<&str> = rows.iter().map(|row| row.text("id")).collect();
     assert_eq!(ids, ["fast", "fast/2", "touching"]);
@@ -24,18 +23,17 @@ fn rows_that_are_not_free_are_listed() {
     assert!((rows[0].number("witness_b_x") + 0.001).abs() < 1e-9);
     assert!(rows[0].0.iter().all(|(name, _)| name != "page"));
     let message = stderr(&output);
-    assert!(
-        message.contains("1 of 4 rows are free: that is proven, 2 contact, 1 touching"),
-        "{message}"
+    has(
+        &message,
+        "1 of 4 rows are free: that is proven, 2 contact, 1 touching",
     );
 }
 
 #[test]
 fn free_rows_are_left_out() {
-    let output = audit().stdin("a_px,a_py\n-3,0\n0,6\n").output();
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let output = audit().stdin("a_px,a_py\n-3,0\n0,6\n").ends(0);
     assert_eq!(parse(&output.stdout).len(), 0);
-    assert!(stderr(&output).contains("2 of 2 rows are free"));
+    has(&stderr(&output), "2 of 2 rows are free");
     // With a small tolerance, a distance of a hundred thousandth is free.
     assert!(audit().stdin("a_px\n0.50101\n").output().status.success());
     let kept = audit().args(&["--margin", "1e-4"]);
@@ -67,7 +65,7 @@ fn each_has_a_page() {
         [0, 1, 2].map(|k| rows[k].text("page")),
         ["pages/fast.html", "", ""]
     );
-    assert!(stderr(&output).contains("--most-pages"));
+    has(&stderr(&output), "--most-pages");
 }
 
 #[test]
@@ -76,16 +74,14 @@ fn rows_without_an_answer_are_reported() {
     let run = Run::bare(&["audit", "--motions", "-", "--budget", "1"]).args(&rods);
     let output = run
         .stdin("a_px,a_vx,a_wx,a_wy,a_wz\n-3,4,300,200,100\n")
-        .output();
-    assert_eq!(output.status.code(), Some(3));
+        .ends(3);
     let rows = parse(&output.stdout);
     assert_eq!(rows[0].text("status"), "unresolved");
 
-    let output = audit().stdin("a_px,a_vx\n-3,x\n-3,60\n").output();
-    assert_eq!(output.status.code(), Some(2));
+    let output = audit().stdin("a_px,a_vx\n-3,x\n-3,60\n").ends(2);
     let rows = parse(&output.stdout);
     assert_eq!([0, 1].map(|k| rows[k].text("status")), ["error", "contact"]);
-    assert!(stderr(&output).contains("row 0 (line 2): column a_vx: `x`"));
+    has(&stderr(&output), "row 0 (line 2): column a_vx: `x`");
 }
 
 #[test]
@@ -100,9 +96,7 @@ fn unreadable_and_unwritable_files_are_refused() {
     let motions = scene.file("motions.csv", SHOTS);
     let motions = motions.to_str().unwrap();
     let run = Run::bare(&["audit", "--motions", motions, "--out", motions]).args(&BALL_AND_PLATE);
-    let output = run.output();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("would overwrite"));
-    let output = audit().stdin("a_x\n1\n").output();
-    assert_eq!(output.status.code(), Some(2));
+    let message = run.fails(2);
+    has(&message, "would overwrite");
+    audit().stdin("a_x\n1\n").ends(2);
 }

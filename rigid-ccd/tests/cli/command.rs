@@ -52,16 +52,33 @@ impl Run {
         child.wait_with_output().unwrap()
     }
 
-    pub(crate) fn succeeds(&self) -> Vec<Row> {
+    /// Runs the command, checks its exit code, and returns its output.
+    #[track_caller]
+    pub(crate) fn ends(&self, code: i32) -> Output {
         let output = self.output();
-        assert!(
-            output.status.success(),
-            "{:?}: {}",
-            self.args,
-            stderr(&output)
-        );
-        parse(&output.stdout)
+        let found = output.status.code();
+        assert_eq!(found, Some(code), "{:?}: {}", self.args, stderr(&output));
+        output
     }
+
+    /// Runs the command, checks its exit code, and returns its messages.
+    #[track_caller]
+    #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
+    pub(crate) fn fails(&self, code: i32) -> String {
+        stderr(&self.ends(code))
+    }
+
+    #[track_caller]
+    pub(crate) fn succeeds(&self) -> Vec<Row> {
+        parse(&self.ends(0).stdout)
+    }
+}
+
+/// Checks that a text has some words.
+#[track_caller]
+#[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
+pub(crate) fn has(text: &str, words: &str) {
+    assert!(text.contains(words), "{words:?} is not in:\n{text}");
 }
 
 /// One row of results: cells by column.

@@ -1,6 +1,6 @@
 //! `--contacts`, `--counters`, and messages about times that are not certified.
 
-use crate::command::{Row, Run, Scene, parse, stderr};
+use crate::command::{Row, Run, Scene, has, parse, stderr};
 use std::path::Path;
 
 /// A cube above a slab, and motions onto its face, past its side, and away from it.
@@ -8,8 +8,7 @@ const CUBES: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const DROPS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
 
 fn contacts_of(run: Run, table: &Path) -> (Vec<Row>, Vec<Row>) {
-    let output = run.args(&["--contacts", table.to_str().unwrap()]).output();
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = run.args(&["--contacts", table.to_str().unwrap()]).ends(0);
     (parse(&output.stdout), parse(&std::fs::read(table).unwrap()))
 }
 
@@ -51,8 +50,7 @@ fn contacts_at_the_start_and_on_standard_output() {
     let output = Run::query(&CUBES)
         .args(&["--out", results.to_str().unwrap(), "--contacts", "-"])
         .stdin("id,a_pz,a_vz\ntouching,1.5005,-4\noverlapping,1,0\n")
-        .output();
-    assert!(output.status.success(), "{}", stderr(&output));
+        .ends(0);
     let contacts = parse(&output.stdout);
     assert_eq!(contacts.len(), 4);
     for row in &contacts {
@@ -107,7 +105,7 @@ fn contacts_overwrite_nothing() {
             message.contains(expected) && message.contains(options[0]) || code == 1,
             "{message}"
         );
-        assert!(message.contains(expected), "{message}");
+        has(&message, expected);
     }
     assert_eq!(std::fs::read_to_string(motions).unwrap(), DROPS);
 }
@@ -119,12 +117,11 @@ fn a_row_with_too_many_contacts_is_reported() {
     let output = Run::query(&CUBES)
         .args(&["--budget", "3", "--contacts", table.to_str().unwrap()])
         .stdin("id,a_pz,a_vz\nfirst,1.5005,-4\n")
-        .output();
-    assert_eq!(output.status.code(), Some(2));
+        .ends(2);
     assert_eq!(parse(&output.stdout)[0].text("status"), "touching");
     let message = stderr(&output);
-    assert!(message.contains("row 0 (line 2): contacts: "), "{message}");
-    assert!(message.contains("--budget"), "{message}");
+    has(&message, "row 0 (line 2): contacts: ");
+    has(&message, "--budget");
 }
 
 #[test]
@@ -138,8 +135,7 @@ fn counters_are_more_columns_and_a_line_of_means() {
     assert!(header(&plain.stdout).ends_with("iterations,oracle_calls,micros,reason"));
     for (schedule, steps) in [("best-first", false), ("naive", true)] {
         let run = Run::query(&CUBES).args(&["--counters", "--schedule", schedule]);
-        let output = run.stdin(DROPS).output();
-        assert!(output.status.success(), "{}", stderr(&output));
+        let output = run.stdin(DROPS).ends(0);
         assert_eq!(
             header(&output.stdout),
             header(&plain.stdout) + ",advancements,oracle_steps,cycles,fallbacks,front"
@@ -163,15 +159,13 @@ fn counters_are_more_columns_and_a_line_of_means() {
 #[test]
 fn times_without_certificate_are_reported_once() {
     let published = ["--schedule", "naive", "--bound", "published"];
-    let output = Run::query(&CUBES).args(&published).stdin(DROPS).output();
-    assert!(output.status.success());
-    let message = stderr(&output);
+    let message = Run::query(&CUBES).args(&published).stdin(DROPS).fails(0);
     assert_eq!(
         message.matches("times are not certified").count(),
         1,
         "{message}"
     );
-    assert!(message.contains("\nnot certified: 3 rows"), "{message}");
+    has(&message, "\nnot certified: 3 rows");
     for sound in [
         &published[..2],
         &["--schedule", "naive", "--bound", "sound"],

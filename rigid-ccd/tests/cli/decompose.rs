@@ -1,6 +1,6 @@
 //! `ccd decompose`, and queries on prepared bodies.
 
-use crate::command::{Row, Run, Scene, stderr};
+use crate::command::{Row, Run, Scene, has, stderr};
 use ccd_decomp::{Format, TriangleMesh};
 use rstest::rstest;
 use serde_json::Value;
@@ -63,8 +63,8 @@ fn statistics_are_aligned_lines() {
     let output = decompose(&knot(&scene), &["--pieces", "patches"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(text.contains("knot.obj: 216 triangles\n"), "{text}");
-    assert!(text.contains(" patches, solid\n"), "{text}");
+    has(&text, "knot.obj: 216 triangles\n");
+    has(&text, " patches, solid\n");
     for line in [
         "pieces",
         "why",
@@ -116,7 +116,7 @@ fn approximate_pieces_report_their_error() {
     assert!(statistics["sticks_out"].as_f64().unwrap() > 0.0);
     let text = decompose(&mesh, &["--pieces", "vhacd"]);
     let text = String::from_utf8(text.stdout).unwrap();
-    assert!(text.contains("stick out by at most"), "{text}");
+    has(&text, "stick out by at most");
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn early_contacts_of_approximate_bodies_are_reported() {
     };
     let output = run(&["--pieces", "vhacd"]);
     assert!(output.status.success());
-    assert!(stderr(&output).contains("early"), "{}", stderr(&output));
+    has(&stderr(&output), "early");
     let output = run(&["--pieces", "patches"]);
     assert!(!stderr(&output).contains("early"), "{}", stderr(&output));
 }
@@ -220,7 +220,7 @@ fn meshes_without_pieces_are_reported() {
         assert_eq!(output.status.code(), Some(2), "{mesh:?} {kind}");
         assert_eq!(output.stdout, b"");
         let message = stderr(&output);
-        assert!(message.contains(expected), "{mesh:?} {kind}: {message}");
+        has(&message, expected);
     }
     let statistics = statistics(&open, &["--pieces", "auto"]);
     assert_eq!(statistics["pieces_kind"], "triangles");
@@ -238,7 +238,7 @@ fn options_that_do_not_go_together_are_refused(#[case] options: &[&str], #[case]
     let scene = Scene::new("decompose-options");
     let output = decompose(&scene.file("part.obj", TETRAHEDRON), options);
     assert_eq!(output.status.code(), Some(2), "{options:?}");
-    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    has(&stderr(&output), expected);
 }
 
 #[test]
@@ -248,7 +248,7 @@ fn a_mesh_is_never_overwritten() {
     let same = scene.directory.join(".").join("part.obj");
     let output = decompose(&mesh, &["--out", name(&same)]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("overwrite"), "{}", stderr(&output));
+    has(&stderr(&output), "overwrite");
     assert_eq!(std::fs::read_to_string(&mesh).unwrap(), TETRAHEDRON);
 }
 
@@ -261,7 +261,7 @@ fn an_unwritable_result_has_exit_code_1(#[case] file: &str) {
     let out = format!("/no/such/directory/{file}");
     let output = decompose(&mesh, &["--out", &out]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains(file), "{}", stderr(&output));
+    has(&stderr(&output), file);
 }
 
 #[test]
@@ -279,26 +279,23 @@ fn unreadable_stored_bodies_are_reported() {
         (b"v 0 0 0", "part.ccd: holds no stored body"),
     ] {
         std::fs::write(&out, bytes).unwrap();
-        let output = Run::query(&["--a", name(&out), "--b", "sphere:1"])
+        let message = Run::query(&["--a", name(&out), "--b", "sphere:1"])
             .stdin("id\n")
-            .output();
-        assert_eq!(output.status.code(), Some(2));
-        let message = stderr(&output);
+            .fails(2);
         assert!(
             message.contains("--a: ") && message.contains(expected),
             "{message}"
         );
-        assert!(message.contains("ccd decompose"), "{message}");
+        has(&message, "ccd decompose");
     }
 }
 
 #[test]
 fn help_lists_the_statistics() {
     for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "sticks_out")] {
-        let output = Run::bare(&["decompose", option]).output();
-        assert!(output.status.success());
+        let output = Run::bare(&["decompose", option]).ends(0);
         let text = String::from_utf8(output.stdout).unwrap();
-        assert!(text.contains(expected), "{text}");
+        has(&text, expected);
     }
 }
 
@@ -309,15 +306,10 @@ fn a_missing_folder_is_reported_before_the_work() {
     for name in ["t.obj", "t.ccd"] {
         let out = scene.directory.join("gone").join(name);
         let run = Run::bare(&["decompose", mesh.to_str().unwrap()]);
-        let output = run
+        let message = run
             .args(&["--out", out.to_str().unwrap()])
             .stdin("")
-            .output();
-        assert_eq!(output.status.code(), Some(1));
-        let message = stderr(&output);
-        assert!(
-            message.contains("gone is a folder that does not exist"),
-            "{message}"
-        );
+            .fails(1);
+        has(&message, "gone is a folder that does not exist");
     }
 }

@@ -1,6 +1,6 @@
 //! Scenes of several parts: glTF and 3MF, parts by name, and units.
 
-use crate::command::{Run, Scene, stderr};
+use crate::command::{Run, Scene, has, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -163,20 +163,15 @@ fn an_unknown_part_lists_those_there_are() {
             Run::query(&["--a", BALL, "--b", &body]).stdin(FALL),
             Run::bare(&["decompose", &body]),
         ] {
-            let output = run.output();
-            assert_eq!(output.status.code(), Some(2));
+            let output = run.ends(2);
             let expected =
                 format!("scene.glb: has no part {missing:?}; its parts are 0 \"base\", 1 \"lid\"");
-            assert!(stderr(&output).contains(&expected), "{}", stderr(&output));
+            has(&stderr(&output), &expected);
         }
     }
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
     let output = Run::bare(&["decompose", &part(&plain, "lid")]).output();
-    assert!(
-        stderr(&output).contains("it has one, without a name: 0"),
-        "{}",
-        stderr(&output)
-    );
+    has(&stderr(&output), "it has one, without a name: 0");
 }
 
 /// File names may also contain such a mark.
@@ -228,8 +223,7 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
             Run::bare(&["decompose", &body]),
             Run::bare(&["decompose", name(&path), option]),
         ] {
-            let output = run.output();
-            assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+            run.ends(2);
         }
     }
 }
@@ -253,8 +247,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
         );
     }
     let out = scene.directory.join("hollow.ccd");
-    let output = Run::bare(&["decompose", &hollow, "--out", name(&out)]).output();
-    assert!(output.status.success(), "{}", stderr(&output));
+    Run::bare(&["decompose", &hollow, "--out", name(&out)]).ends(0);
     let rows = Run::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
     assert_eq!(rows.succeeds()[0].text("status"), "free");
     // A prepared body is not adjusted.
@@ -268,13 +261,8 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
         let run = Run::query(&["--a", BALL, "--b", body, "--tolerance", "1e-7"]);
-        let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").output();
-        assert!(output.status.success(), "{}", stderr(&output));
-        assert!(
-            stderr(&output).contains("sticking out by up to"),
-            "{}",
-            stderr(&output)
-        );
+        let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").ends(0);
+        has(&stderr(&output), "sticking out by up to");
         let rows = crate::parse(&output.stdout);
         // The cone's radius equals its height, so that the slant is at 45 degrees.
         let reach = if side == 0.5 {
@@ -303,9 +291,8 @@ fn units_are_converted() {
         let output = Run::query(&["--a", &cube, "--b", &die, "--unit", unit, "--tolerance"])
             .args(&[&(1e-4 / metres).to_string()])
             .stdin(&above(metres))
-            .output();
+            .ends(0);
         let message = stderr(&output);
-        assert!(output.status.success(), "{message}");
         let rows = crate::parse(&output.stdout);
         assert_eq!(rows[0].text("status"), "contact", "{unit}: {message}");
         let early = 1.0 - rows[0].number("time");
@@ -313,7 +300,7 @@ fn units_are_converted() {
             (-1e-9..=1.001e-4 / 0.03).contains(&early),
             "{unit}: {early}"
         );
-        assert!(message.contains(&format!(" {unit}\n")), "{message}");
+        has(&message, &format!(" {unit}\n"));
         assert!(!message.contains("give --unit"), "{message}");
     }
 }
@@ -329,11 +316,11 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
             .output()
     };
     let message = stderr(&query(&cube, name(&die)));
-    assert!(message.contains("size 1 × 1 × 1 m\n"), "{message}");
-    assert!(message.contains("size 20 × 20 × 20 mm\n"), "{message}");
+    has(&message, "size 1 × 1 × 1 m\n");
+    has(&message, "size 20 × 20 × 20 mm\n");
     let expected =
         "--a is in m, --b in mm, and the numbers of both are kept: give --unit m or --unit mm";
-    assert!(message.contains(expected), "{message}");
+    has(&message, expected);
     // A primitive is in the user's unit; a file is in an unknown one.
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
     for (other, is_told) in [(BALL, false), (name(&plain), true)] {
@@ -344,7 +331,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
         .stdin(FALL)
         .output();
     let message = stderr(&output);
-    assert!(message.contains("um, mm, cm, m, in, ft"), "{message}");
+    has(&message, "um, mm, cm, m, in, ft");
 }
 
 #[test]
@@ -354,8 +341,7 @@ fn a_part_is_prepared_and_stored() {
     let stored = scene.directory.join("lid.ccd");
     let output = Run::bare(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
         .args(&[name(&stored), "--format", "json"])
-        .output();
-    assert!(output.status.success(), "{}", stderr(&output));
+        .ends(0);
     let statistics: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(statistics["mesh"], part(&file, "lid"));
     assert_eq!(statistics["unit"], "mm");
@@ -368,7 +354,7 @@ fn a_part_is_prepared_and_stored() {
     assert!((0.0..=1.001e-6).contains(&early), "{early}");
     let text = Run::bare(&["decompose", &part(&file, "lid")]).output();
     let text = String::from_utf8(text.stdout).unwrap();
-    assert!(text.contains("\nunit          m\n"), "{text}");
+    has(&text, "\nunit          m\n");
 }
 
 /// A run with another unit, or with another buffer beside the mesh, is not the same run.
@@ -397,20 +383,16 @@ fn runs_know_their_unit_and_all_their_files() {
     assert!(run("m").status.success());
     let other = run("mm");
     assert_eq!(other.status.code(), Some(2));
-    assert!(stderr(&other).contains("--unit"), "{}", stderr(&other));
+    has(&stderr(&other), "--unit");
     let mut changed = binary;
     changed[0] ^= 1;
     std::fs::write(&data, changed).unwrap();
     let other = run("m");
     assert_eq!(other.status.code(), Some(2));
-    assert!(stderr(&other).contains("--a"), "{}", stderr(&other));
+    has(&stderr(&other), "--a");
     // Results must not replace a buffer either.
     let output = Run::bare(&["query", "--a", name(&file), "--b", BALL])
         .args(&["--motions", name(&motions), "--out", name(&data)])
         .output();
-    assert!(
-        stderr(&output).contains("--out would overwrite the file of --a"),
-        "{}",
-        stderr(&output)
-    );
+    has(&stderr(&output), "--out would overwrite the file of --a");
 }

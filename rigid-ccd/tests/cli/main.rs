@@ -14,7 +14,7 @@ mod resume;
 mod scene;
 mod view;
 
-use command::{Row, Run, Scene, parse, stderr};
+use command::{Row, Run, Scene, has, parse, stderr};
 
 /// The command that is run.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
@@ -125,12 +125,10 @@ fn an_unresolved_row_is_a_result() {
 
 #[test]
 fn a_deadline_leaves_a_row_unresolved() {
-    let output = Run::query(&FALLING_CUBE)
+    let message = Run::query(&FALLING_CUBE)
         .args(&["--deadline", "0"])
         .stdin(DROP)
-        .output();
-    assert!(output.status.success());
-    let message = stderr(&output);
+        .fails(0);
     assert!(
         message.contains("1 unresolved") && message.contains("--deadline"),
         "{message}"
@@ -174,8 +172,7 @@ fn files_are_read_and_written() {
             results.to_str().unwrap(),
         ])
         .stdin("");
-    let output = run.output();
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = run.ends(0);
     assert_eq!(output.stdout, b"");
     let rows = parse(&std::fs::read(&results).unwrap());
     assert_eq!(rows[0].text("status"), "contact");
@@ -195,8 +192,7 @@ fn the_same_file_twice_is_loaded_once() {
         "--b",
         other_name.to_str().unwrap(),
     ];
-    let output = Run::query(&bodies).stdin("a_px,a_vx\n3,-3\n").output();
-    assert!(output.status.success());
+    let output = Run::query(&bodies).stdin("a_px,a_vx\n3,-3\n").ends(0);
     assert_eq!(stderr(&output).matches(", solid").count(), 1);
 }
 
@@ -230,13 +226,8 @@ fn raised_tolerances_are_reported() {
     let output = Run::query(&FALLING_CUBE)
         .args(&["--tolerance", "1e-12"])
         .stdin(far)
-        .output();
-    assert!(output.status.success());
-    assert!(
-        stderr(&output).contains("--tolerance 1e-12 cannot be certified"),
-        "{}",
-        stderr(&output)
-    );
+        .ends(0);
+    has(&stderr(&output), "--tolerance 1e-12 cannot be certified");
 }
 
 #[test]
@@ -262,7 +253,7 @@ fn results_never_overwrite_their_motions() {
                 .unwrap();
             assert_eq!(output.status.code(), Some(2), "{motions} {target}");
             let message = stderr(&output);
-            assert!(message.contains("another file"), "{message}");
+            has(&message, "another file");
             assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
         }
     }
@@ -297,7 +288,7 @@ fn tables_do_not_overwrite_each_other_by_any_spelling() {
             .unwrap();
         assert_eq!(output.status.code(), Some(2), "{results} {contacts}");
         let message = stderr(&output);
-        assert!(message.contains("another file"), "{message}");
+        has(&message, "another file");
     }
 }
 
@@ -309,21 +300,14 @@ fn tolerances_that_no_row_accepts_are_refused_at_once() {
             .stdin(DROP)
             .output();
         let message = stderr(&output);
-        assert!(
-            message.contains("give a number from 1e-100 to 1e12"),
-            "{message}"
-        );
+        has(&message, "give a number from 1e-100 to 1e12");
     }
 }
 
 #[test]
 fn the_summary_counts_rows_and_quiet_omits_it() {
     let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
-    assert!(
-        stderr(&loud).contains("1 row: 1 contact; median"),
-        "{}",
-        stderr(&loud)
-    );
+    has(&stderr(&loud), "1 row: 1 contact; median");
     let quiet = Run::query(&FALLING_CUBE)
         .args(&["--quiet"])
         .stdin(DROP)
@@ -334,25 +318,22 @@ fn the_summary_counts_rows_and_quiet_omits_it() {
 
 #[test]
 fn a_table_without_rows_gives_a_header() {
-    let output = Run::query(&FALLING_CUBE).stdin("id\n").output();
-    assert!(output.status.success());
+    let output = Run::query(&FALLING_CUBE).stdin("id\n").ends(0);
     let header = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(
         header.starts_with("id,status,time,distance_lower,"),
         "{header}"
     );
-    assert!(
-        stderr(&output).contains("standard input: has a header, but no rows"),
-        "{}",
-        stderr(&output)
+    has(
+        &stderr(&output),
+        "standard input: has a header, but no rows",
     );
 }
 
 #[test]
 fn help_shows_examples() {
     for args in [&["--help"][..], &["query", "--help"], &["query", "-h"]] {
-        let output = Run::bare(args).stdin("").output();
-        assert!(output.status.success());
+        let output = Run::bare(args).stdin("").ends(0);
         assert!(
             String::from_utf8(output.stdout)
                 .unwrap()

@@ -1,6 +1,6 @@
 //! `ccd completions` and `ccd man`.
 
-use crate::command::{Run, Scene, stderr};
+use crate::command::{Run, Scene, has};
 use rstest::rstest;
 use std::fs;
 
@@ -11,8 +11,7 @@ use std::fs;
 #[case("powershell")]
 #[case("zsh")]
 fn every_shell_completes_commands_and_options(#[case] shell: &str) {
-    let output = Run::bare(&["completions", shell]).output();
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = Run::bare(&["completions", shell]).ends(0);
     let script = String::from_utf8(output.stdout).unwrap();
     // A fish script names long options without their dashes.
     let option = if shell == "fish" {
@@ -27,20 +26,14 @@ fn every_shell_completes_commands_and_options(#[case] shell: &str) {
 
 #[test]
 fn an_unknown_shell_is_refused() {
-    let output = Run::bare(&["completions", "cmd"]).output();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("powershell"),
-        "{}",
-        stderr(&output)
-    );
+    let message = Run::bare(&["completions", "cmd"]).fails(2);
+    has(&message, "powershell");
 }
 
 #[test]
 fn the_command_and_every_subcommand_have_a_man_page() {
     let scene = Scene::new("man");
-    let output = Run::bare(&["man", scene.directory.to_str().unwrap()]).output();
-    assert!(output.status.success(), "{}", stderr(&output));
+    Run::bare(&["man", scene.directory.to_str().unwrap()]).ends(0);
     for (page, word) in [
         ("ccd", "query"),
         ("ccd-query", "motions"),
@@ -56,9 +49,7 @@ fn the_command_and_every_subcommand_have_a_man_page() {
 #[test]
 fn man_pages_need_an_existing_folder() {
     let folder = Scene::new("man-missing").directory.join("gone");
-    let output = Run::bare(&["man", folder.to_str().unwrap()]).output();
-    assert_eq!(output.status.code(), Some(1));
-    let message = stderr(&output);
+    let message = Run::bare(&["man", folder.to_str().unwrap()]).fails(1);
     assert!(
         message.contains("cannot write") && message.contains("gone"),
         "{message}"

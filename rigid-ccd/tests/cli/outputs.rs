@@ -1,6 +1,6 @@
 //! Outputs are written completely, by one run at a time; a full disk destroys no older file.
 
-use crate::command::{Run, Scene, stderr};
+use crate::command::{Run, Scene, has, stderr};
 use crate::resume::{finished, fresh, killed, motions, path, query, read};
 use ccd_file::Claim;
 use std::fs;
@@ -91,7 +91,7 @@ fn one_run_at_a_time_writes_a_file() {
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{command}: {message}");
         let expected = format!("{name}: another run is writing it; wait for its end");
-        assert!(message.contains(&expected), "{command}: {message}");
+        has(&message, &expected);
         assert!(!message.contains("delete"), "{message}");
         assert_eq!(read(&path(&scene, name)), "good");
         fs::remove_file(path(&scene, name)).unwrap();
@@ -165,7 +165,7 @@ fn a_run_that_is_alive_is_left_alone() {
                 let output = finished(query(&scene, &options), &table);
                 let message = stderr(&output);
                 assert_eq!(output.status.code(), Some(2), "{options:?}: {message}");
-                assert!(message.contains("another run is writing it"), "{message}");
+                has(&message, "another run is writing it");
                 assert!(!message.contains("delete"), "{message}");
             }
         }
@@ -209,7 +209,7 @@ fn runs_side_by_side_keep_all_rows() {
             // Some rows of the table are bad, which gives the same exit code as a refusal.
             assert_eq!(output.status.code(), Some(2), "{message}");
             if !message.contains("another run is writing it") {
-                assert!(message.contains("20000 rows: "), "{message}");
+                has(&message, "20000 rows: ");
                 done += 1;
             }
         }
@@ -262,11 +262,7 @@ fn an_edited_byte_is_not_resumed_from() {
     }
     assert_eq!(tried, 24);
     let output = finished(query(&scene, &["--resume"]), &table);
-    assert!(
-        stderr(&output).contains("20000 rows: "),
-        "{}",
-        stderr(&output)
-    );
+    has(&stderr(&output), "20000 rows: ");
     // The same holds for a finished table.
     let mut results = read_bytes(&scene, "results.csv");
     let middle = results.len() / 2;
@@ -274,10 +270,7 @@ fn an_edited_byte_is_not_resumed_from() {
     fs::write(path(&scene, "results.csv"), &results).unwrap();
     let output = finished(query(&scene, &["--resume"]), &table);
     let message = stderr(&output);
-    assert!(
-        message.contains("has changed since the run finished"),
-        "{message}"
-    );
+    has(&message, "has changed since the run finished");
     assert_eq!(read_bytes(&scene, "results.csv"), results);
 }
 
@@ -295,10 +288,7 @@ fn rows_of_an_interrupted_query_are_kept() {
         let output = run(&scene, &command);
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
-        assert!(
-            message.contains("has rows of an interrupted query"),
-            "{message}"
-        );
+        has(&message, "has rows of an interrupted query");
         assert_eq!(read_bytes(&scene, "results.csv.partial"), rows);
     }
 }
@@ -327,7 +317,7 @@ mod full {
             let output = cramped(&scene, command);
             let message = stderr(&output);
             assert_eq!(output.status.code(), Some(1), "{command}: {message}");
-            assert!(message.contains("cannot write "), "{message}");
+            has(&message, "cannot write ");
             assert_eq!(read(&path(&scene, name)), "good", "{command}");
         }
         let tables = |name: &String| name.contains(".csv.") || name.ends_with(".csv");

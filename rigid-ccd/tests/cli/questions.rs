@@ -1,6 +1,6 @@
 //! `ccd query --ask` for motions and for paths.
 
-use crate::command::{Row, Run, Scene, parse, stderr};
+use crate::command::{Row, Run, Scene, has, parse, stderr};
 use crate::{DROP, DROP_TIME, FALLING_CUBE};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;
@@ -264,11 +264,7 @@ fn paths_are_resumed_and_cut_into_rows() {
     let out_name = out.to_str().unwrap();
     run(&["--out", out_name]).succeeds();
     let again = run(&["--out", out_name, "--resume"]).output();
-    assert!(
-        stderr(&again).contains("already has all rows"),
-        "{}",
-        stderr(&again)
-    );
+    has(&stderr(&again), "already has all rows");
     assert_eq!(fs::read(&out).unwrap(), whole);
 }
 
@@ -312,16 +308,11 @@ fn options_without_a_use_are_refused() {
             "first-contact, is-free, contact-interval, closest-approach, greatest-distance, distance",
         ),
     ] {
-        let output = Run::query(&FALLING_CUBE)
+        let message = Run::query(&FALLING_CUBE)
             .args(options)
             .stdin(VISIT)
-            .output();
-        assert_eq!(output.status.code(), Some(2), "{options:?}");
-        assert!(
-            stderr(&output).contains(refusal),
-            "{options:?}: {}",
-            stderr(&output)
-        );
+            .fails(2);
+        has(&message, refusal);
     }
 }
 
@@ -367,8 +358,7 @@ fn a_check_fails_unless_every_row_is_proven() {
     }
     // A bad row takes precedence.
     let two = format!("{}bad,x\n", "id,a_px\nnear,0\n");
-    let output = Run::query(&BALLS).args(&["--check"]).stdin(&two).output();
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    Run::query(&BALLS).args(&["--check"]).stdin(&two).ends(2);
     for (options, refusal) in [
         (&["--ask", "distance"][..], "--check needs --clearance"),
         (&["--ask", "greatest-distance"], "--check has no use"),
@@ -378,9 +368,8 @@ fn a_check_fails_unless_every_row_is_proven() {
         ),
     ] {
         let run = Run::query(&BALLS).args(&["--check"]).args(options);
-        let output = run.stdin(PASSES).output();
-        assert_eq!(output.status.code(), Some(2), "{options:?}");
-        assert!(stderr(&output).contains(refusal), "{}", stderr(&output));
+        let message = run.stdin(PASSES).fails(2);
+        has(&message, refusal);
     }
 }
 
@@ -395,8 +384,7 @@ fn a_finished_check_fails_again() {
         .args(&FALLING_CUBE)
         .args(&["--out", out.to_str().unwrap()]);
     assert_eq!(run.output().status.code(), Some(3));
-    let again = run.args(&["--resume"]).output();
-    assert_eq!(again.status.code(), Some(3), "{}", stderr(&again));
+    run.args(&["--resume"]).ends(3);
 }
 
 /// A tube about z as an OBJ.

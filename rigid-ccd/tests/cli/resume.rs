@@ -1,6 +1,6 @@
 //! Interrupted runs: existing files are kept, and answered rows are not answered again.
 
-use crate::command::{Scene, stderr};
+use crate::command::{Scene, has, stderr};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -120,7 +120,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     let done = count("continues at row ", " of the motions");
     let done = done.unwrap_or_else(|| panic!("{message}"));
     // The summary counts all rows of the table, and those of this run.
-    assert!(message.contains("\n20000 rows: "), "{message}");
+    has(&message, "\n20000 rows: ");
     let here = count(", 20 error; ", " in this run; median");
     assert_eq!(here, Some(ROWS - done), "{message}");
     for name in TABLES {
@@ -192,7 +192,7 @@ fn a_run_continues_only_with_the_same_options_and_rows() {
         let output = finished(query(&scene, options), input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
-        assert!(message.contains(expected), "{expected}: {message}");
+        has(&message, expected);
         assert!(
             !message.contains("Some(") && !message.contains(" {"),
             "{message}"
@@ -211,7 +211,7 @@ fn resuming_without_an_interrupted_run_starts_a_new_one() {
     let one = "a_pz\n4\n";
     let output = finished(query(&scene, &["--resume"]), one);
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(stderr(&output).contains("found no interrupted run"));
+    has(&stderr(&output), "found no interrupted run");
     let output = finished(query(&scene, &["--resume", "--out", "-"]), one);
     assert_eq!(output.status.code(), Some(2));
 }
@@ -240,9 +240,9 @@ fn a_finished_run_is_left_unchanged() {
         let output = finished(query(&scene, &["--resume"]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let message = stderr(&output);
-        assert!(
-            message.contains("results.csv already has all rows of this query; it is unchanged"),
-            "{message}"
+        has(
+            &message,
+            "results.csv already has all rows of this query; it is unchanged",
         );
         assert_eq!(
             message.contains("2 rows: "),
@@ -286,7 +286,7 @@ fn a_finished_run_with_other_options_is_refused() {
         let output = finished(command, input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
-        assert!(message.contains(expected), "{expected}: {message}");
+        has(&message, expected);
         assert_eq!(tables(&scene), before);
     }
     // A file of another program is not mistaken for the table.
@@ -294,10 +294,7 @@ fn a_finished_run_with_other_options_is_refused() {
     let output = finished(query(&scene, &["--resume"]), table);
     assert_eq!(output.status.code(), Some(2));
     let message = stderr(&output);
-    assert!(
-        message.contains("has changed since the run finished"),
-        "{message}"
-    );
+    has(&message, "has changed since the run finished");
     assert_eq!(read(&path(&scene, "results.csv")), "mine");
     // Without a table, all rows are answered.
     fs::remove_file(path(&scene, "results.csv")).unwrap();
@@ -339,10 +336,7 @@ fn a_changed_mesh_is_reported_with_its_option() {
     let output = finished(command, table);
     assert_eq!(output.status.code(), Some(2));
     let message = stderr(&output);
-    assert!(
-        message.contains(": the file of --a has changed since; give"),
-        "{message}"
-    );
+    has(&message, ": the file of --a has changed since; give");
 }
 
 #[test]

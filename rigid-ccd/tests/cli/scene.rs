@@ -1,6 +1,6 @@
 //! `ccd scene`.
 
-use crate::command::{Row, Run, Scene, parse, stderr};
+use crate::command::{Row, Run, Scene, has, parse, stderr};
 use std::path::Path;
 
 /// Two balls that fall onto a table, listed in another order than they land, and one that never lands.
@@ -11,8 +11,7 @@ const BODIES: &str = "body,id,px,pz,vz\n\
     sphere:.5,away,5,4,1\n";
 
 fn contacts(run: &Run) -> Vec<Row> {
-    let output = run.output();
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = run.ends(0);
     parse(&output.stdout)
 }
 
@@ -78,8 +77,7 @@ fn contacts_at_the_start_and_bad_motions_have_their_status() {
         "--out",
         out.to_str().unwrap(),
     ]);
-    let output = run.output();
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    run.ends(2);
     let rows = parse(&std::fs::read(&out).unwrap());
     assert_eq!(rows[0].text("status"), "error");
     assert!(!rows[0].text("reason").is_empty());
@@ -90,8 +88,7 @@ fn a_scene_is_not_overwritten() {
     let scene = Scene::new("scene-over");
     let bodies = scene.file("scene.csv", BODIES);
     let bodies = bodies.to_str().unwrap();
-    let output = Run::bare(&["scene", bodies, "--out", bodies]).output();
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    Run::bare(&["scene", bodies, "--out", bodies]).ends(2);
     assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES);
 }
 
@@ -126,7 +123,7 @@ fn a_scene_is_remarked_upon_as_a_query_is() {
             assert_eq!(message.matches(remark).count(), 1, "{message}");
         }
         assert!(message.contains("without --duration, all motions end at 1\n"));
-        assert!(message.contains("to the end at 1."), "{message}");
+        has(&message, "to the end at 1.");
     }
     // A tenth of the time is a turn and a half.
     for (_, message) in both(bodies, &["--duration", "0.1", "--tolerance", "1e-6"]) {
@@ -156,10 +153,7 @@ fn an_end_pose_is_reached_at_the_end() {
     rows[0].assert_in_time(1.5, 4.0);
     for (code, message) in both(bodies, &["--duration", "0"]) {
         assert_eq!(code, Some(2), "{message}");
-        assert!(
-            message.contains("row 0 (line 2): --duration: 0 is not"),
-            "{message}"
-        );
+        has(&message, "row 0 (line 2): --duration: 0 is not");
     }
 }
 
@@ -207,7 +201,7 @@ fn tables_that_are_no_scene_are_refused_in_its_words() {
         let bodies = scene.file("scene.csv", table);
         for (code, message) in both(bodies.to_str().unwrap(), &[]) {
             assert_eq!(code, Some(2), "{message}");
-            assert!(message.contains(expected), "{message}");
+            has(&message, expected);
         }
     }
 }

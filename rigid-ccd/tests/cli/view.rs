@@ -1,6 +1,6 @@
 //! Pages of `ccd view` and `ccd query --html`.
 
-use super::command::{Run, Scene, stderr};
+use super::command::{Run, Scene, has, stderr};
 use serde_json::Value;
 use std::path::Path;
 
@@ -9,8 +9,7 @@ const DROPS: &str =
 const CUBE_AND_SLAB: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 
 fn view(folder: &Path, more: &[&str]) -> Value {
-    let output = Run::bare(&["view"]).args(more).folder(folder).output();
-    assert!(output.status.success(), "{}", stderr(&output));
+    Run::bare(&["view"]).args(more).folder(folder).ends(0);
     data(&folder.join("view.html"))
 }
 
@@ -95,12 +94,11 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         &["--motions", &motions, "--ids", "never,hit,gone"],
     ]
     .concat();
-    let output = Run::bare(&["view"])
+    let message = Run::bare(&["view"])
         .args(&args)
         .folder(&scene.directory)
-        .output();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("no row has the id \"gone\""));
+        .fails(2);
+    has(&message, "no row has the id \"gone\"");
     assert_eq!(
         names(&data(&scene.directory.join("view.html"))),
         ["hit (contact)", "never (free)"]
@@ -110,12 +108,11 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         &["--motions", &motions, "--ids", "gone"],
     ]
     .concat();
-    let output = Run::bare(&["view"])
+    let message = Run::bare(&["view"])
         .args(&nothing)
         .folder(&scene.directory)
-        .output();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("no row to show"));
+        .fails(2);
+    has(&message, "no row to show");
 }
 
 #[test]
@@ -134,11 +131,10 @@ fn results_are_shown_as_they_are() {
         ],
     ]
     .concat();
-    let output = Run::bare(&["query"])
+    Run::bare(&["query"])
         .args(&query)
         .folder(&scene.directory)
-        .output();
-    assert!(output.status.success(), "{}", stderr(&output));
+        .ends(0);
     let page = data(&scene.directory.join("page.html"));
     let args = [
         &CUBE_AND_SLAB[..],
@@ -175,16 +171,11 @@ fn results_are_shown_as_they_are() {
         &["--motions", &motions, "--results", &motions],
     ]
     .concat();
-    let output = Run::bare(&["view"])
+    let message = Run::bare(&["view"])
         .args(&wrong)
         .folder(&scene.directory)
-        .output();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("not those of results"),
-        "{}",
-        stderr(&output)
-    );
+        .fails(2);
+    has(&message, "not those of results");
 }
 
 #[test]
@@ -215,14 +206,9 @@ fn results_of_other_bodies_are_not_shown() {
     let output = Run::bare(&view)
         .args(&["--results", "results.csv"])
         .folder(&scene.directory)
-        .output();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("row hit: at 0.62"),
-        "{}",
-        stderr(&output)
-    );
-    assert!(stderr(&output).contains("other bodies"));
+        .ends(2);
+    has(&stderr(&output), "row hit: at 0.62");
+    has(&stderr(&output), "other bodies");
     let other = file(&scene, "other.csv", "id,a_pz\nelse,4\n");
     let view = [
         &["view", "--motions", &other, "--results", "results.csv"],
@@ -230,7 +216,7 @@ fn results_of_other_bodies_are_not_shown() {
     ]
     .concat();
     let output = Run::bare(&view).folder(&scene.directory).output();
-    assert!(stderr(&output).contains("no row of"), "{}", stderr(&output));
+    has(&stderr(&output), "no row of");
 }
 
 /// Returns the verdict of the first row of a page by `ccd query`.
@@ -242,11 +228,10 @@ fn verdict(scene: &Scene, more: &[&str]) -> String {
         more,
     ]
     .concat();
-    let output = Run::bare(&["query"])
+    Run::bare(&["query"])
         .args(&args)
         .folder(&scene.directory)
-        .output();
-    assert!(output.status.success(), "{more:?}: {}", stderr(&output));
+        .ends(0);
     let page = data(&scene.directory.join("x.html"));
     views(&page)[0]["verdict"].as_str().unwrap().to_owned()
 }
@@ -324,13 +309,8 @@ fn an_unwritable_page_is_an_error_before_the_work() {
         ]
         .concat(),
     ] {
-        let output = Run::bare(&args).folder(&scene.directory).output();
-        assert_eq!(output.status.code(), Some(1), "{args:?}");
-        assert!(
-            stderr(&output).contains("create it first"),
-            "{}",
-            stderr(&output)
-        );
+        let message = Run::bare(&args).folder(&scene.directory).fails(1);
+        has(&message, "create it first");
         assert!(!scene.directory.join("x.csv").exists());
     }
 }
@@ -344,16 +324,11 @@ fn rows_that_are_no_queries_are_left_out_and_counted() {
         "id,a_pz,a_vz\nbad,x,0\nhit,4,-4\nfar,1e13,0\n",
     );
     let args = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
-    let output = Run::bare(&["view"])
+    let message = Run::bare(&["view"])
         .args(&args)
         .folder(&scene.directory)
-        .output();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("2 rows are no valid queries"),
-        "{}",
-        stderr(&output)
-    );
+        .fails(2);
+    has(&message, "2 rows are no valid queries");
     assert_eq!(
         names(&data(&scene.directory.join("view.html"))),
         ["hit (contact)"]
@@ -426,15 +401,10 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
         ("body,pz\n", "no bodies"),
     ] {
         let bodies = file(&scene, "wrong.csv", table);
-        let output = Run::bare(&["view", "--scene", &bodies])
+        let message = Run::bare(&["view", "--scene", &bodies])
             .folder(&scene.directory)
-            .output();
-        assert_eq!(output.status.code(), Some(2), "{table}");
-        assert!(
-            stderr(&output).contains(says),
-            "{table}: {}",
-            stderr(&output)
-        );
+            .fails(2);
+        has(&message, says);
     }
 }
 
@@ -450,8 +420,7 @@ fn a_page_overwrites_nothing_that_is_read() {
         [&["query", "--out", "x.csv", "--html", "./x.csv"], &both[..]].concat(),
         vec!["view", "--scene", &bodies, "--out", &bodies],
     ] {
-        let output = Run::bare(&args).folder(&scene.directory).output();
-        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        Run::bare(&args).folder(&scene.directory).ends(2);
         assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS);
     }
     for args in [
@@ -459,7 +428,6 @@ fn a_page_overwrites_nothing_that_is_read() {
         &["view", "--a", "sphere:1"],
         &["view", "--scene", &bodies, "--a", "sphere:1"],
     ] {
-        let output = Run::bare(args).folder(&scene.directory).output();
-        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        Run::bare(args).folder(&scene.directory).ends(2);
     }
 }

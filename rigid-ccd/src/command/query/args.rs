@@ -2,14 +2,15 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
+use crate::command::named::{INSTRUCTIONS, STARTS, name_of, named};
 use crate::command::numbers::{not_negative, seconds, tolerance};
 use crate::command::pair::BodiesArgs;
-use crate::command::pieces::{NOT_GIVEN, value_name};
+use crate::command::pieces::NOT_GIVEN;
 use crate::table::results::Extent;
 use crate::text::Number;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::{Instructions, StartPolicy};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -47,8 +48,8 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
     pub(super) margin: f64,
     /// How to treat bodies in contact at the start
-    #[arg(long, value_enum, default_value_t)]
-    pub(super) start: StartArg,
+    #[arg(long, value_parser = named(STARTS), default_value = "report")]
+    pub(super) start: StartPolicy,
     /// Leave a query unresolved after N units of work (pairs of nodes visited, and work of equal
     /// cost), of a path after N between two poses; a million takes about a second
     #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
@@ -62,8 +63,8 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     /// Vector instructions to compute with; they change the time alone, not the answers
-    #[arg(long, value_enum, default_value_t)]
-    pub(super) instructions: InstructionsArg,
+    #[arg(long, value_parser = named(INSTRUCTIONS), default_value = "best")]
+    pub(super) instructions: Instructions,
     /// Answer only these rows, numbered from 0, TO excluded; either end may be omitted
     #[arg(
         long,
@@ -168,7 +169,7 @@ impl QueryArgs {
             ("--bound", or_not(bound)),
             ("--tolerance", Number(*tolerance).to_string()),
             ("--margin", Number(*margin).to_string()),
-            ("--start", value_name(start)),
+            ("--start", name_of(STARTS, start)),
             ("--budget", budget.to_string()),
             ("--deadline", or_not(deadline)),
             ("--rows", rows.to_string()),
@@ -180,35 +181,6 @@ impl QueryArgs {
         recorded.extend(meshes.recorded());
         recorded.extend(pieces.recorded());
         recorded
-    }
-}
-
-/// The treatment of bodies in contact at the start.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub(super) enum StartArg {
-    /// Report the contact at time 0
-    #[default]
-    Report,
-    /// Ignore the contact as long as the bodies do not approach
-    Leave,
-}
-
-/// The vector instructions to compute with.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub(super) enum InstructionsArg {
-    /// The best of this machine
-    #[default]
-    Best,
-    /// Those that every machine of this kind has
-    Baseline,
-}
-
-impl From<InstructionsArg> for Instructions {
-    fn from(arg: InstructionsArg) -> Self {
-        match arg {
-            InstructionsArg::Best => Instructions::Best,
-            InstructionsArg::Baseline => Instructions::Baseline,
-        }
     }
 }
 
@@ -254,15 +226,6 @@ impl fmt::Display for RowRange {
         match end {
             Some(end) => write!(f, "{start}..{end}"),
             None => write!(f, "{start}.."),
-        }
-    }
-}
-
-impl From<StartArg> for StartPolicy {
-    fn from(start: StartArg) -> Self {
-        match start {
-            StartArg::Report => StartPolicy::Report,
-            StartArg::Leave => StartPolicy::Leave,
         }
     }
 }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::table::motions::Motions;
 use ccd_core::Unresolved;
+use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Limit, Stats};
 
 fn pair() -> FeaturePair {
@@ -24,7 +25,7 @@ fn a_pair_fills_a_row() {
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(Vec::new());
-    let row = ContactRow::new("a,b", 0.1 + 0.2, &pair());
+    let row = row("a,b", 0.1 + 0.2, &pair());
     writer.serialize(row).unwrap();
     let line = String::from_utf8(writer.into_inner().unwrap()).unwrap();
     assert_eq!(

@@ -5,7 +5,9 @@ use ccd_core::{Clearance, HitKind, Outcome};
 use serde::{Deserialize, Serialize};
 
 /// The kind of an answer, or an error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// The bodies come into contact.
@@ -27,6 +29,7 @@ pub enum Status {
     /// A limit was reached first.
     Unresolved,
     /// The row is not a valid query.
+    #[default]
     Error,
 }
 
@@ -63,17 +66,7 @@ impl Status {
 
     /// Returns whether the status proves that the bodies keep the required distance.
     pub fn is_proof(self) -> bool {
-        match self {
-            Status::Free | Status::Kept => true,
-            Status::Contact
-            | Status::Touching
-            | Status::Overlapping
-            | Status::Measured
-            | Status::Violated
-            | Status::Unverified
-            | Status::Unresolved
-            | Status::Error => false,
-        }
+        matches!(self, Status::Free | Status::Kept)
     }
 
     /// Returns the status of an outcome. Distances are compared to `clearance`, if there is one.

@@ -1,5 +1,6 @@
 //! The segment from one pose to the next.
 
+use crate::trajectory::rotation::logarithm;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose};
@@ -71,12 +72,5 @@ impl Segment {
 /// pose.
 pub(crate) fn leftover([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
     let led = DQuat::from_scaled_axis(spin * duration) * from.rotation();
-    let way = to.rotation() * led.conjugate();
-    let way = if way.w < 0.0 { -way } else { way };
-    let sine = length(way.xyz());
-    if sine > 0.0 {
-        way.xyz() * (2.0 * sine.atan2(way.w) / sine)
-    } else {
-        DVec3::ZERO
-    }
+    logarithm(to.rotation() * led.conjugate())
 }

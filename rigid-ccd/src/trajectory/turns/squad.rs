@@ -22,6 +22,7 @@
 //!   `g_z ≤ hG'`, `g_zz ≤ hG''`; `|g_hz| ≤ G' + 2h²G²`, as `g_h = G cos(hΩ)`. `G` and its derivatives by `z` are convex:
 //!   they are below the chords between their values 1, 2/3, 16/15 at z = 0 and π/2, 2, 2π at z = ½.
 
+use crate::trajectory::rotation::logarithm;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -189,17 +190,6 @@ impl Function {
                 + self.h * h2
                 + self.z * z2,
         ]
-    }
-}
-
-/// Returns the shortest rotation vector of a unit quaternion.
-pub(super) fn logarithm(q: DQuat) -> DVec3 {
-    let q = if q.w < 0.0 { -q } else { q };
-    let sine = q.xyz().length();
-    if sine > 0.0 {
-        q.xyz() * (2.0 * sine.atan2(q.w) / sine)
-    } else {
-        DVec3::ZERO
     }
 }
 

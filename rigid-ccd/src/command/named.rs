@@ -1,0 +1,90 @@
+//! Options whose values are those of a library type, by name.
+
+use ccd_core::{Instructions, StartPolicy};
+use ccd_decomp::{Axis, Order, Unit};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// The values of an option, each with its name and its help.
+pub(super) type Named<T> = [(&'static str, T, &'static str)];
+
+/// Parses a value by its name.
+pub(super) fn named<T>(all: &'static Named<T>) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    let values = all
+        .iter()
+        .map(|&(name, _, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(values).try_map(|given| {
+        let found = all.iter().find(|(name, ..)| *name == given);
+        found
+            .map(|&(_, value, _)| value)
+            .ok_or("there is no such value")
+    })
+}
+
+/// Returns the name of a value.
+pub(super) fn name_of<T: PartialEq>(all: &Named<T>, value: &T) -> String {
+    let found = all.iter().find(|(_, known, _)| known == value);
+    found.map_or_else(String::new, |&(name, ..)| name.to_owned())
+}
+
+/// Coordinate axes to mirror across.
+pub(super) const AXES: &Named<Axis> = &[
+    ("x", Axis::X, "Change the signs of x"),
+    ("y", Axis::Y, "Change the signs of y"),
+    ("z", Axis::Z, "Change the signs of z"),
+];
+
+/// Units of length, by their symbols.
+pub(super) const UNITS: &Named<Unit> = &[
+    ("um", Unit::Micrometre, "Micrometre"),
+    ("mm", Unit::Millimetre, "Millimetre"),
+    ("cm", Unit::Centimetre, "Centimetre"),
+    ("m", Unit::Metre, "Metre"),
+    ("in", Unit::Inch, "Inch, 25.4 mm"),
+    ("ft", Unit::Foot, "Foot, 12 inches"),
+];
+
+/// Orders in which patches grow.
+pub(super) const ORDERS: &Named<Order> = &[
+    (
+        "cresting",
+        Order::Cresting,
+        "From the crests of the surface outward",
+    ),
+    (
+        "breadth-first",
+        Order::BreadthFirst,
+        "Breadth first, in the order of the faces of the mesh",
+    ),
+    (
+        "depth-first",
+        Order::DepthFirst,
+        "Depth first, in the order of the faces of the mesh",
+    ),
+];
+
+/// Treatments of bodies in contact at the start.
+pub(super) const STARTS: &Named<StartPolicy> = &[
+    (
+        "report",
+        StartPolicy::Report,
+        "Report the contact at time 0",
+    ),
+    (
+        "leave",
+        StartPolicy::Leave,
+        "Ignore the contact as long as the bodies do not approach",
+    ),
+];
+
+/// Vector instructions to compute with.
+pub(super) const INSTRUCTIONS: &Named<Instructions> = &[
+    ("best", Instructions::Best, "The best of this machine"),
+    (
+        "baseline",
+        Instructions::Baseline,
+        "Those that every machine of this kind has",
+    ),
+];

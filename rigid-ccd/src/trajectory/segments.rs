@@ -1,0 +1,74 @@
+//! The segments of a trajectory, which follow each other and meet at knots.
+
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use std::iter::once;
+
+/// The course between two times.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Segment<T> {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) course: T,
+}
+
+/// Consecutive segments. The body rests before the first one and after the last.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Segments<T>(pub(super) Vec<Segment<T>>);
+
+impl<T> Segments<T> {
+    /// Returns the first segment that does not end before a time.
+    pub(super) fn at(&self, time: f64) -> Option<&Segment<T>> {
+        let next = self.0.partition_point(|segment| segment.to < time);
+        self.0.get(next)
+    }
+
+    /// Returns the segments that overlap an interval of time, or touch it.
+    pub(super) fn overlapping(&self, from: f64, to: f64) -> &[Segment<T>] {
+        let first = self.0.partition_point(|segment| segment.to < from);
+        let rest = &self.0[first..];
+        &rest[..rest.partition_point(|segment| segment.from <= to)]
+    }
+
+    /// Returns a knot strictly between two times, about in the middle; `None` without one.
+    pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let segments = self.overlapping(from, to);
+        let middle = segments.get(segments.len() / 2)?.from;
+        let ends = [segments.first(), segments.last()].into_iter().flatten();
+        let ends = ends.flat_map(|segment| [segment.from, segment.to]);
+        let mut knots = once(middle).chain(ends);
+        knots.find(|knot| *knot > from && *knot < to)
+    }
+
+    /// Returns the greatest of a bound over the segments between two times.
+    pub(super) fn most(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
+        let segments = self.overlapping(from, to).iter();
+        segments.map(bound).fold(0.0, greater)
+    }
+
+    /// Returns the acceleration whose deviation over half of an interval equals that of the jumps of the velocity at the
+    /// knots strictly inside.
+    pub(super) fn jumps(
+        &self,
+        from: f64,
+        to: f64,
+        velocity: impl Fn(&Segment<T>, f64) -> DVec3,
+    ) -> f64 {
+        let segments = self.overlapping(from, to);
+        let before = segments.iter().map(|segment| velocity(segment, segment.to));
+        let after = segments
+            .iter()
+            .map(|segment| (segment.from, velocity(segment, segment.from)));
+        let end = segments.last().map(|segment| (segment.to, DVec3::ZERO));
+        let knots = once(DVec3::ZERO).chain(before).zip(after.chain(end));
+        let jumps: f64 = knots
+            .filter(|&(_, (knot, _))| knot > from && knot < to)
+            .map(|(before, (_, after))| before.distance(after))
+            .sum();
+        if jumps > 0.0 {
+            2.0 * jumps / (0.5 * (to - from))
+        } else {
+            0.0
+        }
+    }
+}
