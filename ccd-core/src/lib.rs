@@ -134,5 +134,4 @@ pub use motion::trajectory::{Acceleration, Accelerations, Smooth, Stray, Stretch
 pub use query::{Movement, Moving, Query};
 pub use schedule::Schedule;
 pub use settings::{Instructions, Settings, StartPolicy};
-pub use shortcuts::{Shortcut, Shortcuts};
 pub use swept_box::SweptBox;

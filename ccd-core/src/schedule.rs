@@ -12,6 +12,7 @@ pub use crate::paper::naive::Naive;
 use crate::query::Query;
 use crate::questions::along::first;
 pub use crate::questions::steps::{FirstContact, Progress};
+pub use crate::shortcuts::{Shortcut, Shortcuts};
 
 /// An order in which a solver advances the pairs of two bodies until the first contact is certain.
 ///

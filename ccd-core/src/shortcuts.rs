@@ -53,7 +53,7 @@ impl Shortcut {
 /// may reach the budget.
 ///
 /// ```
-/// use ccd_core::{Settings, Shortcut, Shortcuts};
+/// use ccd_core::{Settings, schedule::{Shortcut, Shortcuts}};
 /// let settings = Settings { shortcuts: Shortcuts::ALL.without(Shortcut::Screw), ..Settings::DEFAULT };
 /// assert!(settings.shortcuts.has(Shortcut::Balls) && !settings.shortcuts.has(Shortcut::Screw));
 /// ```

@@ -1,5 +1,6 @@
 //! Options whose values are those of a library type, by name.
 
+use ccd_core::schedule::Shortcut;
 use ccd_core::{Instructions, StartPolicy};
 use ccd_decomp::{Axis, Order, Unit};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -76,6 +77,45 @@ pub(super) const STARTS: &Named<StartPolicy> = &[
         "leave",
         StartPolicy::Leave,
         "Ignore the contact as long as the bodies do not approach",
+    ),
+];
+
+/// Shortcuts of the search.
+pub(super) const SHORTCUTS: &Named<Shortcut> = &[
+    (
+        "balls",
+        Shortcut::Balls,
+        "Two balls on straight paths, for bodies that are far from each other",
+    ),
+    (
+        "boxes",
+        Shortcut::Boxes,
+        "One plane between the boxes of both bodies",
+    ),
+    (
+        "rounds",
+        Shortcut::Rounds,
+        "One period for all, for bodies that turn many times",
+    ),
+    (
+        "screw",
+        Shortcut::Screw,
+        "Surfaces along a screw, for a bolt in its nut and a shaft in its sleeve",
+    ),
+    (
+        "flat-nodes",
+        Shortcut::FlatNodes,
+        "Gaps in double precision, for faces that approach each other flat",
+    ),
+    (
+        "turning-nodes",
+        Shortcut::TurningNodes,
+        "Planes that turn with large parts, beside much smaller ones",
+    ),
+    (
+        "turning-pieces",
+        Shortcut::TurningPieces,
+        "Planes that turn with a triangle or convex piece",
     ),
 ];
 

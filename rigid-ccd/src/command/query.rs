@@ -23,6 +23,7 @@ use crate::picture::{Asked, Claim};
 use crate::table::results::Status;
 use answering::Answering;
 use anyhow::{Result, bail};
+use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use journal::{CONTENT, Checkpoint, Recorded};
 use outputs::{Opened, Places};
@@ -265,6 +266,7 @@ fn timing(args: &QueryArgs) -> Timing {
             budget: args.budget,
             deadline: args.deadline,
             instructions: args.instructions,
+            shortcuts: (args.without.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each)),
             stop: None,
         },
         repeat: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),

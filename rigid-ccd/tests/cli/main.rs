@@ -197,7 +197,7 @@ fn the_same_file_twice_is_loaded_once() {
 }
 
 #[test]
-fn threads_repetitions_and_instructions_change_no_bit() {
+fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() {
     let scene = Scene::new("threads");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let bodies = ["--a", mesh.to_str().unwrap(), "--b", "capsule:0.2,0.7"];
@@ -218,6 +218,11 @@ fn threads_repetitions_and_instructions_change_no_bit() {
     assert_eq!(one, answers(&["--threads", "2"]));
     assert_eq!(one, answers(&["--repeat", "3"]));
     assert_eq!(one, answers(&["--instructions", "baseline"]));
+    let without = "balls,boxes,rounds,screw,flat-nodes,turning-nodes,turning-pieces";
+    let searched = answers(&["--without", without]);
+    assert_ne!(one, searched);
+    let statuses = |rows: &[Vec<String>]| rows.iter().map(|row| row[1].clone()).collect::<Vec<_>>();
+    assert_eq!(statuses(&one), statuses(&searched));
 }
 
 #[test]

@@ -2,13 +2,14 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
-use crate::command::named::{INSTRUCTIONS, STARTS, name_of, named};
+use crate::command::named::{INSTRUCTIONS, SHORTCUTS, STARTS, name_of, named};
 use crate::command::numbers::{not_negative, seconds, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::command::pieces::NOT_GIVEN;
 use crate::table::results::Extent;
 use crate::text::Number;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
+use ccd_core::schedule::Shortcut;
 use ccd_core::{Instructions, StartPolicy};
 use clap::Args;
 use std::fmt;
@@ -65,6 +66,9 @@ pub(in crate::command) struct QueryArgs {
     /// Vector instructions to compute with; they change the time alone, not the answers
     #[arg(long, value_parser = named(INSTRUCTIONS), default_value = "best")]
     pub(super) instructions: Instructions,
+    /// Search without these shortcuts, to see what they save; times stay certified
+    #[arg(long, value_name = "SHORTCUT,...", value_delimiter = ',', value_parser = named(SHORTCUTS))]
+    pub(super) without: Vec<Shortcut>,
     /// Answer only these rows, numbered from 0, TO excluded; either end may be omitted
     #[arg(
         long,
@@ -141,6 +145,7 @@ impl QueryArgs {
             deadline,
             threads: _,
             instructions: _,
+            without,
             rows,
             repeat,
             out: _,
@@ -158,6 +163,7 @@ impl QueryArgs {
         let bound = bound.map(|bound| bound.to_string());
         let deadline = deadline.map(|time| Number(time.as_secs_f64()).to_string());
         let contacts = contacts.as_ref().map(|path| path.display().to_string());
+        let without: Vec<_> = without.iter().map(|it| name_of(SHORTCUTS, it)).collect();
         let or_not = |value: Option<String>| value.unwrap_or_else(|| NOT_GIVEN.to_owned());
         let mut recorded = vec![
             ("--a", a.clone()),
@@ -172,6 +178,7 @@ impl QueryArgs {
             ("--start", name_of(STARTS, start)),
             ("--budget", budget.to_string()),
             ("--deadline", or_not(deadline)),
+            ("--without", without.join(",")),
             ("--rows", rows.to_string()),
             ("--repeat", repeat.to_string()),
             ("--contacts", or_not(contacts)),
