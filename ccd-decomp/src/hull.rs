@@ -1,15 +1,12 @@
 //! Convex hulls of points, proven by exact predicates.
 //!
 //! ```text
-//! points ─► span.rs ─┬─ in one plane ─► flat.rs ───────────────────────────────────────┐
-//!                    ├─ some ─► library.rs ─► proof.rs ─┬─ proven ─────────────────────┼─► Hull
-//!                    │                                  └─ refuted ─┐                  │
-//!                    └─ few or many ────────────────────────────────┴─► exact_hull.rs ─┘
+//! points ─► span.rs ─┬─ in one plane ─► flat.rs ────────────────────────────┬─► Hull
+//!                    └─ else ─► exact_hull.rs ─► polygons.rs ─► proof.rs ───┘
 //! ```
 
 pub(crate) mod exact_hull;
 mod flat;
-mod library;
 pub(crate) mod polygons;
 mod proof;
 mod span;
@@ -17,7 +14,6 @@ mod span;
 use crate::exact::predicates::{self, lexicographic};
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::loops;
-use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
@@ -34,8 +30,6 @@ pub(crate) struct Hull {
     pub(crate) vertices: Vec<u32>,
     /// Convex polygons, counter-clockwise seen from outside.
     pub(crate) facets: Loops,
-    /// The method that found it.
-    pub(crate) method: Method,
 }
 
 impl Hull {
@@ -51,19 +45,6 @@ impl Hull {
         let corners = self.vertices.iter().map(|&v| points[v as usize]);
         (corners.collect(), self.facets)
     }
-}
-
-/// The method that found a hull.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Method {
-    /// Computed by the library, and proven.
-    Library,
-    /// Computed exactly, because the library failed or its hull was refuted.
-    Rebuilt,
-    /// Computed exactly, because the points are few or many.
-    Exact,
-    /// The points are coplanar: a polygon with two sides.
-    Flat,
 }
 
 /// The reason why points have no hull with facets.
@@ -94,7 +75,7 @@ pub enum HullError {
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
-    hull_by(points, solid)
+    hull_by(points, |points| proof::prove(points, facets(points)?).ok())
 }
 
 /// Computes the convex hull by exact predicates, without a proof, for callers that prove it themselves.
@@ -105,16 +86,13 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
 pub(crate) fn unproven_hull(points: &[DVec3]) -> Result<Hull, HullError> {
-    hull_by(points, |points| match ExactHull::facets_of(points) {
-        Some(triangles) => Ok((loops(points, &triangles), Method::Exact)),
-        None => Err(HullError::Unproven(points.len())),
-    })
+    hull_by(points, facets)
 }
 
-/// Computes a convex hull; `solid` computes it for distinct points that span a volume.
+/// Computes a convex hull; `solid` computes the facets of distinct points that span a volume.
 fn hull_by(
     points: &[DVec3],
-    solid: impl FnOnce(&[DVec3]) -> Result<(Loops, Method), HullError>,
+    solid: impl FnOnce(&[DVec3]) -> Option<Loops>,
 ) -> Result<Hull, HullError> {
     // Written so that NaN fails.
     let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
@@ -128,44 +106,15 @@ fn hull_by(
         Span::Nothing => Err(HullError::Empty),
         Span::Point(a) => Err(HullError::Single(name(a))),
         Span::Line(a, b) => Err(HullError::Collinear(name(a), name(b))),
-        Span::Plane(triangle) => Ok((flat::facets(&cloud.points, triangle), Method::Flat)),
-        Span::Volume => solid(&cloud.points),
+        Span::Plane(triangle) => Ok(flat::facets(&cloud.points, triangle)),
+        Span::Volume => solid(&cloud.points).ok_or(HullError::Unproven(cloud.points.len())),
     };
-    found.map(|(facets, method)| cloud.named(facets, method))
+    found.map(|facets| cloud.named(facets))
 }
 
-/// Computes triangles that are likely the hull of points: the library's hull without a proof for medium numbers of
-/// points. Returns `None` if the library fails, or the points are coplanar.
-pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
-    if (FEW_POINTS + 1..=LIKELY_POINTS).contains(&points.len()) {
-        library::triangles(points)
-    } else {
-        ExactHull::facets_of(points)
-    }
-}
-
-/// Computes the hull of distinct points that span a volume, with a proof.
-fn solid(points: &[DVec3]) -> Result<(Loops, Method), HullError> {
-    let some = FEW_POINTS < points.len() && points.len() <= LIBRARY_POINTS;
-    if some
-        && let Some(triangles) = library::triangles(points)
-        && let Ok(facets) = proof::prove(points, loops(points, &triangles))
-    {
-        return Ok((facets, Method::Library));
-    }
-    let method = if some { Method::Rebuilt } else { Method::Exact };
-    match computed(points) {
-        Some(facets) => Ok((facets, method)),
-        None => Err(HullError::Unproven(points.len())),
-    }
-}
-
-/// Computes the facets of the hull of points that span a volume, by exact predicates; `None` if they cannot be proven.
-///
-/// No point is in front of a facet: each became a corner or was inside when it was inserted, and the hull only grows.
-fn computed(points: &[DVec3]) -> Option<Loops> {
-    let triangles = ExactHull::facets_of(points)?;
-    proof::prove_convex(points, loops(points, &triangles)).ok()
+/// Computes the facets of the hull of points that span a volume, by exact predicates.
+fn facets(points: &[DVec3]) -> Option<Loops> {
+    ExactHull::facets_of(points).map(|triangles| loops(points, &triangles))
 }
 
 /// The distinct points of a list, and the index of the first point at each.
@@ -188,18 +137,14 @@ impl DistinctPoints {
     }
 
     /// Creates a hull of facets, by indices of the original points.
-    fn named(&self, mut facets: Loops, method: Method) -> Hull {
+    fn named(&self, mut facets: Loops) -> Hull {
         for corner in facets.corners_mut() {
             *corner = self.ids[*corner as usize];
         }
         let mut vertices: Vec<u32> = facets.corners().to_vec();
         vertices.sort_unstable();
         vertices.dedup();
-        Hull {
-            vertices,
-            facets,
-            method,
-        }
+        Hull { vertices, facets }
     }
 }
 

@@ -3,7 +3,6 @@
 use crate::exact::predicates::{Projection, lexicographic, side};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
-use ccd_core::point_tree::PointTree;
 use std::cmp::Ordering;
 
 /// The reason why polygons are not the facets of the hull.
@@ -13,41 +12,19 @@ pub(super) enum Refutation {
     NotConvex(usize),
     /// This edge does not have one polygon on each side, each behind the other's plane.
     Edge(u32, u32),
-    /// These points are in front of a polygon, in ascending order.
-    Outside(Vec<u32>),
 }
 
-/// Returns the polygons, if they are the facets of the hull of the points.
+/// Returns the polygons, if they form a closed surface that is convex at every edge.
 ///
-/// No point is in front of a polygon, so that each is within a facet of the hull, in the facet's orientation. Beyond
-/// each of its edges the plane changes, so that the edge is on the facet's rim, and a convex polygon with all edges on
-/// the rim is the facet. Every edge occurs once in each direction, so that no facet is repeated or missing.
+/// They are then the facets of the hull of all points that are in front of none. The incremental hull decides that
+/// exactly: each point became a corner or was inside when it was inserted, and the hull only grows.
 ///
 /// # Errors
 /// [`Refutation`].
 ///
 /// # Complexity
-/// O(n log n) for n points and O(n) polygons, if few of the points are near each polygon.
+/// O(n log n) for n polygons.
 pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
-    let polygons = prove_convex(points, polygons)?;
-    let outside = outside(points, &polygons);
-    if outside.is_empty() {
-        Ok(polygons)
-    } else {
-        Err(Refutation::Outside(outside))
-    }
-}
-
-/// Returns the polygons, if they form a closed surface that is convex at every edge. They are then the facets of the
-/// hull of all points that are in front of none, as the incremental hull has decided exactly.
-///
-/// # Errors
-/// [`Refutation`], except by points outside.
-///
-/// # Complexity
-/// O(n log n) for any points. If many are nearly in one plane, every polygon has many near it, which
-/// [`prove`] would examine.
-pub(super) fn prove_convex(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
         return Err(Refutation::NotConvex(bent));
     }
@@ -119,21 +96,4 @@ fn folds(points: &[DVec3], edge: [u32; 2], polygon: &[u32], beyond: &[u32]) -> b
     let others = beyond.iter().filter(|v| !edge.contains(v));
     let mut sides = others.map(|&v| side(plane, points[v as usize]));
     sides.find(|&side| side != Ordering::Equal) == Some(Ordering::Less)
-}
-
-/// Finds the points in front of any of the polygons.
-fn outside(points: &[DVec3], polygons: &Loops) -> Vec<u32> {
-    let tree = PointTree::new(points);
-    let mut is_outside = vec![false; points.len()];
-    for corners in polygons.iter() {
-        let plane = plane(points, corners);
-        tree.for_each_not_behind(plane, |v| {
-            if !corners.contains(&v) && side(plane, points[v as usize]) == Ordering::Greater {
-                is_outside[v as usize] = true;
-            }
-        });
-    }
-    (0..points.len() as u32)
-        .filter(|&v| is_outside[v as usize])
-        .collect()
 }

@@ -16,7 +16,7 @@ mod part;
 mod target;
 mod voxels;
 
-use crate::hull::{HullError, Method};
+use crate::hull::HullError;
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::as_polytope;
 use crate::solid::manifold::Manifold;
@@ -42,8 +42,6 @@ pub(crate) struct Approximation {
     /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
     /// mesh's unit of length.
     pub(crate) uncovered: f64,
-    /// The number of hulls that the library computed wrongly, and that were recomputed exactly.
-    pub(crate) rebuilt: usize,
     /// A bound on how far the polytopes extend beyond S, in the mesh's unit of length.
     pub(crate) sticks_out: f64,
 }
@@ -134,10 +132,6 @@ pub(crate) fn approximate(
         return Err(VhacdError::TooCoarse { sticks_out, limit });
     }
     Ok(Approximation {
-        rebuilt: parts
-            .iter()
-            .filter(|part| part.method == Method::Rebuilt)
-            .count(),
         polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
         uncovered,
         sticks_out,

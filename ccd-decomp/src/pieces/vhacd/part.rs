@@ -1,6 +1,6 @@
 //! The convex parts of an approximation.
 
-use crate::hull::{HullError, Method, hull};
+use crate::hull::{HullError, hull};
 use ccd_core::glam::DVec3;
 use ccd_core::{Facet, Loops, Origin, Polytope};
 
@@ -8,7 +8,6 @@ use ccd_core::{Facet, Loops, Origin, Polytope};
 pub(super) struct Part {
     pub(super) corners: Vec<DVec3>,
     pub(super) facets: Loops,
-    pub(super) method: Method,
 }
 
 impl Part {
@@ -16,13 +15,8 @@ impl Part {
         let at = |v: u32| points[v as usize];
         match hull(points) {
             Ok(hull) => {
-                let method = hull.method;
                 let (corners, facets) = hull.corners_and_facets(points);
-                Ok(Part {
-                    corners,
-                    facets,
-                    method,
-                })
+                Ok(Part { corners, facets })
             }
             Err(HullError::Single(v)) => Ok(Part::thin(vec![at(v)])),
             Err(HullError::Collinear(v, w)) => Ok(Part::thin(vec![at(v), at(w)])),
@@ -34,7 +28,6 @@ impl Part {
         Part {
             corners,
             facets: Loops::default(),
-            method: Method::Flat,
         }
     }
 
