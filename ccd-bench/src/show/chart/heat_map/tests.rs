@@ -60,9 +60,3 @@ fn costs_that_grow_are_darker() {
     );
     assert!(svg.contains("1.0") && svg.contains("2000"));
 }
-
-#[test]
-fn long_remarks_are_wrapped() {
-    let lines = wrapped("one two three", text_width("one two", SMALL));
-    assert_eq!(lines, ["one two", "three"]);
-}
