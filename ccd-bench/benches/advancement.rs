@@ -64,17 +64,14 @@ fn advancement(criterion: &mut Criterion) {
             if !is_right(&contest, method, &truths) {
                 continue;
             }
-            let config = Settings {
-                tolerance: USUAL_TOLERANCE,
-                ..Settings::DEFAULT
-            };
             let bodies = scene
                 .bodies_of(pieces)
                 .expect("it has just opened a session");
-            let mut solver = Ours::new(kind, bodies, config);
+            let mut solver = Ours::new(kind, bodies, Settings::DEFAULT.margin);
             group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
                 bencher.iter(|| {
-                    let steps = |&row: &usize| solver.answer(&scene.queries[row]).steps;
+                    let steps =
+                        |&row: &usize| solver.answer(&scene.queries[row], USUAL_TOLERANCE).steps;
                     rows.iter().map(steps).sum::<u64>()
                 });
             });

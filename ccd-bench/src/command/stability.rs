@@ -4,11 +4,8 @@ use super::chart::chosen;
 use super::print_summary;
 use crate::method::Method;
 use crate::method::guarded::Programs;
-use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
-use crate::stability::{
-    Extent, Findings, Survey, families, growth_map, limits, reach_map, summary,
-};
+use crate::stability::{Findings, Survey, families, growth_map, limits, reach_map, summary};
 use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
@@ -72,7 +69,7 @@ fn known_methods() -> Vec<Method> {
     let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
     let last = methods.iter().rposition(is_fast);
     methods.insert(last.map_or(0, |last| last + 1), Method::published());
-    methods.extend(ScriptKind::ALL.map(Method::Script));
+    methods.extend(Method::of_scripts());
     methods
 }
 
@@ -91,11 +88,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
         methods: chosen(methods, &args.methods, "method", Method::to_string)?,
-        extent: if args.full {
-            Extent::Full
-        } else {
-            Extent::Quick
-        },
+        full: args.full,
         programs: Programs {
             script: args.peers.clone(),
         },

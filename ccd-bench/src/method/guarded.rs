@@ -114,6 +114,23 @@ impl QueryOutcome {
             QueryOutcome::CutOff | QueryOutcome::Died => None,
         }
     }
+
+    /// Returns the time of the query in microseconds: that until it was stopped, NaN if the process ended.
+    pub fn micros(&self, patience: Duration) -> f64 {
+        match *self {
+            QueryOutcome::Answered { micros, .. } => micros,
+            QueryOutcome::CutOff => patience.as_secs_f64() * 1e6,
+            QueryOutcome::Died => f64::NAN,
+        }
+    }
+
+    /// Returns the number of steps in time, 0 without an answer.
+    pub fn steps(&self) -> u64 {
+        match self {
+            QueryOutcome::Answered { reply, .. } => reply.steps,
+            QueryOutcome::CutOff | QueryOutcome::Died => 0,
+        }
+    }
 }
 
 impl Guarded {

@@ -2,7 +2,7 @@
 
 use crate::scene::model::sphere::sphere;
 use crate::scene::model::{Board, Plate, Ring};
-use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::glam::{DAffine3, DVec3, dvec3};
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
 
@@ -12,12 +12,6 @@ pub(super) fn cuboid(x: f64, y: f64, z: f64) -> Result<TriangleMesh, MeshError> 
         half_extents: dvec3(x, y, z),
     }
     .mesh()
-}
-
-/// Returns a mesh with its origin elsewhere.
-pub(super) fn moved(mesh: &TriangleMesh, by: DVec3) -> Result<TriangleMesh, MeshError> {
-    let vertices = mesh.vertices().iter().map(|&p| p + by).collect();
-    TriangleMesh::new(vertices, mesh.faces())
 }
 
 /// Returns a cube of side 1 about the origin.
@@ -166,29 +160,8 @@ pub(super) fn ribbon(
 /// Returns open squares across z at two heights.
 pub(super) fn stacked(half_side: f64, heights: [f64; 2]) -> Result<TriangleMesh, MeshError> {
     let sheet = sheet(half_side)?;
-    let sheets: Result<Vec<TriangleMesh>, MeshError> = heights
-        .into_iter()
-        .map(|z| moved(&sheet, z * DVec3::Z))
-        .collect();
-    together(&sheets?)
-}
-
-/// Returns all meshes as one.
-pub(super) fn together(meshes: &[TriangleMesh]) -> Result<TriangleMesh, MeshError> {
-    let mut vertices = Vec::new();
-    let mut faces = Vec::new();
-    for mesh in meshes {
-        let first = vertices.len() as u32;
-        vertices.extend_from_slice(mesh.vertices());
-        faces.extend(mesh.faces().iter().map(|face| face.map(|v| first + v)));
-    }
-    TriangleMesh::new(vertices, &faces)
-}
-
-/// Returns a mesh that is turned about its origin.
-pub(super) fn turned(mesh: &TriangleMesh, by: DQuat) -> Result<TriangleMesh, MeshError> {
-    let vertices = mesh.vertices().iter().map(|&p| by * p).collect();
-    TriangleMesh::new(vertices, mesh.faces())
+    let [low, high] = heights.map(|z| sheet.transformed(DAffine3::from_translation(z * DVec3::Z)));
+    TriangleMesh::merge([&low?, &high?])
 }
 
 /// Returns the wide box of [`slab`] with a vertex on its top close to the diagonal, so that one of the three triangles
@@ -216,23 +189,19 @@ pub(super) fn sliver_slab(width: f64) -> Result<TriangleMesh, MeshError> {
 /// Returns cubes of side 1/4 in rows across z, every other one inside out, with all tops at z = 0.
 pub(super) fn field_of_cubes(count: u32) -> Result<TriangleMesh, MeshError> {
     let cube = cuboid(0.125, 0.125, 0.125)?;
+    let faces: Vec<[u32; 3]> = cube.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
+    let inside_out = TriangleMesh::new(cube.vertices().to_vec(), &faces)?;
     let wide = f64::from(count).sqrt().ceil() as u32;
     let middle = 0.5 * f64::from(wide - 1);
     let cubes: Result<Vec<TriangleMesh>, MeshError> = (0..count)
         .map(|k| {
             let place = |at: u32| 0.5 * (f64::from(at) - middle);
-            let cube = moved(&cube, dvec3(place(k % wide), place(k / wide), -0.125))?;
-            match k % 2 {
-                0 => Ok(cube),
-                _ => {
-                    let faces: Vec<[u32; 3]> =
-                        cube.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
-                    TriangleMesh::new(cube.vertices().to_vec(), &faces)
-                }
-            }
+            let cube = if k % 2 == 0 { &cube } else { &inside_out };
+            let place = dvec3(place(k % wide), place(k / wide), -0.125);
+            cube.transformed(DAffine3::from_translation(place))
         })
         .collect();
-    together(&cubes?)
+    TriangleMesh::merge(&cubes?)
 }
 
 /// Returns a plate from z = −0.1 to 0.1 with half side 3, and with a square hole about the origin.

@@ -2,7 +2,6 @@
 
 use super::Truth;
 use serde::{Deserialize, Serialize};
-use std::io;
 
 /// The columns, in order. The last one holds the reason why a row of motions cannot be judged.
 pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
@@ -55,31 +54,4 @@ impl TruthRow {
             Status::Undecided => Truth::Undecided { lo },
         }
     }
-}
-
-/// Writes a table of truths; numbers are read back to the same bits.
-///
-/// # Errors
-/// If `output` cannot be written to.
-pub fn write_truths(
-    output: impl io::Write,
-    rows: impl IntoIterator<Item = TruthRow>,
-) -> Result<(), csv::Error> {
-    let mut writer = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(output);
-    writer.write_record(&TRUTH_COLUMNS[..4])?;
-    for row in rows {
-        writer.serialize(row)?;
-    }
-    writer.flush()?;
-    Ok(())
-}
-
-/// Reads a table of truths.
-///
-/// # Errors
-/// If `input` cannot be read, or a row does not fit the table.
-pub fn read_truths(input: impl io::Read) -> Result<Vec<TruthRow>, csv::Error> {
-    csv::Reader::from_reader(input).deserialize().collect()
 }

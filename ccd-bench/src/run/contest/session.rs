@@ -2,7 +2,7 @@
 
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
-use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
+use crate::method::solver::{Solver, TimedReply, timed};
 use crate::method::{Method, Ours};
 use crate::scene::Scene;
 use ccd_core::Settings;
@@ -20,21 +20,8 @@ pub struct Session<'s> {
 
 /// The solver of a session, in this process or in a separate one that can be stopped.
 enum Runner<'s> {
-    InProcess(Box<dyn Adjustable + 's>),
+    InProcess(Box<dyn Solver + 's>),
     Guarded(Box<Guarded>),
-}
-
-/// The outcome of a query.
-pub(super) enum Answered {
-    InTime {
-        reply: Reply,
-        micros: f64,
-    },
-    /// The peer was stopped after this time.
-    CutOff {
-        patience: Duration,
-    },
-    Died,
 }
 
 impl<'s> Session<'s> {
@@ -51,15 +38,11 @@ impl<'s> Session<'s> {
                 let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
-                let config = Settings {
-                    tolerance,
-                    ..Settings::DEFAULT
-                };
-                Runner::InProcess(Box::new(Ours::new(kind, bodies, config)))
+                Runner::InProcess(Box::new(Ours::new(kind, bodies, Settings::DEFAULT.margin)))
             }
             Method::Rival(kind) => {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());
-                Runner::InProcess(kind.solver(a, b, tolerance))
+                Runner::InProcess(kind.solver(a, b))
             }
             Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
@@ -95,10 +78,7 @@ impl<'s> Session<'s> {
     pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
         self.tolerance = tolerance;
         match &mut self.runner {
-            Runner::InProcess(solver) => {
-                solver.set_tolerance(tolerance);
-                Ok(())
-            }
+            Runner::InProcess(_) => Ok(()),
             Runner::Guarded(guarded) => guarded.restart_with(tolerance),
         }
     }
@@ -116,7 +96,9 @@ impl<'s> Session<'s> {
                 if kind.schedule.uses_hull_trees() =>
             {
                 let prepared = queries.take_while(|_| start.elapsed() < time);
-                prepared.map(|query| solver.answer(query)).count()
+                prepared
+                    .map(|query| solver.answer(query, self.tolerance))
+                    .count()
             }
             _ => queries.len(),
         }
@@ -126,47 +108,13 @@ impl<'s> Session<'s> {
     ///
     /// # Errors
     /// If a peer's process does not restart.
-    pub(super) fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<Answered> {
-        Ok(match &mut self.runner {
+    pub(super) fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
+        match &mut self.runner {
             Runner::InProcess(solver) => {
-                let TimedReply { reply, micros } = timed(solver.as_mut(), query);
-                Answered::InTime { reply, micros }
+                let TimedReply { reply, micros } = timed(solver.as_mut(), query, self.tolerance);
+                Ok(QueryOutcome::Answered { reply, micros })
             }
-            Runner::Guarded(guarded) => match guarded.ask(query, patience)? {
-                QueryOutcome::Answered { reply, micros } => Answered::InTime { reply, micros },
-                QueryOutcome::CutOff => Answered::CutOff { patience },
-                QueryOutcome::Died => Answered::Died,
-            },
-        })
-    }
-}
-
-impl Answered {
-    pub(super) fn is_refusal(&self) -> bool {
-        let refused = |reply: &Reply| reply.claim == Claim::Refused;
-        matches!(self, Answered::InTime { reply, .. } if refused(reply))
-    }
-
-    /// Returns the claimed time, or NaN.
-    pub(super) fn time(&self) -> f64 {
-        match self {
-            Answered::InTime { reply, .. } => reply.claim.time().unwrap_or(f64::NAN),
-            Answered::CutOff { .. } | Answered::Died => f64::NAN,
-        }
-    }
-
-    pub(super) fn micros(&self) -> f64 {
-        match *self {
-            Answered::InTime { micros, .. } => micros,
-            Answered::CutOff { patience } => patience.as_secs_f64() * 1e6,
-            Answered::Died => f64::NAN,
-        }
-    }
-
-    pub(super) fn steps(&self) -> u64 {
-        match self {
-            Answered::InTime { reply, .. } => reply.steps,
-            Answered::CutOff { .. } | Answered::Died => 0,
+            Runner::Guarded(guarded) => guarded.ask(query, patience),
         }
     }
 }

@@ -2,6 +2,7 @@ use super::*;
 use crate::method::solver::Claim;
 use crate::scene::model::Board;
 use crate::scene::{Models, Pieces, listings};
+use crate::truth::Truth;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
@@ -191,7 +192,7 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
     std::fs::write(folder.join("trials.csv"), &trials[..=cut]).unwrap();
     // Two processes would mix their rows.
     let second = Journal::open(&folder, "one", &[]).unwrap_err();
-    assert!(second.to_string().contains("another run"), "{second}");
+    assert!(format!("{second:#}").contains("another run"), "{second:#}");
     drop(journal);
     let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     assert!(journal.has("santa", "C2A", 1e-3));

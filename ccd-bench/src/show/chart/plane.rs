@@ -15,7 +15,7 @@ pub(super) const LINE: f64 = 18.0;
 /// The height of the chart's title and of the line below it.
 pub(super) const HEAD: f64 = 50.0;
 /// The columns of the legend, and the width of each.
-const LEGEND: (usize, f64) = (3, 270.0);
+const LEGEND: (usize, f64) = (2, 400.0);
 /// The colour of lines under the data.
 const RULE: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 
@@ -58,12 +58,13 @@ impl Plane {
             .max_light_lines(1)
             .bold_line_style(RULE.stroke_width(10))
             .axis_style(INK.stroke_width(10))
-            .x_labels(6)
+            .set_all_tick_mark_size(units(4.0))
+            .x_labels(4)
             .y_labels(6)
             .x_desc(self.x.1)
             .y_desc(self.y.1)
-            .x_label_formatter(&|value| format!("{value:e}"))
-            .y_label_formatter(&|value| format!("{value:e}"))
+            .x_label_formatter(&|value| format!("{value:.0e}"))
+            .y_label_formatter(&|value| format!("{value:.0e}"))
             .label_style(font(TEXT, FontStyle::Normal))
             .draw()?;
         Ok(drawn)
@@ -78,10 +79,11 @@ impl Plane {
     ) -> Result<Drawn<'a, 's>> {
         let narrow = x != self.x.0;
         Ok(ChartBuilder::on(sheet)
+            .margin_top(units(MARGIN))
             .margin_right(units(MARGIN))
             .caption(title, font(TEXT, FontStyle::Bold).color(&colour))
             .x_label_area_size(units(38.0))
-            .y_label_area_size(if narrow { 0 } else { units(56.0) })
+            .y_label_area_size(if narrow { 0 } else { units(66.0) })
             .build_cartesian_2d(x.log_scale(), self.y.0.clone().log_scale())?)
     }
 }

@@ -42,10 +42,10 @@ fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
 fn judge(queries: &[Motions], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
-    let mut contact = Contact::new(&mesh, &mesh, tolerance);
+    let mut contact = Contact::new(&mesh, &mesh);
     let mut hits = 0;
     for query in queries {
-        let reply = contact.answer(query);
+        let reply = contact.answer(query, tolerance);
         let moved = screw(query).unwrap();
         let crossing = first_crossing(&tree, &moved);
         match reply.claim {
