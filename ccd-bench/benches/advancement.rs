@@ -8,6 +8,7 @@
 
 mod settings;
 
+use ccd_bench::method::guarded::Programs;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, Ours};
 use ccd_bench::run::contest::{Allowance, Contest, Truths};
@@ -90,7 +91,7 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
         preparation: Duration::MAX,
     };
     let session = contest
-        .session(method, USUAL_TOLERANCE)
+        .session(method, USUAL_TOLERANCE, &Programs::default())
         .expect("no peer is asked");
     session.is_some_and(|mut session| {
         let measured = contest.run(&mut session, &allowance, truths);

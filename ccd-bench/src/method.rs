@@ -151,8 +151,9 @@ impl Method {
     pub fn takes_tolerances(self) -> bool {
         match self {
             Method::Ours(..) => !self.is_model(),
-            Method::Rival(_) | Method::Script(_) => true,
+            Method::Rival(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
+            Method::Script(kind) => kind != ScriptKind::CoalDistance,
         }
     }
 

@@ -2,12 +2,10 @@
 
 mod listing;
 pub mod model;
-mod shots;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use listing::{Listing, listings};
-pub use shots::{Shots, drops_past_board};
 
 use crate::scene::model::Model;
 use anyhow::{Context, Result};

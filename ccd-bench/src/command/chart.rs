@@ -1,6 +1,7 @@
 //! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present them.
 
 use crate::method::Method;
+use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
 use crate::run::contest::Allowance;
 use crate::run::evaluation::{Evaluated, Plan, USUAL_TOLERANCE};
@@ -40,6 +41,8 @@ pub(super) struct ChartArgs {
     /// Seconds after which a peer is stopped in the middle of a row
     #[arg(long, value_name = "SECONDS")]
     patience: Option<f64>,
+    #[command(flatten)]
+    programs: Programs,
     /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
     #[arg(long, value_name = "FILE.csv")]
     join: Vec<PathBuf>,
@@ -117,6 +120,10 @@ const AT_A_GLANCE: Allowance = Allowance {
 
 pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
     let mut plan = plan(&args.common, args.full)?;
+    if args.programs.script.is_some() {
+        plan.methods.extend(Method::of_scripts());
+        plan.programs = args.programs.clone();
+    }
     plan.listings = chosen(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
     plan.methods = chosen(plan.methods, &args.methods, "method", Method::to_string)?;
     if !args.tolerances.is_empty() {
@@ -214,6 +221,7 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
         allowance,
+        programs: Programs::default(),
         models: common.models.clone(),
         folder: common.out.clone(),
     })

@@ -5,6 +5,7 @@ use super::solver::{Claim, Reply, TimedReply};
 use super::wire::{READY, REFUSED, format_query, parse_reply};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
+use clap::Args;
 use rigid_ccd::table::motions::Motions;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Write};
@@ -66,10 +67,11 @@ pub enum QueryOutcome {
     Died,
 }
 
-/// The programs that run the methods.
-#[derive(Clone, Debug, Default)]
+/// The programs that run the methods: this one, and a script for the methods of kind [`Method::Script`].
+#[derive(Clone, Debug, Default, Args)]
 pub struct Programs {
-    /// The script that runs the methods of kind [`Method::Script`].
+    /// The script that runs Coal and FCL, for their methods: scripts/peers.py
+    #[arg(long = "peers", value_name = "SCRIPT")]
     pub script: Option<PathBuf>,
 }
 
@@ -89,7 +91,7 @@ impl Programs {
         match Guarded::start(self, setting, [&mesh, &mesh]) {
             Ok(_) => Ok(()),
             Err(error) => Err(io::Error::other(format!(
-                "{error}; its script needs Python with coal, python-fcl and numpy"
+                "{method}: {error}; its script needs Python with coal, python-fcl and numpy"
             ))),
         }
     }

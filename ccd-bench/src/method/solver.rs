@@ -89,6 +89,8 @@ pub enum Claim {
     },
     /// The solver does not support the query.
     Refused,
+    /// The solver measured something else, such as a single distance, for a comparison of times.
+    Static,
 }
 
 impl Claim {
@@ -99,6 +101,7 @@ impl Claim {
             Claim::Free => "free",
             Claim::Unresolved { .. } => "unresolved",
             Claim::Refused => "refused",
+            Claim::Static => "static",
         }
     }
 
@@ -106,7 +109,7 @@ impl Claim {
     pub fn time(self) -> Option<f64> {
         match self {
             Claim::Contact { time } | Claim::Unresolved { safe_until: time } => Some(time),
-            Claim::Free | Claim::Refused => None,
+            Claim::Free | Claim::Refused | Claim::Static => None,
         }
     }
 }

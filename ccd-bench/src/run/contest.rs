@@ -13,7 +13,7 @@ pub use session::Session;
 pub use truths::Truths;
 pub use verdict::{Judged, Verdict, is_near, judge, judge_contact, judge_outcome};
 
-use crate::method::guarded::QueryOutcome;
+use crate::method::guarded::{Programs, QueryOutcome};
 use crate::method::rival::screw;
 use crate::method::solver::Claim;
 use crate::method::{Method, MotionKind};
@@ -105,8 +105,13 @@ impl<'s> Contest<'s> {
     ///
     /// # Errors
     /// If a peer cannot be started.
-    pub fn session(&self, method: Method, tolerance: f64) -> Result<Option<Session<'s>>> {
-        Session::open(method, self.scene, tolerance).with_context(not_started(method))
+    pub fn session(
+        &self,
+        method: Method,
+        tolerance: f64,
+        programs: &Programs,
+    ) -> Result<Option<Session<'s>>> {
+        Session::open(method, self.scene, tolerance, programs).with_context(not_started(method))
     }
 
     /// Sets the tolerance of a session.

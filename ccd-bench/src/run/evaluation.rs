@@ -1,5 +1,6 @@
 //! Measures all combinations of methods, scenes and tolerances, one after another, into a journal.
 
+use crate::method::guarded::Programs;
 use crate::method::{Method, MotionKind};
 use crate::run::contest::{Allowance, Contest, Journal, Truths, program_stamp};
 use crate::scene::{Listing, Models, Pieces, Scene, SceneBody};
@@ -21,6 +22,8 @@ pub struct Plan {
     pub tolerances: Vec<f64>,
     /// The limits of each method on each scene; a peer may run a single row, and prepares nothing on first use.
     pub allowance: Allowance,
+    /// The programs that run the methods.
+    pub programs: Programs,
     /// The folder of mesh files that replace the models made by code.
     pub models: Option<PathBuf>,
     /// The folder of the measurements.
@@ -63,6 +66,9 @@ impl Plan {
     /// # Errors
     /// If a scene cannot be made, a method cannot be run, or a file cannot be kept; earlier measurements are kept.
     pub fn run(&self) -> Result<Evaluated> {
+        for &method in &self.methods {
+            self.programs.check(method)?;
+        }
         let mut journal = Journal::open(&self.folder, &self.stamp(), &[TRUTHS])?;
         let truths_file = self.folder.join(TRUTHS);
         let mut truths = Truths::read(&truths_file)?;
@@ -119,7 +125,7 @@ impl Plan {
                 }
                 progress.say(&format!("{scene}: {name}, {tolerance:e}"));
                 match &mut session {
-                    None => session = contest.session(method, tolerance)?,
+                    None => session = contest.session(method, tolerance, &self.programs)?,
                     Some(session) => contest.adjust(session, tolerance)?,
                 }
                 let Some(session) = &mut session else {

@@ -34,7 +34,7 @@ struct File {
 }
 
 const SCENES: &str = include_str!("../../scenes/scenes.toml");
-const MOTIONS: [(&str, &str); 6] = [
+pub(super) const MOTIONS: [(&str, &str); 6] = [
     ("santa.csv", include_str!("../../scenes/santa.csv")),
     ("bunnies.csv", include_str!("../../scenes/bunnies.csv")),
     ("knots.csv", include_str!("../../scenes/knots.csv")),

@@ -39,6 +39,7 @@ fn from_start(claim: Claim, duration: f64) -> Verdict {
         Claim::Contact { .. } | Claim::Unresolved { .. } => Verdict::Late,
         Claim::Free => Verdict::Missed,
         Claim::Refused => Verdict::Refused,
+        Claim::Static => Verdict::NotJudged,
     }
 }
 

@@ -53,8 +53,7 @@ impl Survey {
     /// If a scene cannot be made, a method cannot be started, or the journal cannot be kept; earlier answers are kept.
     pub fn run(&self) -> Result<Journal> {
         for &method in &self.methods {
-            let started = self.programs.check(method);
-            started.with_context(|| method.to_string())?;
+            self.programs.check(method)?;
         }
         let journal = Mutex::new(Journal::open(&self.folder, &stamp(), &[])?);
         let steps = self.families.iter().map(|f| self.values(f).len());

@@ -30,6 +30,7 @@ impl<'s> Session<'s> {
         method: Method,
         scene: &'s Scene,
         tolerance: f64,
+        programs: &Programs,
     ) -> io::Result<Option<Self>> {
         let runner = match method {
             Method::Ours(kind, pieces) => {
@@ -47,11 +48,7 @@ impl<'s> Session<'s> {
             Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
                 let setting = Setting::new(method, tolerance);
-                Runner::Guarded(Box::new(Guarded::start(
-                    &Programs::default(),
-                    setting,
-                    meshes,
-                )?))
+                Runner::Guarded(Box::new(Guarded::start(programs, setting, meshes)?))
             }
         };
         Ok(Some(Session {

@@ -109,7 +109,10 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     );
     assert_eq!(found, scene.queries.len());
     let method = Method::Ours(SolverKind::default(), Pieces::Least);
-    let mut session = contest.session(method, 1e-6).unwrap().unwrap();
+    let mut session = contest
+        .session(method, 1e-6, &Programs::default())
+        .unwrap()
+        .unwrap();
     let measured = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
     let (cell, trials) = measured.unwrap();
     assert_eq!(cell.rows, scene.queries.len());

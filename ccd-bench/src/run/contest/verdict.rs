@@ -84,6 +84,9 @@ pub fn judge(
 ) -> Judged {
     let near = |time: f64| is_near(referee, query, time, tolerance);
     let plain = Judged::plain;
+    if claim == Claim::Static {
+        return plain(Verdict::NotJudged);
+    }
     match truth {
         Truth::Hit { lo, hi } if hi - lo > WIDEST * query.duration => plain(Verdict::Undecided),
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
@@ -91,7 +94,7 @@ pub fn judge(
             Claim::Contact { time } if near(time) => Verdict::Right,
             Claim::Contact { .. } => Verdict::False,
             Claim::Free => Verdict::Right,
-            Claim::Unresolved { .. } | Claim::Refused => Verdict::Unresolved,
+            Claim::Unresolved { .. } | Claim::Refused | Claim::Static => Verdict::Unresolved,
         }),
         Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => plain(Verdict::Undecided),
     }
@@ -119,6 +122,7 @@ pub fn judge_contact(
             return plain(Verdict::Late);
         }
         Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
+        Claim::Static => return plain(Verdict::NotJudged),
     };
     let off = greater(0.0, greater(lo - time, time - hi)) / duration;
     // The comparison treats NaN as late.

@@ -1,7 +1,7 @@
 //! Time against error: one plane for each scene, with a strip for unsafe methods.
 
 use super::plane::{HEAD, Plane, Point, decades, foot, foot_height, head, marker, series};
-use super::sheet::{Sheet, WIDTH, svg, units};
+use super::sheet::{INK, Sheet, TEXT, WIDTH, font, svg, units};
 use super::style::WARNING;
 use super::{Charts, Drawing, Family, SAME_ROWS, SceneFacts, Shown};
 use crate::run::measured::Cell;
@@ -90,7 +90,9 @@ fn draw_scene(
     };
     let width = panel.dim_in_pixel().0 as i32;
     let (panel, strip) = panel.split_horizontally(width - units(strip));
-    let mut drawn = plane.draw(&panel, scene.name)?;
+    let bold = font(TEXT, FontStyle::Bold);
+    let panel = panel.titled(scene.name, bold.color(&INK))?;
+    let mut drawn = plane.draw(&panel)?;
     for (method, style) in &solid {
         let cells = charts.cells_of(scene.name, method.name);
         let points = cells.iter().map(|cell| Point {
@@ -105,7 +107,8 @@ fn draw_scene(
     }
     // Unsafe methods have a time alone, and a lane each: at 10, 100 and so on of a logarithmic axis.
     let lane = |number: usize| 10f64.powi(number as i32 + 1);
-    let mut beside = plane.frame(&strip, ("unsafe", WARNING), 1.0..lane(hollow.len()))?;
+    let strip = strip.titled("unsafe", bold.color(&WARNING))?;
+    let mut beside = plane.frame(&strip, 1.0..lane(hollow.len()))?;
     beside.plotting_area().fill(&WARNING.mix(0.08))?;
     for (number, (method, style)) in hollow.iter().enumerate() {
         for cell in charts.cells_of(scene.name, method.name) {

@@ -51,8 +51,8 @@ pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
 
 impl Plane {
     /// Draws the axes.
-    pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>, title: &str) -> Result<Drawn<'a, 's>> {
-        let mut drawn = self.frame(sheet, (title, INK), self.x.0.clone())?;
+    pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<Drawn<'a, 's>> {
+        let mut drawn = self.frame(sheet, self.x.0.clone())?;
         drawn
             .configure_mesh()
             .max_light_lines(1)
@@ -74,14 +74,13 @@ impl Plane {
     pub(super) fn frame<'a, 's>(
         &self,
         sheet: &'a Sheet<'s>,
-        (title, colour): (&str, RGBColor),
         x: Range<f64>,
     ) -> Result<Drawn<'a, 's>> {
         let narrow = x != self.x.0;
         Ok(ChartBuilder::on(sheet)
             .margin_top(units(MARGIN))
+            .margin_bottom(units(MARGIN))
             .margin_right(units(MARGIN))
-            .caption(title, font(TEXT, FontStyle::Bold).color(&colour))
             .x_label_area_size(units(38.0))
             .y_label_area_size(if narrow { 0 } else { units(66.0) })
             .build_cartesian_2d(x.log_scale(), self.y.0.clone().log_scale())?)

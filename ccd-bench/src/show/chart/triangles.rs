@@ -54,7 +54,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
         )?;
         let (panel, _) = sheet.split_vertically(units(bottom));
         let (_, panel) = panel.split_vertically(units(HEAD - MARGIN));
-        let mut drawn = plane.draw(&panel, "")?;
+        let mut drawn = plane.draw(&panel)?;
         for (method, style) in &shown {
             let mut lines: BTreeMap<&str, Vec<Point>> = BTreeMap::new();
             for ((shape, triangles), scenes) in &sizes {

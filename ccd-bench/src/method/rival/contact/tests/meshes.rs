@@ -4,8 +4,8 @@ use super::super::*;
 use crate::method::rival::Placement;
 use crate::method::rival::screw;
 use crate::method::rival::tests::samples::{Samples, distance};
-use crate::scene::Shots;
 use crate::scene::model::Model;
+use crate::scene::tests::shots::Shots;
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -56,7 +56,7 @@ fn judge(queries: &[Motions], tolerance: f64) -> usize {
                 hits += 1;
             }
             Claim::Free => assert_eq!(crossing, None, "missed"),
-            Claim::Unresolved { .. } | Claim::Refused => panic!("{reply:?}"),
+            claim => panic!("{claim:?}"),
         }
     }
     hits
