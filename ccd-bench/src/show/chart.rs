@@ -18,7 +18,7 @@ mod style;
 mod tests;
 mod triangles;
 
-pub use heat_map::{HeatCell, HeatKind, HeatMap, HeatRow};
+pub use heat_map::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 
 use crate::run::measured::Cell;
 use anyhow::{Result, ensure};

@@ -1,6 +1,7 @@
 //! The table of truths.
 
 use super::Truth;
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 /// The columns, in order. The last one holds the reason why a row of motions cannot be judged.
@@ -14,19 +15,25 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 pub struct TruthRow {
     /// The name of the query.
     pub id: String,
-    status: Status,
+    /// The kind of its truth.
+    pub status: Status,
     lo: f64,
     hi: f64,
 }
 
 /// The kind of a [`Truth`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
-enum Status {
+pub enum Status {
+    /// The kind of [`Truth::Hit`].
     Hit,
+    /// The kind of [`Truth::Free`].
     Free,
+    /// The kind of [`Truth::Start`].
     Initial,
+    /// The kind of [`Truth::Graze`].
     Graze,
+    /// The kind of [`Truth::Undecided`].
     Undecided,
 }
 
@@ -41,6 +48,15 @@ impl TruthRow {
             Truth::Undecided { lo } => (Status::Undecided, lo, duration),
         };
         TruthRow { id, status, lo, hi }
+    }
+
+    /// Returns the width of the bracket of a hit, 0 for others.
+    pub fn width(&self) -> f64 {
+        if self.status == Status::Hit {
+            self.hi - self.lo
+        } else {
+            0.0
+        }
     }
 
     /// Returns the truth.

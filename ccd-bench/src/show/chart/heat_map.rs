@@ -10,27 +10,18 @@ use plotters::style::text_anchor::HPos;
 use plotters::style::{FontTransform, RGBColor, WHITE};
 
 /// A heat map of families and methods.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct HeatMap {
     /// The quantity of the map.
-    pub kind: HeatKind,
+    pub kind: &'static HeatKind,
     /// The names of the methods.
     pub methods: Vec<String>,
     /// The families.
     pub rows: Vec<HeatRow>,
 }
 
-/// The quantity of a map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HeatKind {
-    /// The reach of each method in each family: cells [`HeatCell::Reach`].
-    Reach,
-    /// The growth of the cost: cells [`HeatCell::Growth`].
-    Growth,
-}
-
 /// One family.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct HeatRow {
     /// The name of the family.
     pub name: String,
@@ -40,24 +31,9 @@ pub struct HeatRow {
     pub cells: Vec<Option<HeatCell>>,
 }
 
-/// One method on one family.
-#[derive(Clone, Debug, PartialEq)]
-pub enum HeatCell {
-    /// The reach of the method.
-    Reach {
-        /// The worst verdict.
-        worst: Verdict,
-        /// The share of the values, from the easiest, before the first wrong one.
-        share: f64,
-        /// The first value with the worst verdict; empty if all are right.
-        limit: String,
-    },
-    /// The largest cost of a step, as a multiple of that of the easiest one.
-    Growth(f64),
-}
-
-/// The texts of a map.
-struct Words {
+/// The quantity of a map, in words.
+#[derive(Debug)]
+pub struct HeatKind {
     name: &'static str,
     title: &'static str,
     /// The lines of the remark.
@@ -65,7 +41,8 @@ struct Words {
     legend: &'static [(&'static str, RGBColor)],
 }
 
-const REACH: Words = Words {
+/// The reach of each method in each family: cells of [`HeatCell::reach`].
+pub const REACH: &HeatKind = &HeatKind {
     name: "stability",
     title: "How far each method follows each family: bluer is better",
     remark: [
@@ -82,7 +59,8 @@ const REACH: Words = Words {
     ],
 };
 
-const GROWTH: Words = Words {
+/// The growth of the cost: cells of [`HeatCell::growth`].
+pub const GROWTH: &HeatKind = &HeatKind {
     name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
     remark: [
@@ -128,58 +106,43 @@ const FALSE: RGBColor = COLOURS[4];
 const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
-/// The style of a cell.
-struct CellStyle {
+/// One method on one family: a colour, two lines of text, and a bar.
+#[derive(Clone, Debug)]
+pub struct HeatCell {
     fill: RGBColor,
     ink: RGBColor,
-    /// Two lines of text.
     lines: [String; 2],
     /// The length of the bar, as a share of the cell's width.
     bar: f64,
 }
 
-impl HeatKind {
-    fn words(self) -> &'static Words {
-        match self {
-            HeatKind::Reach => &REACH,
-            HeatKind::Growth => &GROWTH,
+impl HeatCell {
+    /// Returns the cell of the reach of a method: its worst verdict, the share of the values, from the easiest, before
+    /// the first wrong one, and the first value with the worst verdict, empty if all are right.
+    pub fn reach(worst: Verdict, share: f64, limit: String) -> Self {
+        let (fill, word, ink) = look_of(worst);
+        HeatCell {
+            fill,
+            ink,
+            lines: [word.to_owned(), limit],
+            bar: share,
         }
     }
-}
 
-impl HeatCell {
-    fn style(&self) -> CellStyle {
-        match self {
-            HeatCell::Reach {
-                worst,
-                share,
-                limit,
-            } => {
-                let (fill, word, ink) = look_of(*worst);
-                CellStyle {
-                    fill,
-                    ink,
-                    lines: [word.to_owned(), limit.clone()],
-                    bar: *share,
-                }
-            }
-            &HeatCell::Growth(factor) => {
-                let darkness = [3.0, 30.0, 1000.0]
-                    .iter()
-                    .filter(|&&most| factor > most)
-                    .count();
-                let number = match factor {
-                    ..9.95 => format!("{factor:.1}"),
-                    ..99_999.0 => format!("{factor:.0}"),
-                    _ => format!("{factor:.0e}"),
-                };
-                CellStyle {
-                    fill: GROWN[darkness],
-                    ink: if darkness < 2 { INK } else { WHITE },
-                    lines: [String::new(), number],
-                    bar: 0.0,
-                }
-            }
+    /// Returns the cell of the largest cost of a step, as a multiple of that of the easiest one.
+    pub fn growth(factor: f64) -> Self {
+        let steps = [3.0, 30.0, 1000.0].iter();
+        let darkness = steps.filter(|&&most| factor > most).count();
+        let number = match factor {
+            ..9.95 => format!("{factor:.1}"),
+            ..99_999.0 => format!("{factor:.0}"),
+            _ => format!("{factor:.0e}"),
+        };
+        HeatCell {
+            fill: GROWN[darkness],
+            ink: if darkness < 2 { INK } else { WHITE },
+            lines: [String::new(), number],
+            bar: 0.0,
         }
     }
 }
@@ -191,9 +154,8 @@ impl HeatMap {
     /// If the drawing library fails.
     pub fn draw(&self) -> Result<Drawing> {
         let height = TOP + ROW * self.rows.len() as f64 + MARGIN;
-        let words = self.kind.words();
-        let svg = svg(words.title, (WIDTH, height), |sheet| {
-            head(sheet, words)?;
+        let svg = svg(self.kind.title, (WIDTH, height), |sheet| {
+            head(sheet, self.kind)?;
             let format = TextFormat {
                 turn: FontTransform::Rotate270,
                 ..small()
@@ -207,7 +169,7 @@ impl HeatMap {
             }
             Ok(())
         })?;
-        let name = words.name.to_owned();
+        let name = self.kind.name.to_owned();
         Ok(Drawing { name, svg })
     }
 
@@ -230,7 +192,7 @@ impl HeatMap {
         for (column, cell) in row.cells.iter().enumerate() {
             if let Some(cell) = cell {
                 let corner = (self.left(column) + 0.5, top + 0.5);
-                draw_cell(sheet, corner, self.column() - 1.0, &cell.style())?;
+                draw_cell(sheet, corner, self.column() - 1.0, cell)?;
             }
         }
         Ok(())
@@ -245,37 +207,37 @@ fn small() -> TextFormat {
 }
 
 /// Draws title, remark and legend.
-fn head(sheet: &Sheet<'_>, words: &Words) -> Result<()> {
+fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
         ..small()
     };
-    text(sheet, words.title, (MARGIN, 18.0), &title)?;
-    for (line, words) in words.remark.iter().enumerate() {
+    text(sheet, kind.title, (MARGIN, 18.0), &title)?;
+    for (line, words) in kind.remark.iter().enumerate() {
         text(sheet, words, (MARGIN, 38.0 + 14.0 * line as f64), &small())?;
     }
     let (mut left, top) = (MARGIN, 72.0);
-    for &(kind, colour) in words.legend {
+    for &(name, colour) in kind.legend {
         rect(sheet, (left, top), (12.0, 12.0), colour)?;
-        text(sheet, kind, (left + 17.0, top + 6.0), &small())?;
-        left += 34.0 + text_width(kind, SMALL);
+        text(sheet, name, (left + 17.0, top + 6.0), &small())?;
+        left += 34.0 + text_width(name, SMALL);
     }
     Ok(())
 }
 
 /// Draws a cell, given by its upper left corner and its width.
-fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, style: &CellStyle) -> Result<()> {
+fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW - 1.0;
-    rect(sheet, (x, y), (width, height), style.fill)?;
-    let bar = (width * style.bar, BAR);
+    rect(sheet, (x, y), (width, height), cell.fill)?;
+    let bar = (width * cell.bar, BAR);
     rect(sheet, (x, y + height - BAR), bar, RIGHT)?;
     let format = TextFormat {
         size: SMALLEST,
-        colour: style.ink,
+        colour: cell.ink,
         across: HPos::Center,
         ..TextFormat::default()
     };
-    for (line, down) in style.lines.iter().zip([5.0, 13.5]) {
+    for (line, down) in cell.lines.iter().zip([5.0, 13.5]) {
         text(sheet, line, (x + 0.5 * width, y + down), &format)?;
     }
     Ok(())
