@@ -147,10 +147,22 @@ impl Guarded {
         setting: Setting,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
-        let program = programs.program_of(setting.method)?;
-        let mut guarded = Guarded::with_program(program, setting, meshes)?;
+        let mut guarded = Guarded::new(programs, setting, meshes)?;
         guarded.running()?;
         Ok(guarded)
+    }
+
+    /// Prepares a method on two meshes. The first query starts it.
+    ///
+    /// # Errors
+    /// If the meshes cannot be written, or the method has no program.
+    pub fn new(
+        programs: &Programs,
+        setting: Setting,
+        meshes: [&TriangleMesh; 2],
+    ) -> io::Result<Self> {
+        let program = programs.program_of(setting.method)?;
+        Guarded::with_program(program, setting, meshes)
     }
 
     /// Prepares a method that runs another program with the command `answer`. The first query starts it.
@@ -170,14 +182,12 @@ impl Guarded {
         })
     }
 
-    /// Restarts the method at another tolerance, with the same meshes.
-    ///
-    /// # Errors
-    /// Those of [`Guarded::start`].
-    pub fn restart_with(&mut self, tolerance: f64) -> io::Result<()> {
-        self.setting.tolerance = tolerance;
-        self.process = None;
-        self.running().map(|_| ())
+    /// Sets the tolerance; the next query restarts the method if it is another one.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        if self.setting.tolerance != tolerance {
+            self.setting.tolerance = tolerance;
+            self.process = None;
+        }
     }
 
     /// Runs one query. A process that was stopped or has died is restarted first; that is not timed.

@@ -13,10 +13,10 @@ pub use session::Session;
 pub use truths::Truths;
 pub use verdict::{Judged, Verdict, is_near, judge, judge_contact, judge_outcome};
 
-use crate::method::guarded::{Programs, QueryOutcome};
+use crate::method::MotionKind;
+use crate::method::guarded::QueryOutcome;
 use crate::method::rival::screw;
 use crate::method::solver::Claim;
-use crate::method::{Method, MotionKind};
 use crate::run::measured::{Cell, Trial};
 use crate::scene::Scene;
 use crate::truth::{Referee, Surface};
@@ -101,28 +101,6 @@ impl<'s> Contest<'s> {
         rows.take(most).collect()
     }
 
-    /// Opens a session of a method, or returns `None` if the method does not support the scene.
-    ///
-    /// # Errors
-    /// If a peer cannot be started.
-    pub fn session(
-        &self,
-        method: Method,
-        tolerance: f64,
-        programs: &Programs,
-    ) -> Result<Option<Session<'s>>> {
-        Session::open(method, self.scene, tolerance, programs).with_context(not_started(method))
-    }
-
-    /// Sets the tolerance of a session.
-    ///
-    /// # Errors
-    /// If a peer cannot be restarted.
-    pub fn adjust(&self, session: &mut Session<'_>, tolerance: f64) -> Result<()> {
-        let failed = not_started(session.method());
-        session.set_tolerance(tolerance).with_context(failed)
-    }
-
     /// Runs a method on the queries, and judges its answers. Returns `None` if it can be asked none of the queries.
     ///
     /// # Errors
@@ -130,13 +108,15 @@ impl<'s> Contest<'s> {
     pub fn run(
         &self,
         session: &mut Session<'_>,
+        tolerance: f64,
         allowance: &Allowance,
         truths: &Truths,
     ) -> Result<Option<(Cell, Vec<Trial>)>> {
-        let (method, tolerance) = (session.method(), session.tolerance());
+        let method = session.method();
         let queries = self.queries(method.motion_kind());
         let order = self.order(allowance.rows);
-        let prepared = session.prepare(order.iter().map(|&r| &queries[r]), allowance.preparation);
+        let asked_for = order.iter().map(|&row| &queries[row]);
+        let prepared = session.prepare(asked_for, tolerance, allowance.preparation);
         let mut asked: Vec<(usize, QueryOutcome)> = Vec::new();
         let start = Instant::now();
         for &row in &order[..prepared] {
@@ -144,8 +124,8 @@ impl<'s> Contest<'s> {
             if start.elapsed() > allowance.cell && enough {
                 break;
             }
-            let answered = session.ask(&queries[row], allowance.patience);
-            let answered = answered.with_context(not_started(method))?;
+            let answered = session.ask(&queries[row], tolerance, allowance.patience);
+            let answered = answered.with_context(|| format!("{method} cannot be started"))?;
             if answered.claim() != Some(Claim::Refused) {
                 asked.push((row, answered));
             }
@@ -179,10 +159,6 @@ impl<'s> Contest<'s> {
     pub fn scene(&self) -> &'s Scene {
         self.scene
     }
-}
-
-fn not_started(method: Method) -> impl Fn() -> String {
-    move || format!("{method} cannot be started")
 }
 
 /// Summarises the trials of one method on one scene, at least one.

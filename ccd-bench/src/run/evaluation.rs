@@ -2,7 +2,7 @@
 
 use crate::method::guarded::Programs;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{Allowance, Contest, Journal, Truths, program_stamp};
+use crate::run::contest::{Allowance, Contest, Journal, Session, Truths, program_stamp};
 use crate::scene::{Listing, Models, Pieces, Scene, SceneBody};
 use crate::show::chart::PAPER_TOLERANCE;
 use anyhow::Result;
@@ -124,14 +124,13 @@ impl Plan {
                     continue;
                 }
                 progress.say(&format!("{scene}: {name}, {tolerance:e}"));
-                match &mut session {
-                    None => session = contest.session(method, tolerance, &self.programs)?,
-                    Some(session) => contest.adjust(session, tolerance)?,
+                if session.is_none() {
+                    session = Session::open(method, contest.scene(), &self.programs)?;
                 }
                 let Some(session) = &mut session else {
                     continue;
                 };
-                if let Some((cell, trials)) = contest.run(session, &allowance, truths)? {
+                if let Some((cell, trials)) = contest.run(session, tolerance, &allowance, truths)? {
                     journal.add(cell, trials)?;
                 }
             }

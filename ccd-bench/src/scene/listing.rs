@@ -6,6 +6,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::ValueEnum;
 use rigid_ccd::table::motions::{MotionTable, Motions};
 use serde::Deserialize;
+use std::ops::Range;
 
 /// The description of a scene.
 #[derive(Clone, Debug, Deserialize)]
@@ -16,15 +17,7 @@ pub struct Listing {
     a: String,
     b: String,
     motions: String,
-    rows: Option<Rows>,
-}
-
-/// A range of rows of a table, counted from 0.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Rows {
-    from: usize,
-    to: usize,
+    rows: Option<Range<usize>>,
 }
 
 #[derive(Deserialize)]
@@ -90,14 +83,9 @@ impl Listing {
         if let Some(error) = table.errors.first() {
             bail!("{error}");
         }
-        let rows = self.rows.unwrap_or(Rows {
-            from: 0,
-            to: table.rows.len(),
-        });
-        let rows = table
-            .rows
-            .get(rows.from..rows.to)
-            .with_context(|| format!("rows {} to {}", rows.from, rows.to))?;
+        let range = self.rows.clone().unwrap_or(0..table.rows.len());
+        let rows = table.rows.get(range.clone());
+        let rows = rows.with_context(|| format!("rows {} to {}", range.start, range.end))?;
         Ok(rows.iter().map(|(_, query)| query.clone()).collect())
     }
 }

@@ -157,11 +157,13 @@ pub(super) fn ribbon(
     TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
-/// Returns open squares across z at two heights.
-pub(super) fn stacked(half_side: f64, heights: [f64; 2]) -> Result<TriangleMesh, MeshError> {
-    let sheet = sheet(half_side)?;
-    let [low, high] = heights.map(|z| sheet.transformed(DAffine3::from_translation(z * DVec3::Z)));
-    TriangleMesh::merge([&low?, &high?])
+/// Returns copies of an open square across z, one at each height.
+pub(super) fn stacked(
+    sheet: &TriangleMesh,
+    heights: impl Iterator<Item = f64>,
+) -> Result<TriangleMesh, MeshError> {
+    let sheets = heights.map(|z| sheet.transformed(DAffine3::from_translation(z * DVec3::Z)));
+    TriangleMesh::merge(&sheets.collect::<Result<Vec<_>, _>>()?)
 }
 
 /// Returns the wide box of [`slab`] with a vertex on its top close to the diagonal, so that one of the three triangles
@@ -224,12 +226,12 @@ pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
 
 /// Returns open squares across z, the highest at z = 0, the lowest at z = −0.5.
 pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
+    let square = Plate {
+        half_side: 1.0,
+        squares: 1,
+    };
     let step = 0.5 / f64::from(count);
-    let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
-    let square = |k: u32| corners.map(|(x, y)| dvec3(x, y, -step * f64::from(k)));
-    let vertices: Vec<DVec3> = (0..count).flat_map(square).collect();
-    let faces = (0..count).flat_map(|k| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|v| 4 * k + v)));
-    TriangleMesh::new(vertices, &faces.collect::<Vec<_>>())
+    stacked(&square.mesh()?, (0..count).map(|k| -step * f64::from(k)))
 }
 
 /// Returns a mesh with some of its faces repeated, half of them reversed, and as many degenerate faces.

@@ -4,6 +4,7 @@ use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::solver::{Solver, TimedReply, timed};
 use crate::method::{Method, Ours};
+use crate::run::evaluation::USUAL_TOLERANCE;
 use crate::scene::Scene;
 use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;
@@ -14,7 +15,6 @@ use std::time::{Duration, Instant};
 /// A method that is ready for queries about one scene.
 pub struct Session<'s> {
     method: Method,
-    tolerance: f64,
     runner: Runner<'s>,
 }
 
@@ -26,12 +26,10 @@ enum Runner<'s> {
 
 impl<'s> Session<'s> {
     /// Opens a session, or returns `None` if the method does not support the scene.
-    pub(super) fn open(
-        method: Method,
-        scene: &'s Scene,
-        tolerance: f64,
-        programs: &Programs,
-    ) -> io::Result<Option<Self>> {
+    ///
+    /// # Errors
+    /// If a peer cannot be prepared.
+    pub fn open(method: Method, scene: &'s Scene, programs: &Programs) -> io::Result<Option<Self>> {
         let runner = match method {
             Method::Ours(kind, pieces) => {
                 let too_many = scene.pairs() > MOST_PAIRS_FOR_NAIVE;
@@ -47,15 +45,11 @@ impl<'s> Session<'s> {
             }
             Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
-                let setting = Setting::new(method, tolerance);
-                Runner::Guarded(Box::new(Guarded::start(programs, setting, meshes)?))
+                let setting = Setting::new(method, USUAL_TOLERANCE);
+                Runner::Guarded(Box::new(Guarded::new(programs, setting, meshes)?))
             }
         };
-        Ok(Some(Session {
-            method,
-            tolerance,
-            runner,
-        }))
+        Ok(Some(Session { method, runner }))
     }
 
     /// Returns the method.
@@ -63,28 +57,12 @@ impl<'s> Session<'s> {
         self.method
     }
 
-    /// Returns the tolerance of the answers.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
-    /// Sets the tolerance.
-    ///
-    /// # Errors
-    /// If a peer's process does not restart.
-    pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
-        self.tolerance = tolerance;
-        match &mut self.runner {
-            Runner::InProcess(_) => Ok(()),
-            Runner::Guarded(guarded) => guarded.restart_with(tolerance),
-        }
-    }
-
     /// Runs some queries for a limited time, for solvers that prepare pieces on first use. Returns the number of
     /// prepared queries.
     pub(super) fn prepare<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Motions>,
+        tolerance: f64,
         time: Duration,
     ) -> usize {
         let start = Instant::now();
@@ -94,7 +72,7 @@ impl<'s> Session<'s> {
             {
                 let prepared = queries.take_while(|_| start.elapsed() < time);
                 prepared
-                    .map(|query| solver.answer(query, self.tolerance))
+                    .map(|query| solver.answer(query, tolerance))
                     .count()
             }
             _ => queries.len(),
@@ -105,13 +83,21 @@ impl<'s> Session<'s> {
     ///
     /// # Errors
     /// If a peer's process does not restart.
-    pub(super) fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
+    pub(super) fn ask(
+        &mut self,
+        query: &Motions,
+        tolerance: f64,
+        patience: Duration,
+    ) -> io::Result<QueryOutcome> {
         match &mut self.runner {
             Runner::InProcess(solver) => {
-                let TimedReply { reply, micros } = timed(solver.as_mut(), query, self.tolerance);
+                let TimedReply { reply, micros } = timed(solver.as_mut(), query, tolerance);
                 Ok(QueryOutcome::Answered { reply, micros })
             }
-            Runner::Guarded(guarded) => guarded.ask(query, patience),
+            Runner::Guarded(guarded) => {
+                guarded.set_tolerance(tolerance);
+                guarded.ask(query, patience)
+            }
         }
     }
 }

@@ -1,4 +1,6 @@
 use super::*;
+use crate::method::Method;
+use crate::method::guarded::Programs;
 use crate::method::solver::Claim;
 use crate::scene::model::Board;
 use crate::scene::{Models, Pieces, listings};
@@ -109,11 +111,10 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     );
     assert_eq!(found, scene.queries.len());
     let method = Method::Ours(SolverKind::default(), Pieces::Least);
-    let mut session = contest
-        .session(method, 1e-6, &Programs::default())
-        .unwrap()
-        .unwrap();
-    let measured = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
+    let session = Session::open(method, &scene, &Programs::default());
+    let mut session = session.unwrap().unwrap();
+    let measured = contest.run(&mut session, 1e-6, &EVERYTHING, &truths);
+    let measured = measured.unwrap();
     let (cell, trials) = measured.unwrap();
     assert_eq!(cell.rows, scene.queries.len());
     assert_eq!(trials.len(), cell.rows);

@@ -1,14 +1,16 @@
 //! Judges a claim against the truth.
 
 use crate::method::guarded::QueryOutcome;
+use crate::method::name_of;
 use crate::method::solver::{Claim, Reply};
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
+use clap::ValueEnum;
 use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
 /// The judgement of a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Verdict {
     /// The claim is correct.
     Right,
@@ -25,12 +27,14 @@ pub enum Verdict {
     /// The method does not support the query or its bodies.
     Refused,
     /// The query exceeded the time limit and was stopped.
+    #[value(name = "cut off")]
     CutOff,
     /// The peer's process ended instead of answering.
     Died,
     /// The truth is not known well enough.
     Undecided,
     /// The reply is no answer to the query, such as a single distance measured for comparison.
+    #[value(name = "not judged")]
     NotJudged,
 }
 
@@ -142,18 +146,6 @@ pub fn judge_contact(
 
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Verdict::Right => "right",
-            Verdict::Late => "late",
-            Verdict::Missed => "missed",
-            Verdict::False => "false",
-            Verdict::Early => "early",
-            Verdict::Unresolved => "unresolved",
-            Verdict::Refused => "refused",
-            Verdict::CutOff => "cut off",
-            Verdict::Died => "died",
-            Verdict::Undecided => "undecided",
-            Verdict::NotJudged => "not judged",
-        })
+        f.pad(&name_of(self))
     }
 }

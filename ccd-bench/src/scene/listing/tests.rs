@@ -27,10 +27,7 @@ fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
 #[test]
 fn missing_data_is_named_in_the_error() {
     let mut listing = listings().unwrap().remove(0);
-    listing.rows = Some(Rows {
-        from: 0,
-        to: 10_000,
-    });
+    listing.rows = Some(0..10_000);
     let make =
         |listing: &Listing| format!("{:#}", listing.make(&mut Models::default()).unwrap_err());
     listing.a = "knot216".to_owned();

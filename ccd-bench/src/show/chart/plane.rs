@@ -6,7 +6,7 @@ use super::style::{MARKER, MethodStyle};
 use anyhow::Result;
 use ccd_core::order::{greater, lesser};
 use plotters::coord::combinators::LogCoord;
-use plotters::element::DashedPathElement;
+use plotters::element::{ComposedElement, DashedPathElement};
 use plotters::prelude::*;
 use std::ops::Range;
 
@@ -117,11 +117,7 @@ pub(super) fn marker(
     is_lower_bound: bool,
     style: &MethodStyle,
 ) -> Result<()> {
-    let (corners, closed) = outline(style);
-    let marker = EmptyElement::at(at)
-        + Polygon::new(corners, inside(style))
-        + PathElement::new(closed, style.pen(13));
-    drawn.draw_series([marker])?;
+    drawn.draw_series([glyph(at, style)])?;
     if is_lower_bound {
         let arrow = [
             (0.0, MARKER),
@@ -136,17 +132,19 @@ pub(super) fn marker(
     Ok(())
 }
 
-fn inside(style: &MethodStyle) -> ShapeStyle {
-    let colour = if style.is_unsafe { WHITE } else { style.colour };
-    colour.filled()
+/// Returns the marker of a method at a position.
+fn glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
+    let corners = style.corners();
+    let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
+    let inside = if style.is_unsafe { WHITE } else { style.colour };
+    EmptyElement::at(at)
+        + Polygon::new(corners, inside.filled())
+        + PathElement::new(closed, style.pen(13))
 }
 
-/// Returns the corners of a marker, and the same as a closed line.
-fn outline(style: &MethodStyle) -> (Vec<(i32, i32)>, Vec<(i32, i32)>) {
-    let corners = style.corners();
-    let closed = corners.iter().chain(corners.first()).copied().collect();
-    (corners, closed)
-}
+/// A marker, its corners relative to its position.
+type Glyph<'s, C> =
+    ComposedElement<C, SVGBackend<'s>, Polygon<(i32, i32)>, PathElement<(i32, i32)>>;
 
 /// Draws a chart's title, and the line below it.
 pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()> {
@@ -179,11 +177,7 @@ pub(super) fn foot(
         let line = vec![(from, units(middle)), (to, units(middle))];
         let (dash, gap) = style.dash.unwrap_or((300, 0));
         sheet.draw(&DashedPathElement::new(line, dash, gap, style.pen(15)))?;
-        let (corners, closed) = outline(style);
-        let marker = EmptyElement::at((at, units(middle)))
-            + Polygon::new(corners, inside(style))
-            + PathElement::new(closed, style.pen(13));
-        sheet.draw(&marker)?;
+        sheet.draw(&glyph((at, units(middle)), style))?;
         let mark = if style.is_unsafe { " (unsafe)" } else { "" };
         let label = format!("{}: {}{mark}", method.family.title(), method.name);
         text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;

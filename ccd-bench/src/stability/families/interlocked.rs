@@ -83,7 +83,7 @@ fn threads(turns: f64, play: f64) -> Result<Step> {
 fn between(gap: f64) -> Result<Step> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free(
-        Step::new(sheet(1.0)?, stacked(1.0, [-gap, gap])?),
+        Step::new(sheet(1.0)?, stacked(&sheet(1.0)?, [-gap, gap].into_iter())?),
         gap,
         sliding,
     )
