@@ -10,17 +10,17 @@ use std::ops::Range;
 
 /// Straight flights from somewhere around a resting body to the far side of it.
 #[derive(Clone, Debug)]
-pub struct Shots {
+pub(crate) struct Shots {
     /// The number of flights.
-    pub count: usize,
+    pub(crate) count: usize,
     /// The number of the first flights, which do not turn.
-    pub translations: usize,
+    pub(crate) translations: usize,
     /// The range of starting distances from the resting body's origin.
-    pub distance: Range<f64>,
+    pub(crate) distance: Range<f64>,
     /// The largest distance of a flight's path from that origin.
-    pub aside: f64,
+    pub(crate) aside: f64,
     /// The random seed.
-    pub seed: u64,
+    pub(crate) seed: u64,
 }
 
 impl Shots {
@@ -28,7 +28,7 @@ impl Shots {
     ///
     /// # Errors
     /// If a distance is not finite.
-    pub fn queries(&self) -> Result<Vec<Motions>, InputError> {
+    pub(crate) fn queries(&self) -> Result<Vec<Motions>, InputError> {
         let mut rng = Pcg64::seed_from_u64(self.seed);
         (0..self.count)
             .map(|row| {
@@ -53,7 +53,7 @@ impl Shots {
 ///
 /// # Errors
 /// None: all motions are finite.
-pub fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, InputError> {
+pub(crate) fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, InputError> {
     let mut rng = Pcg64::seed_from_u64(seed);
     (0..count)
         .map(|row| {
@@ -81,7 +81,7 @@ fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
 }
 
 /// Returns a uniformly distributed point of the unit sphere.
-pub(crate) fn unit_vector(rng: &mut impl Rng) -> DVec3 {
+fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     let z: f64 = rng.random_range(-1.0..1.0);
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
     let radius = (1.0 - z * z).sqrt();
