@@ -1,8 +1,8 @@
-//! Finds out whether the compiler's LLVM is of those that miscompile AVX-512.
+//! Detects compilers whose LLVM miscompiles AVX-512, and sets the cfg `faulty_avx512` for them.
 
 use std::process::Command;
 
-/// The first LLVM that is free of it.
+/// The first major version of LLVM that compiles AVX-512 correctly.
 const MENDED: u32 = 23;
 
 fn main() {
@@ -14,7 +14,7 @@ fn main() {
     }
 }
 
-/// The major version of the LLVM behind rustc.
+/// Returns the major version of the LLVM in rustc; `None` if it is unknown.
 fn llvm() -> Option<u32> {
     let rustc = std::env::var_os("RUSTC")?;
     let told = Command::new(rustc).arg("-vV").output().ok()?;

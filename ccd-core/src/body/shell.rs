@@ -1,4 +1,4 @@
-//! The connected parts of a body.
+//! The connected parts of a body's surface.
 
 use super::pieces::Pieces;
 use glam::DVec3;
@@ -45,7 +45,7 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     shells
 }
 
-/// Joins points with the same number at the same place. Returns the sets, and the first point of each.
+/// Joins points with equal number and equal position. Returns the sets, and the first point of each.
 ///
 /// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
 /// numbers: points count as equal by their coordinates.
@@ -79,7 +79,7 @@ fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
     (Parts(parts), distinct)
 }
 
-/// Joins equal points.
+/// Joins points at the same position.
 fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
@@ -98,7 +98,7 @@ fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
     }
 }
 
-/// Disjoint sets: every element stores another one of its set, and a root stores itself.
+/// A union-find forest: every element stores another one of its set, and a root stores itself.
 struct Parts(Vec<u32>);
 
 impl Parts {
@@ -111,7 +111,8 @@ impl Parts {
         k
     }
 
-    /// Joins the sets of two elements. Returns whether the sets were different.
+    /// Joins the sets of two elements, and returns whether they were different. Returns whether the sets were
+    /// different.
     fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;

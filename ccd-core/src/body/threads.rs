@@ -1,16 +1,16 @@
-//! Parallel work on all cores, with a result that does not depend on their number.
+//! Parallel loops over all cores, whose results do not depend on the number of threads.
 
 use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// The least number of elements of a list, and of nodes of a subtree, that are worth a thread.
+/// The least number of list elements or subtree nodes for which a second thread is started.
 pub(super) const WORTHWHILE: usize = 1024;
 
 /// The number of consecutive elements that one thread takes at a time.
 const SHARE: usize = 64;
 
-/// Calls a function with every element and its index. Each thread has its own workspace.
+/// Calls a function with every element and its index, in parallel. Each thread has its own workspace.
 pub(super) fn for_each<T: Send, W: Clone + Send>(
     list: &mut [T],
     workspace: &W,
@@ -57,7 +57,7 @@ fn for_each_in<T: Send, W: Clone + Send>(
     });
 }
 
-/// Calls two functions, in parallel if the work is worth a thread and there is one.
+/// Calls two functions, in parallel if there is enough work and a free thread.
 pub(super) fn join<A: Send, B>(
     size: usize,
     aside: impl FnOnce() -> A + Send,

@@ -1,17 +1,17 @@
-//! Binary trees of boxes over the faces of each piece, to find the near faces of two pieces.
+//! Trees of boxes over the faces of pieces, to find the near faces of two pieces.
 
 use super::skin::Skin;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// The trees over the faces of one body's pieces. Each tree is built at the first request for its piece: a piece of
+/// The box trees over the faces of one body's pieces. Each tree is built when its piece is first requested: a piece of
 /// many faces may be near many others, and is sorted only once.
 pub(super) struct FaceTrees {
     nodes: Vec<Boxed>,
     roots: HashMap<u32, u32>,
 }
 
-/// Some faces in one box along the axes of A's frame, rounding radius included.
+/// An axis-aligned box in A's frame that contains faces, rounding radius included.
 #[derive(Clone, Copy)]
 struct Boxed {
     low: DVec3,
@@ -22,12 +22,11 @@ struct Boxed {
 #[derive(Clone, Copy)]
 enum Below {
     Face(u32),
-    /// An inner node with two children: the next node in the list, and the node with this index.
+    /// An inner node: its first child is the next node in the list, its second child has this index.
     Halves(u32),
 }
 
-/// The pairs of faces whose boxes are nearer than `reach`, and the number of pairs of boxes that may be visited to
-/// find them.
+/// The pairs of near faces that a search finds, and its remaining budget.
 pub(super) struct NearFaces {
     pub(super) pairs: Vec<[u32; 2]>,
     pub(super) budget: u64,
@@ -35,7 +34,8 @@ pub(super) struct NearFaces {
 }
 
 impl NearFaces {
-    /// Adds the pairs below two roots. Returns `None` when the budget is spent.
+    /// Adds the pairs of faces below two roots whose boxes are nearer than `reach`. Returns `None` if the budget is
+    /// spent.
     pub(super) fn among(&mut self, trees: &[FaceTrees; 2], roots: [u32; 2]) -> Option<()> {
         let mut stack = vec![roots];
         while let Some([at_a, at_b]) = stack.pop() {
@@ -59,7 +59,7 @@ impl NearFaces {
     }
 }
 
-/// A tree over all faces of a skin.
+/// A tree of boxes over all faces of a skin.
 pub(super) struct FaceTree(FaceTrees);
 
 impl FaceTree {
@@ -73,7 +73,7 @@ impl FaceTree {
         FaceTree(tree)
     }
 
-    /// Returns the faces with boxes within `reach` of a point.
+    /// Returns the faces whose boxes are within `reach` of a point.
     pub(super) fn near(&self, at: DVec3, reach: f64) -> Vec<u32> {
         let point = Boxed {
             low: at,
@@ -105,7 +105,7 @@ impl FaceTrees {
         }
     }
 
-    /// Returns the root over a piece's faces; `None` for a piece without faces.
+    /// Returns the root of the tree over a piece's faces; `None` if the piece has none.
     pub(super) fn root(&mut self, skin: &mut Skin<'_>, piece: u32) -> Option<u32> {
         if let Some(&root) = self.roots.get(&piece) {
             return Some(root);
@@ -121,7 +121,7 @@ impl FaceTrees {
         &self.nodes[at as usize]
     }
 
-    /// Adds a node around some faces, and the nodes below it, by halving. The depth is the logarithm of the number of
+    /// Adds a node for some faces, and recursively the nodes below it. The depth is the logarithm of the number of
     /// faces.
     fn add(&mut self, faces: &mut [Boxed]) -> Option<u32> {
         let around = faces.iter().copied().reduce(Boxed::around)?;
@@ -146,7 +146,7 @@ impl Boxed {
         }
     }
 
-    /// Returns the box around both boxes, with the children of the first one.
+    /// Returns the union of two boxes, with the children of the first.
     fn around(self, other: Boxed) -> Boxed {
         Boxed {
             low: self.low.min(other.low),
@@ -166,7 +166,7 @@ impl Boxed {
     }
 }
 
-/// Splits at least two faces into halves, by their middles along the longest side of the box.
+/// Splits two or more faces at the median, along the longest side of their box.
 fn halves(faces: &mut [Boxed], size: DVec3) -> (&mut [Boxed], &mut [Boxed]) {
     let (axis, half) = (size.max_position(), faces.len() / 2);
     let middle = |face: &Boxed| face.low[axis] + face.high[axis];

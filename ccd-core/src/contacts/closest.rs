@@ -1,20 +1,19 @@
-//! Nearest points in closed form: those of a triangle and a point, and those of two crossing edges `[ERICSON05
-//! §5.1]`.
+//! Nearest points in closed form, for a triangle and a point, and for two edges `[ERICSON05 §5.1]`.
 
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// The part of a triangle that contains a point.
+/// The inside, an edge or a corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Corner(usize),
-    /// The edge from this corner to the next one.
+    /// The edge from corner `k` to the next one.
     Edge(usize),
     Inside,
 }
 
-/// Returns the nearest point of a triangle, and the smallest part of the triangle that is as near,
-/// up to `rounding`. The triangle may be a segment or a point.
+/// Returns the nearest point of a triangle, and the smallest part of the triangle that is equally near up to
+/// `rounding`. The triangle may be a segment or a point.
 ///
 /// Even if a weight suffers cancellation, the point is in the triangle, so that its distance is
 /// never too small.
@@ -48,8 +47,8 @@ pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (P
     best
 }
 
-/// Returns the nearest points of two edges if these are inside of both edges, and nearer than either edge's ends by
-/// more than `rounding`. Edges that are parallel, or meet at an end, do not cross.
+/// Returns the nearest points of two edges if both are inside the edges, and nearer than the ends by more than
+/// `rounding`. Edges that are parallel, or meet at an end, do not cross.
 pub(super) fn crossing(e: [DVec3; 2], f: [DVec3; 2], rounding: f64) -> Option<[DVec3; 2]> {
     let (along_e, along_f, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
     let across = along_e.cross(along_f);
@@ -76,7 +75,7 @@ fn same_kind(one: Part, other: Part) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 
-/// Returns the foot of a point on a segment, if the foot is between the ends.
+/// Projects a point onto a segment; `None` if the projection is beyond the ends.
 fn inner_foot(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
     let along = b - a;
     let share = (from - a).dot(along) / along.length_squared();
@@ -84,7 +83,7 @@ fn inner_foot(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
     (share > 0.0 && share < 1.0).then(|| a + share * along)
 }
 
-/// Returns the nearest point of a segment.
+/// Returns the point of a segment that is nearest to `from`.
 fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
     let nearer_end = if from.distance_squared(edge[1]) < from.distance_squared(edge[0]) {
         edge[1]
@@ -94,7 +93,7 @@ fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
     inner_foot(from, edge).unwrap_or(nearer_end)
 }
 
-/// Returns the foot of a point in a triangle's plane, if the foot is inside the triangle.
+/// Projects a point onto a triangle; `None` if the projection is outside the triangle.
 fn inside(from: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let (u, v) = (b - a, c - a);
     let normal = u.cross(v);

@@ -1,4 +1,4 @@
-//! The pairs of features in contact, and the choice of the pairs to report.
+//! Collects the pairs of features in contact, and chooses those to report.
 
 use super::candidate::Candidate;
 use super::closest::{Part, crossing, on_triangle};
@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::cell::LazyCell;
 use std::collections::{HashMap, HashSet};
 
-/// All features found in contact, by the corner, edge or face on each body.
+/// All pairs of features found in contact.
 pub(super) struct Manifold<'a> {
     problem: &'a Problem<'a>,
     skins: [&'a Skin<'a>; 2],
@@ -33,7 +33,7 @@ impl<'a> Manifold<'a> {
         self.found.len()
     }
 
-    /// Adds the contacts of two faces, of A and of B.
+    /// Adds the contacts between a face of A and a face of B.
     pub(super) fn meet(&mut self, faces: [u32; 2]) {
         let [a, b] = self.skins;
         let rounding = self.problem.rounding;
@@ -57,7 +57,7 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// Keeps a pair within reach. Of several places of contact, the nearest is kept.
+    /// Adds a pair if it is within reach. If it is known already, the nearer place of contact is kept.
     fn offer(&mut self, spots: [Spot; 2], points: [DVec3; 2], faces: [u32; 2]) {
         let radius = |k: usize| self.skins[k].face(faces[k]).radius;
         let Problem {
@@ -76,7 +76,7 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// Returns the pairs, nearest first; `a_to_world` is A's frame, relative to the problem's origin.
+    /// Returns the pairs to report, nearest first; `a_to_world` is A's frame, relative to the problem's origin.
     pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
         let covered = self.covered();
         let mut told = HashMap::new();
@@ -106,9 +106,9 @@ impl<'a> Manifold<'a> {
         pairs
     }
 
-    /// Returns whether a point on an edge or corner within a plane is nearest only on the triangle on which it was
-    /// found, while another triangle around it comes nearer elsewhere. Such a point exists only because of the cut
-    /// into triangles: the nearer place makes a pair, or one that is nearer still.
+    /// Returns whether the contact exists only because a flat surface is cut into triangles. Its point is on an edge or
+    /// corner within a plane, and another triangle around it comes nearer elsewhere. That nearer place makes a pair of
+    /// its own.
     fn nearer_beside(&self, spots: [Spot; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
@@ -120,8 +120,8 @@ impl<'a> Manifold<'a> {
         })
     }
 
-    /// Returns the pairs that are covered by others: a corner and a boundary part of a face or an edge, if the
-    /// corner's foot inside that face or edge is as near.
+    /// Returns the pairs that follow from others, and need no report. Such a pair is a corner and a boundary part of a
+    /// face or edge, if the corner's projection inside that face or edge is equally near.
     fn covered(&self) -> HashSet<[Spot; 2]> {
         let [a, b] = self.skins;
         let mut covered = HashSet::new();
@@ -137,7 +137,7 @@ impl<'a> Manifold<'a> {
     }
 }
 
-/// Returns the spot of a part of a face.
+/// Returns the corner, edge or face of the skin that a part of a triangle is.
 fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
     let corners = skin.face(face).corners;
     match part {
@@ -154,7 +154,7 @@ fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Candidate>, spots: [Spot; 2], can
     }
 }
 
-/// Returns the pairs in an order that does not depend on the order of the map.
+/// Returns the pairs sorted, so that their order does not depend on that of the map.
 fn sorted(pairs: &HashMap<[Spot; 2], Candidate>) -> Vec<([Spot; 2], Candidate)> {
     let mut list: Vec<_> = pairs.iter().map(|(&spots, &it)| (spots, it)).collect();
     list.sort_unstable_by_key(|&(spots, _)| spots);

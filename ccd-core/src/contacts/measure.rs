@@ -1,4 +1,4 @@
-//! The measurement of the distance of two features, checked like every separation.
+//! Bounds the distance of two features, checked like every separation.
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
@@ -12,12 +12,12 @@ use crate::problem::Problem;
 use crate::rounding::is_blurred;
 use glam::DVec3;
 
-/// A spot of A and one of B.
+/// A part of A's surface and one of B's.
 pub(super) type Spots = [Spot; 2];
 
-/// Bounds the distance of two features with known nearest points, in the world's coordinates; `a_to_world` is A's
-/// frame, relative to the problem's origin. If the points are too near for a direction, `common_normals` returns
-/// those of both surfaces at two points.
+/// Bounds the distance of two features with known nearest points, in the world's coordinates. `a_to_world` is A's
+/// frame, relative to the problem's origin. If the points are too near for a direction, `common_normals` returns those
+/// of both surfaces at two points.
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper` for any points: the gap of the features' corners along any axis
@@ -72,7 +72,7 @@ pub(super) fn measure(
     }
 }
 
-/// Returns `min_B n·y − max_A n·x`.
+/// Returns the gap `min_B n·y − max_A n·x` of two features along `n`.
 fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     let from = a[0];
     let highest = a
@@ -86,8 +86,8 @@ fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     lowest - highest
 }
 
-/// Returns the normals of features: those of faces, and that of two crossing edges. The normal of a face is exact to
-/// the last digits, even if the vector to its foot is mostly rounding.
+/// Returns candidate normals: those of faces, and that of two crossing edges. The normal of a face is exact to the last
+/// digits, even if the vector to its foot is mostly rounding.
 fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     let along = |of: &[DVec3; 3]| of[1] - of[0];
     [
@@ -97,8 +97,8 @@ fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     ]
 }
 
-/// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without
-/// an outside it leads from the middle of one piece to the middle of the other.
+/// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without an
+/// outside it leads from the middle of one piece to the middle of the other.
 fn outward(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
     let out = |k: usize| {
         let out = skins[k].outward(spots[k], candidate.faces[k]);

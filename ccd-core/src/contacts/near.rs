@@ -1,4 +1,4 @@
-//! The search for the near pieces of two bodies, and for the near faces of these, by trees.
+//! Finds near pieces of two bodies, and their near faces, by trees.
 
 use super::boxes::{FaceTrees, NearFaces};
 use super::skin::Skin;
@@ -10,8 +10,8 @@ use crate::problem::{Problem, Side};
 use crate::rounding::BOX_F64;
 use glam::DVec3;
 
-/// Returns all pairs of faces, of A and of B, that may be nearer than `reach`; `None` when their search exceeds the
-/// problem's budget, of pairs of nodes or of boxes of faces.
+/// Returns all pairs of a face of A and a face of B that may be nearer than `reach`. Returns `None` if the search
+/// exceeds the problem's budget.
 pub(super) fn near_faces(
     problem: &Problem<'_>,
     skins: &mut [Skin<'_>; 2],
@@ -33,7 +33,7 @@ pub(super) fn near_faces(
     Some(near.pairs)
 }
 
-/// Returns the pairs of pieces whose nodes, on all levels of the trees, may be nearer than `reach`.
+/// Returns the pairs of pieces that may be nearer than `reach`, judged by their nodes on all levels of the trees.
 fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);
@@ -77,17 +77,17 @@ fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     members.first..members.first + members.count
 }
 
-/// The extent of a node, in A's frame.
+/// The bounding volume of a node, in A's frame.
 struct Extent {
     centre: DVec3,
     radius: f64,
-    /// The directions along which the node is thin.
+    /// The unit vectors along which the node is likely to be thin.
     axes: [DVec3; 3],
     shape: Shape,
 }
 
 enum Shape {
-    /// The extent along each axis, from the centre.
+    /// A box, by half its extent along each axis.
     Box([f64; 3]),
     Triangle([DVec3; 3]),
 }
@@ -121,7 +121,7 @@ impl Extent {
         }
     }
 
-    /// Returns the interval that the node occupies along a direction.
+    /// Returns the interval of the node's projection on a direction.
     fn along(&self, n: DVec3) -> [f64; 2] {
         match &self.shape {
             Shape::Box(half) => {
@@ -137,8 +137,8 @@ impl Extent {
     }
 }
 
-/// Returns whether two nodes are certainly farther apart than `reach`: by their balls, along the axes of either, or
-/// along the vector between them. Written so that NaN counts as near.
+/// Returns whether two nodes are certainly farther apart than `reach`. It tries their balls, the axes of either, and
+/// the vector between them. Written so that NaN counts as near.
 fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);

@@ -1,4 +1,4 @@
-//! The surface of a body around its points, by a tree over all faces of its skin.
+//! Finds the shape of a body's surface around its points, by a tree over its triangles.
 
 use super::boxes::FaceTree;
 use super::closest::on_triangle;
@@ -7,7 +7,7 @@ use crate::distance::common_normals::CommonNormals;
 use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
-/// The unpacked part of a body's surface, with a tree to find the faces around a point.
+/// The needed part of a body's surface, with a tree to find the triangles around a point.
 pub(super) struct Surface<'a> {
     skin: &'a Skin<'a>,
     tree: FaceTree,
@@ -36,8 +36,8 @@ impl<'a> Surface<'a> {
         normals
     }
 
-    /// Calls `add` with the vectors from a point to the corners of the faces around it, and with vectors into the
-    /// solid.
+    /// Calls `add` with vectors that describe the surface around a point: to the corners of the faces there, and into
+    /// the solid.
     fn ways_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for face in self.tree.near(at, reach) {
             let (_, nearest) = on_triangle(at, self.skin.triangle(face), 0.0);

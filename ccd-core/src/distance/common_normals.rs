@@ -1,18 +1,18 @@
-//! The common normals of two surfaces: the directions along which they are apart at two of their points.
+//! Finds a common normal of two surfaces at a pair of nearest points.
 
 use crate::math::vector::{across, length, unit};
 use crate::rounding::LEAST_SHARE;
 use glam::DVec3;
 
-/// The common normals of surfaces A and B at a point of each: the unit vectors `n` from A to B in the normal cone of A,
-/// with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes nearer around the two points.
+/// The common normals of surfaces A and B at a point of each. They are the unit vectors `n` from A to B in the normal
+/// cone of A, with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes nearer around the two points.
 /// Each surface is given by its offsets: vectors from its point to the corners of the faces around that point. `n` is a
 /// common normal if no offset of A rises along it, and none of B falls, by more than a slack.
 #[derive(Debug, Default)]
 pub(crate) struct CommonNormals {
-    /// The offsets of A reversed, and those of B: none of them falls along a common normal.
+    /// The offsets of B, and the negated offsets of A. None of them may fall along a common normal.
     ways: Vec<DVec3>,
-    /// The height by which an offset may fall.
+    /// The height by which an offset may fall along a common normal.
     slack: f64,
 }
 
@@ -24,25 +24,26 @@ impl CommonNormals {
         self.slack = slack;
     }
 
-    /// Adds an offset of A.
+    /// Adds a vector from A's point to a point of A's surface around it.
     pub(crate) fn add_a(&mut self, way: DVec3) {
         self.ways.push(-way);
     }
 
-    /// Adds an offset of B.
+    /// Adds a vector from B's point to a point of B's surface around it.
     pub(crate) fn add_b(&mut self, way: DVec3) {
         self.ways.push(way);
     }
 
-    /// Sorts the offsets after the last one was added. The longest ones are the most exact, and come first.
+    /// Sorts the offsets, the longest first. It is to be called after the last offset is added. The longest ones are
+    /// the most exact.
     pub(crate) fn sort(&mut self) {
         let length = |way: &DVec3| way.length_squared();
         self.ways
             .sort_unstable_by(|one, other| length(other).total_cmp(&length(one)));
     }
 
-    /// Returns the common normal that is nearest to a direction, or one near it if there are several; `None` if there
-    /// is no common normal.
+    /// Returns the common normal that is nearest to a direction, or one close to the nearest; `None` if there is no
+    /// common normal.
     pub(crate) fn near(&self, towards: DVec3) -> Option<DVec3> {
         let [x, y, z] = DVec3::AXES;
         // If there is only one common normal, one of these axes is less than 55 degrees from it.
@@ -62,7 +63,8 @@ impl CommonNormals {
         self.nearest(towards).or_else(others)
     }
 
-    /// Like [`CommonNormals::near`], if the vector between the two points is along the normal, up to the slack.
+    /// Like [`CommonNormals::near`], but returns `None` unless the vector `between` the two points is along the normal,
+    /// up to the slack.
     pub(crate) fn along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
         let n = self.near(towards)?;
         let ahead = n.dot(between);
@@ -71,9 +73,9 @@ impl CommonNormals {
         (ahead >= -self.slack && aside <= self.slack).then_some(n)
     }
 
-    /// Returns the unit vector along the projection of a direction on the cone. The offsets that fall along the vector
-    /// are made level one by one, as in linear programs of few unknowns `[SEIDEL91]`. Returns `None` if the direction
-    /// is not distinctly less than a right angle from the cone.
+    /// Projects a direction onto the cone of common normals, and returns the unit vector along the projection. The
+    /// offsets that fall along the vector are made level one by one, as in linear programs of few unknowns
+    /// `[SEIDEL91]`. Returns `None` if the direction is not distinctly less than a right angle from the cone.
     fn nearest(&self, towards: DVec3) -> Option<DVec3> {
         let towards = unit(towards)?;
         let mut best = towards;
@@ -85,7 +87,8 @@ impl CommonNormals {
         Some(best)
     }
 
-    /// Like [`CommonNormals::nearest`], perpendicular to an offset, and for the first `count` of the other ones only.
+    /// Like [`CommonNormals::nearest`], with the result perpendicular to `level`, and for the first `count` offsets
+    /// only.
     fn nearest_across(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
         let level = unit(level)?;
         let mut best = distinct(towards - level * level.dot(towards))?;
@@ -108,10 +111,10 @@ impl CommonNormals {
     }
 }
 
-/// The most offsets for which the memory is kept.
+/// The largest number of offsets for which memory is kept between uses.
 const MOST_KEPT: usize = 1 << 20;
 
-/// Returns the unit vector along a part of a unit vector, if that part is more than rounding.
+/// Returns the unit vector along a component of a unit vector; `None` if the component may be mere rounding.
 fn distinct(part: DVec3) -> Option<DVec3> {
     (length(part) > LEAST_SHARE).then(|| unit(part))?
 }

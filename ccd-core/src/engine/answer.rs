@@ -13,7 +13,7 @@ use crate::settings::StartPolicy;
 use crate::touching_plane::TouchingPlane;
 pub(crate) use given::{contact_of_given, of_given};
 
-/// Searches in order of time, under the query's policy for contacts at the start.
+/// Runs a search that examines pairs in order of time, under the query's policy for contacts at the start.
 ///
 /// Bodies that begin in contact, under the policy `StartPolicy::Leave`, are searched again at half the gap that they
 /// began with. Pairs that part or slide keep more than that gap; pairs that approach do not. If there is no useful
@@ -30,8 +30,8 @@ pub(crate) fn answer<O: DistanceOracle>(
     answer_after(problem, oracle, scratch, as_found, search)
 }
 
-/// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. Bodies that are to
-/// be let go are therefore examined first.
+/// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. If contacts at the
+/// start are to be ignored, the start is therefore examined first.
 pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -45,8 +45,8 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     answer_after(problem, oracle, scratch, at_start, search)
 }
 
-/// Searches under the policy. For bodies that are to be let go, `look` examines the start first, and may return the
-/// answer.
+/// Runs a search under the query's policy for contacts at the start. If these are to be ignored, `look` examines the
+/// start first, and may return the outcome.
 fn answer_after<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -77,7 +77,8 @@ fn answer_after<O: DistanceOracle>(
     .answer()
 }
 
-/// Returns the problem of bodies that touch at the start and are to be let go; `None` for other bodies.
+/// Returns the problem in which the contact at the start is ignored, if the policy asks for that and the bodies touch;
+/// `None` otherwise.
 pub(crate) fn let_go<'a, O: DistanceOracle>(
     problem: &Problem<'a>,
     start: StartPolicy,
@@ -97,7 +98,7 @@ pub(crate) fn let_go<'a, O: DistanceOracle>(
     }
 }
 
-/// The result of a search, with its tolerance and the cost.
+/// The result of a search, with its tolerance and its work.
 pub(crate) struct Searched<T> {
     pub(crate) found: T,
     pub(crate) tolerance: f64,
@@ -114,7 +115,7 @@ impl Searched<Outcome> {
     }
 }
 
-/// Runs a search, and adds its work to the meter. The search returns its result and the tolerance.
+/// Runs a search and counts its work. The search returns its result and the tolerance.
 pub(crate) fn metered<O: DistanceOracle, T>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -137,7 +138,7 @@ pub(crate) fn metered<O: DistanceOracle, T>(
 }
 
 /// Returns the tolerance that an outcome under `StartPolicy::Leave` achieves. Pieces that rest on each other count as
-/// in contact again once they cannot be proven apart, even if their distance is known less exactly than the least
+/// in contact again once they cannot be proven apart. Their distance may then be known less exactly than the least
 /// tolerance.
 pub(crate) fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     match outcome {

@@ -1,4 +1,4 @@
-//! The limits of a query's work, the work done, and the scratch memory.
+//! Counts a query's work, and enforces its limits.
 
 use super::scratch::{Memory, Scratch};
 use crate::answer::{Limit, Stats};
@@ -7,19 +7,19 @@ use crate::tuning::WORK_BETWEEN_LOOKS;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// Counts the work of a query, and ends the query at its limit.
+/// Counts the work of a query, and stops the query at its limit.
 #[derive(Debug)]
 pub(crate) struct Meter {
     pub(crate) stats: Stats,
     pub(crate) scratch: Scratch,
-    /// The time of the deadline; `None` if there is none. No clock is read then.
+    /// The time at which the deadline passes; `None` without a deadline. No clock is read then.
     end: Option<Instant>,
-    /// The work at which the clock and the stop flag are read next; never if there are none.
+    /// The amount of work at which the clock and the stop flag are read next; unreachable if there are none.
     next_look: u64,
 }
 
 impl Meter {
-    /// Starts the meter at the present time.
+    /// Starts counting, and starts the deadline's time.
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         // A deadline that no clock can represent counts as none.
         let end = |deadline| Instant::now().checked_add(deadline);
@@ -36,12 +36,12 @@ impl Meter {
         }
     }
 
-    /// Returns the memory for searches that need lists.
+    /// Returns the scratch memory, and creates it if necessary.
     pub(crate) fn memory(&mut self) -> &mut Memory {
         self.scratch.get_or_insert_default()
     }
 
-    /// Counts a pair that is about to be visited.
+    /// Counts one visit of a pair, and returns an error if a limit is reached.
     #[inline]
     pub(crate) fn visit(&mut self, problem: &Problem<'_>) -> Result<(), Limit> {
         self.stats.iterations += 1;

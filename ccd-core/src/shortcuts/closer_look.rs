@@ -1,4 +1,4 @@
-//! Tighter f64 bounds for single pairs of nodes, beside the bounds for eight pairs in f32.
+//! Tighter bounds in f64 for single pairs of nodes, for which the bounds of eight in f32 are too coarse.
 //!
 //! These bounds are computed only where splits would prove little.
 
@@ -11,12 +11,12 @@ use crate::problem::{Problem, Side};
 use crate::rounding::REACH_F32;
 use crate::tuning::{AXIS_ROUNDS, COARSE_F32, SCREW_AFTER};
 
-/// The tighter bounds that are useful for a query.
+/// Computes tighter bounds for the pairs of a query, as far as they are useful.
 #[derive(Debug)]
 pub(crate) struct CloserLook {
-    /// True if the rounding of gaps between the largest nodes, in f32, is too coarse for the gap to be kept.
+    /// True if f32 is too coarse for the gap to keep between the largest nodes.
     fine: bool,
-    /// The number of splits so far.
+    /// The number of splits in the search so far.
     splits: u64,
     screw: Option<Screw>,
 }
@@ -32,8 +32,8 @@ impl CloserLook {
         }
     }
 
-    /// Removes the pair of least clock, which is `s`, from its siblings, if a later clock is proven for it. Returns
-    /// that clock and the pair, which then waits alone.
+    /// Removes the pair with the least clock `s` from its siblings, if a later clock can be proven for it. Returns that
+    /// clock and the pair, which then waits alone.
     #[inline(always)]
     pub(crate) fn part(
         &self,
@@ -48,7 +48,7 @@ impl CloserLook {
         }
     }
 
-    /// Finishes the pairs of a new split that stay apart for good.
+    /// Marks the pairs of a new split that are proven apart to the end as finished.
     #[inline(always)]
     pub(crate) fn finish(
         &mut self,

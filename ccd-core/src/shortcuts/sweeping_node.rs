@@ -1,4 +1,4 @@
-//! Planes that turn with one of the bodies.
+//! Free times of pairs of nodes by planes that turn with one of the bodies.
 //!
 //! For a fixed plane the full speed of a turning body's far rim counts, however small the other body is. For a plane
 //! that turns with the body it does not count: the body's own extent along the plane's normal is constant, and only
@@ -17,16 +17,16 @@ use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
 use crate::tuning::ATTACHED_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// The node that sweeps towards a plane attached to the other body.
+/// A node of one body in the frame of a plane that turns with the other body.
 struct SweepingNode<L: Simd> {
-    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus the share of the
+    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus a bound for the
     /// points around it.
     rate: f32x8<L>,
     /// The largest distance of the node's points from the turning body's centre.
     distance: f32x8<L>,
-    /// An upper bound of the speeds of the node's points due to its own turning.
+    /// An upper bound of the speeds of the node's points due to its own body's rotation.
     speed: f32x8<L>,
-    /// The `|ω|` of the node's own turning.
+    /// The angular speed `|ω|` of the node's own body.
     own_rate: f32,
 }
 

@@ -1,4 +1,4 @@
-//! The check and the assembly of nodes, children before their parents.
+//! Checks the input nodes of a hull tree and assembles the tree, children before parents.
 
 use super::bottom_up::bottom_up;
 use super::edges::check_facets;
@@ -21,7 +21,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 impl HullTree {
-    /// Builds a tree over pieces; node 0 is the root.
+    /// Builds a hull tree over pieces from nodes, the root first.
     ///
     /// # Errors
     /// [`HullTreeError`] names the node, and the part of the [guarantee](HullTree) that fails
@@ -67,7 +67,7 @@ impl HullTree {
     }
 }
 
-/// Returns the hulls of all nodes; each node's memory is freed once its hull is copied.
+/// Moves the hulls of all nodes to one list, and frees each node's memory once its hull is copied.
 fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     let mut capacity = Capacity::default();
     for node in &nodes {
@@ -93,8 +93,7 @@ fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     builder.into_pieces()
 }
 
-/// Returns the facets that meet in each point of all hulls, in ascending order, and the end of each
-/// point's facets.
+/// Returns the facets that meet in each point of all hulls, in ascending order, and the end of each point's list.
 fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
     let (mut meeting, mut ends) = (Vec::new(), Vec::new());
     for Node { points, loops, .. } in nodes {
@@ -120,7 +119,7 @@ fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
     (meeting, ends)
 }
 
-/// Returns the node of a piece.
+/// Creates the leaf for a piece.
 fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     if let Some(point) = too_fine(&piece.points) {
         let point = point as u32;
@@ -140,7 +139,7 @@ fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     })
 }
 
-/// Returns the node of a hull over its two children.
+/// Creates the inner node with a given hull over two children.
 fn inner<'a>(
     at: usize,
     hull: &'a Hull,
@@ -169,7 +168,7 @@ fn inner<'a>(
     })
 }
 
-/// Checks that the hull contains all points of its children.
+/// Checks that the hull of a node contains all points of its children.
 fn check_inside(
     hull: &Hull,
     identity: &Identity,

@@ -1,4 +1,4 @@
-//! A parallel traversal of nodes, children first, with subtrees on all cores.
+//! A parallel traversal of a binary tree, children before parents.
 
 use super::error::HullTreeError;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
@@ -7,7 +7,7 @@ use std::num::NonZero;
 use std::ops::Range;
 use std::thread::available_parallelism;
 
-/// Computes a value for every node from the values of its children. Leaves get two arbitrary ones.
+/// Computes a value for every node from the values of its two children. Leaves receive two arbitrary values.
 ///
 /// # Guarantee
 /// The result does not depend on the number of cores. Of several errors, that of the first node in sequential order
@@ -52,7 +52,7 @@ fn bottom_up_in<T: Default + Send>(
     Ok(sorted)
 }
 
-/// Nodes in postorder: the subtree of the first child, then that of the second, then the node.
+/// The nodes in postorder: the first child's subtree, the second child's subtree, then the node.
 struct Row<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
@@ -62,7 +62,7 @@ struct Row<'a, F> {
 }
 
 impl<F> Row<'_, F> {
-    /// Computes a range of the row that is one subtree, in at most `parts` parts. The parts are divided by size, and
+    /// Computes the values of one subtree, in at most `parts` parts at a time. The parts are divided by size, and
     /// either side gets fewer, so that the depth of recursion is at most their number.
     fn fill<T: Default + Send>(
         &self,
@@ -89,7 +89,7 @@ impl<F> Row<'_, F> {
         }
     }
 
-    /// Computes two subtrees, in parallel if both are worth it and a thread is free.
+    /// Computes two subtrees, in parallel if both are large enough and a thread is free.
     fn fill_both<T: Default + Send>(
         &self,
         [one, other]: [Range<usize>; 2],
@@ -107,7 +107,8 @@ impl<F> Row<'_, F> {
         first.and(second)
     }
 
-    /// Computes a node of the row after its children; `done` has the values from the position `start` of the row on.
+    /// Computes the value of one node after its children's. `done` has the values from position `start` of the
+    /// postorder on.
     fn fill_one<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
@@ -123,7 +124,7 @@ impl<F> Row<'_, F> {
     }
 }
 
-/// Returns all nodes, each after its children; every subtree is contiguous.
+/// Returns all nodes in postorder, so that every subtree is contiguous.
 fn children_first(hierarchy: &Hierarchy) -> Vec<usize> {
     let mut order = Vec::with_capacity(hierarchy.nodes().len());
     let mut stack = vec![0];

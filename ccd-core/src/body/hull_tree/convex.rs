@@ -1,4 +1,4 @@
-//! An exact decision whether facets are those of a convex polytope.
+//! Decides exactly whether facets are those of a convex polytope.
 
 use super::edges::edges_of;
 use crate::body::piece::Piece;
@@ -7,8 +7,8 @@ use crate::math::exact::{side, too_fine};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Prepares the search for extremal points of a hull of many points. Edges are climbed if they are proven to be those
-/// of the hull. Otherwise a tree is searched, which uses no facets.
+/// Builds the search structure for extremal points of a hull of many points. Edges are climbed if they are proven to be
+/// those of the hull. Otherwise a tree is searched, which uses no facets.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     if is_convex(hull) {
         Support::new(hull.points, hull.facets)
@@ -17,7 +17,7 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     }
 }
 
-/// Returns whether the facets close a convex polytope that has all points as corners.
+/// Returns whether the facets bound a convex polytope of which every point is a corner.
 ///
 /// # Guarantee
 /// A positive answer is exact. The facets are treated as fans of triangles, no two of which have a side in the same
@@ -48,7 +48,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
         && covers_once(&triangles, place, middle)
 }
 
-/// Returns whether the corners are in the plane of the first three.
+/// Returns whether all corners are in the plane of the first three.
 fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
     let place = |&v: &u32| points[v as usize];
     let first = [0, 1, 2].map(|k| place(&corners[k]));
@@ -56,14 +56,14 @@ fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
     others.all(|p| side(first, p).is_eq())
 }
 
-/// Returns whether no corner of a facet is reflex, seen from a point behind it.
+/// Returns whether a facet is convex: it has no reflex corner, seen from a point behind it.
 fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
     let place = |k: usize| points[corners[k % corners.len()] as usize];
     let fan = |k: usize| [place(k), place(k + 1), place(k + 2)];
     (0..corners.len()).all(|k| side(fan(k), middle).is_le())
 }
 
-/// Returns whether each triangle's neighbours across its edges are not in front of its plane.
+/// Returns whether the surface is locally convex: no triangle's neighbour across an edge rises in front of its plane.
 fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
     let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
         .iter()
@@ -85,7 +85,7 @@ fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]
     once && sides.iter().all(bends)
 }
 
-/// Returns whether a ray from the middle that avoids all edges meets exactly one triangle.
+/// Returns whether some ray from the middle that avoids all edges meets exactly one triangle.
 fn covers_once(
     triangles: &[[u32; 3]],
     place: impl Fn(&[u32; 3]) -> [DVec3; 3],

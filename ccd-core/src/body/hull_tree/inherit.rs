@@ -1,4 +1,4 @@
-//! The facets that an inner hull inherits from its children.
+//! Finds the origin of an inner hull's facets in those of its children.
 //!
 //! A child's hull meets the plane of a facet of its parent in at most one facet of the child. A facet of the parent
 //! is therefore a facet of a child, or is tiled by one facet of each child, or is a bridge.
@@ -19,7 +19,7 @@ impl FacetData {
         faces: Vec::new(),
     };
 
-    /// Returns the data of a piece's facets.
+    /// Returns the origin, class and mesh faces of each facet of a piece.
     pub(super) fn of_piece(piece: &Polytope) -> Vec<FacetData> {
         let mut facet_data = Vec::with_capacity(piece.facets.len());
         let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
@@ -45,7 +45,7 @@ impl FacetData {
         facet_data
     }
 
-    /// Returns the data of a facet that two others tile.
+    /// Merges the data of two facets that together tile a third.
     fn joined(parts: [&Part<'_>; 2]) -> FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
@@ -59,11 +59,11 @@ impl FacetData {
     }
 }
 
-/// A child whose points are numbered together with those of its parent, which come first.
+/// A child of a node, with its points numbered as in [`Identity`](super::identity::Identity).
 #[derive(Clone, Copy)]
 pub(super) struct Child<'a> {
     node: &'a Node<'a>,
-    /// The common numbers of the child's points.
+    /// The common number of each of the child's points.
     ids: &'a [u32],
 }
 
@@ -73,7 +73,7 @@ impl<'a> Child<'a> {
     }
 }
 
-/// Returns the data of a hull's facets, given its children and the positions of all their points.
+/// Returns the origin, class and mesh faces of each facet of a hull, taken from the children's facets.
 pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<FacetData> {
     let triangles = children.map(|child| lone_triangle(&child));
     let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
@@ -90,16 +90,16 @@ pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -
     hull.facets.iter().map(facet).collect()
 }
 
-/// A facet of a child.
+/// One facet of a child.
 struct Part<'a> {
     child: Child<'a>,
-    /// The corners, by the child's numbers.
+    /// The corners, as indices of the child's points.
     corners: &'a [u32],
     facet: &'a FacetData,
 }
 
 impl Part<'_> {
-    /// Returns the part's corners, by the common numbers.
+    /// Returns the corners of the facet by their common numbers.
     fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
         self.corners.iter().map(|&v| self.child.ids[v as usize])
     }
@@ -126,20 +126,20 @@ impl Part<'_> {
     }
 }
 
-/// The facets of a child.
+/// The facets of a child, with a lookup by edge.
 struct Side<'a> {
     child: Child<'a>,
-    /// The data of each side of a child that is a single triangle.
+    /// The data of the front and the back, if the child is a single triangle.
     lone: Option<&'a FacetData>,
-    /// The index of the part at each edge.
+    /// The index of the facet at each directed edge.
     by_edge: EdgeMap,
 }
 
-/// The two sides of a single triangle.
+/// The corners of the front and the back of a single triangle.
 const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> Side<'a> {
-    /// Creates the side of a child whose points have numbers below `places`.
+    /// Creates the lookup for a child whose points have common numbers below `places`.
     fn new(child: Child<'a>, lone: Option<&'a FacetData>, places: usize) -> Self {
         let sides = SIDES.iter().map(|corners| &corners[..]);
         let loops = child
@@ -177,7 +177,7 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns the data of the front and back of a single triangle, which lists no facets.
+/// Returns the data of a child that is a single triangle, which lists no facets.
 fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
@@ -190,7 +190,7 @@ fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     })
 }
 
-/// Returns the number of a point in the mesh.
+/// Returns the mesh's vertex number of a point of a node.
 fn vertex_of(node: &Node<'_>, point: u32) -> u32 {
     let known = node.vertex_ids.get(point as usize);
     known.copied().unwrap_or(point)
@@ -201,7 +201,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Returns whether two loops are the same up to the choice of their first corner.
+/// Returns whether two cyclic lists of corners are equal up to rotation.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
@@ -214,7 +214,7 @@ fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     part.ids().eq(begin.iter().chain(end).copied())
 }
 
-/// Returns whether two convex polygons together are a facet of the hull. Edges that run both ways are dropped. The
+/// Returns whether two convex polygons together tile a facet of the hull. Edges that run both ways are dropped. The
 /// remaining edges have to be the facet's loop, except for corners within its edges.
 ///
 /// A part has at most the facet's corners and the two ends of the cut. A part of many more is

@@ -1,4 +1,4 @@
-//! The renumbering of leaves for another list of the same pieces.
+//! Renumbers the leaves of a hull tree for a reordered list of pieces.
 
 use super::HullTree;
 use super::error::{HullFault, HullTreeError};
@@ -7,7 +7,7 @@ use crate::body::pieces::Pieces;
 use std::cmp::Ordering;
 
 impl HullTree {
-    /// Returns the tree with leaves that name the same pieces in another list.
+    /// Renumbers the leaves so that they refer to the same pieces in another list.
     ///
     /// # Errors
     /// [`HullFault::NotAPiece`] at a leaf that is not in the list.
@@ -17,8 +17,8 @@ impl HullTree {
     }
 }
 
-/// Returns the tree's hierarchy, with leaves that name the pieces of a list that are equal to the bit. Among equal
-/// pieces, the first leaf names the first.
+/// Returns the hierarchy with leaves renumbered for `pieces`, which must be bitwise equal to the tree's pieces. Among
+/// equal pieces, the first leaf gets the first.
 fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
     let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
@@ -47,13 +47,13 @@ fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError
     Ok(Hierarchy::new(renamed, pieces.len())?)
 }
 
-/// Sorts pieces by content, then by number.
+/// Returns the piece numbers sorted by content, then by number.
 fn sorted(mut numbers: Vec<usize>, order: impl Fn(usize, usize) -> Ordering) -> Vec<usize> {
     numbers.sort_unstable_by(|&one, &other| order(one, other).then(one.cmp(&other)));
     numbers
 }
 
-/// Orders by points, rounding and numbers in the mesh, bit by bit.
+/// Compares two pieces bit by bit: their points, radii and mesh numbers.
 fn order(of: [&Pieces; 2], at: [usize; 2]) -> Ordering {
     let [one, other] = [0, 1].map(|k| of[k].get(at[k]));
     let bits = |p: &glam::DVec3| p.to_array().map(f64::to_bits);

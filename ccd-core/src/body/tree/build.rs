@@ -1,4 +1,4 @@
-//! The construction of the wide tree from a binary hierarchy.
+//! Builds the wide tree from a binary hierarchy.
 
 use super::fit::{Cloud, Sample, fit};
 use super::group::longest;
@@ -11,7 +11,7 @@ use crate::error::InputError;
 use crate::math::order::greater;
 use glam::DVec3;
 
-/// All nodes and groups of a tree, before they are fitted to their pieces.
+/// The nodes and groups of a tree before boxes are fitted to their pieces.
 #[derive(Default)]
 pub(crate) struct Layout {
     nodes: Vec<Slot>,
@@ -29,10 +29,10 @@ fn span(pieces: &Pieces) -> f64 {
     pieces.iter().map(reach).fold(0.0, greater)
 }
 
-/// The range of each node's pieces in a depth-first list.
+/// For each node of the hierarchy, the range of its pieces in depth-first order.
 struct Ranges {
     order: Vec<u32>,
-    /// The start and the end in `order`, by node of the hierarchy.
+    /// The start and end in `order` of each node of the hierarchy.
     of: Vec<(u32, u32)>,
 }
 
@@ -73,35 +73,35 @@ impl Ranges {
     }
 }
 
-/// The place of a node: its pieces, and what is below it.
+/// A node of the wide tree: its pieces, and its children.
 struct Slot {
     start: u32,
     end: u32,
     below: Below,
 }
 
-/// A group of nodes, by the number of the first.
+/// The children of a node that are nodes, by the index of the first.
 struct BoxesBelow {
     parent: u32,
     first: u32,
     count: u32,
 }
 
-/// A group of triangles, by the number of the first.
+/// The children of a node that are triangles, by the index of the first.
 struct TrianglesBelow {
     parent: u32,
     start: u32,
     end: u32,
 }
 
-/// A group of nodes counts as full with this many groups' worth of triangles, as hardly any of those is full.
+/// The number of full triangle groups that count as a full group of nodes, as hardly any group is full.
 ///
 /// Unit: groups. Less: more memory, as most groups of nodes are at the bottom. More: nodes that
 /// just exceed it are split into two.
 const FULL_LANES: u64 = 6;
 
 impl Layout {
-    /// Lays out the tree, and sorts the pieces into its order.
+    /// Arranges the nodes of the tree, and returns the pieces in the tree's order.
     ///
     /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
     /// triangles, or one piece of another kind.
@@ -160,8 +160,8 @@ impl Layout {
         self.nodes.push(Slot { start, end, below });
     }
 
-    /// Fits the nodes to their pieces, and creates the groups. Each of them depends on its own pieces alone, so that
-    /// all can be computed in parallel.
+    /// Fits boxes to the nodes, and creates the groups. Each of them depends on its own pieces alone, so that all can
+    /// be computed in parallel.
     pub(crate) fn fitted(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
@@ -197,7 +197,7 @@ impl Layout {
 }
 
 impl Layout {
-    /// Finds the slabs about flat nodes of triangles.
+    /// Returns the slabs around flat nodes of triangles.
     fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
         if !pieces.all_triangles() {
             return Vec::new();
@@ -221,7 +221,7 @@ impl Slot {
         fit(&self.cloud(pieces), self.below, sample)
     }
 
-    /// Returns the points and radii that a box about the pieces has to contain.
+    /// Returns the points and radii that the node's box has to contain.
     fn cloud<'p>(&self, pieces: &'p Pieces) -> Cloud<'p> {
         let range = self.start as usize..self.end as usize;
         let triangles = pieces.all_triangles();
@@ -238,18 +238,18 @@ impl Slot {
     }
 }
 
-/// Finds the children of the wide tree's nodes.
+/// Chooses the children of the wide tree's nodes among the descendants in the binary hierarchy.
 struct Opener<'a> {
     hierarchy: &'a Hierarchy,
     ranges: &'a Ranges,
-    /// Nodes of up to this many pieces are not opened.
+    /// The largest number of pieces of a node that becomes a leaf.
     whole: usize,
-    /// The most pieces of a node, by its layer, from the bottom.
+    /// The largest number of pieces of a node, for each layer from the bottom.
     layers: Vec<usize>,
 }
 
-/// Returns the most pieces of a node, by its layer, from the bottom: full groups first, then by even ratios as many
-/// layers as needed.
+/// Returns the largest number of pieces of a node, for each layer from the bottom. Full groups come first, then by even
+/// ratios as many layers as needed.
 fn layers(pieces: usize) -> Vec<usize> {
     let (full, pieces) = (LANES as u64 * FULL_LANES, pieces as u64);
     let mut count = 1;
@@ -265,14 +265,14 @@ fn layers(pieces: usize) -> Vec<usize> {
 }
 
 impl Opener<'_> {
-    /// Returns the most pieces that fit into the layer below that of a node.
+    /// Returns the largest number of pieces of a child of a node with this many pieces.
     fn layer_below(&self, pieces: usize) -> usize {
         let lower = self.layers.iter().rev().find(|&&layer| layer < pieces);
         lower.copied().unwrap_or(self.whole)
     }
 
-    /// Returns the descendants that become a node's children, and their number. The one with the most pieces is
-    /// opened repeatedly, unless it fits into a lower layer of full groups.
+    /// Returns the descendants that become a node's children, and their number. The one with the most pieces is opened
+    /// repeatedly, unless it fits into a lower layer of full groups.
     ///
     /// Groups are full at the bottom, where most of the groups are.
     fn open(&self, at: u32) -> ([u32; LANES], usize) {

@@ -1,4 +1,4 @@
-//! The fit of the box and the ball of a node.
+//! Fits the oriented box and the ball of a node.
 
 mod sample;
 
@@ -14,14 +14,13 @@ pub(crate) use sample::Sample;
 /// The pieces below a node, as input of a fit.
 pub(crate) struct Cloud<'a> {
     pub(crate) points: &'a [DVec3],
-    /// The largest rounding radius among the pieces.
+    /// The largest rounding radius of the pieces.
     pub(crate) radius: f64,
     /// True if the points are corners of triangles, three each.
     pub(crate) triangles: bool,
 }
 
-/// The sine and cosine of the rotations of the tried frames about the mean normal, which are even steps over a right
-/// angle.
+/// The sines and cosines of the tried rotations about the mean normal, in even steps over a right angle.
 const TURNS: [(f64, f64); 6] = [
     (0.0, 1.0),
     (0.258_819_045_102_520_74, 0.965_925_826_289_068_3),
@@ -34,7 +33,7 @@ const TURNS: [(f64, f64); 6] = [
     (0.965_925_826_289_068_3, 0.258_819_045_102_520_74),
 ];
 
-/// Fits the node to all points. Several frames are tried on a sample of them, and the one whose box has the least
+/// Fits a node's box to all points. Several frames are tried on a sample of them, and the one whose box has the least
 /// surface is taken.
 ///
 /// # Guarantee
@@ -45,8 +44,9 @@ pub(crate) fn fit(cloud: &Cloud<'_>, below: Below, sample: &mut Sample) -> Node 
     Fitted::along(frame, cloud.points).node(cloud, below)
 }
 
-/// Returns the frame whose box about the sample has the least surface. The frames tried are along the coordinates,
-/// along principal axes of the points, and, for triangles, along principal axes by area or about the mean normal.
+/// Returns the frame whose box around the sample has the least surface area. The frames tried are along the
+/// coordinates, along principal axes of the points, and, for triangles, along principal axes by area or about the mean
+/// normal.
 pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     let mut best = DMat3::IDENTITY;
     let mut least = sample.surface(&best);
@@ -77,7 +77,8 @@ pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     best
 }
 
-/// Returns whether the columns are orthonormal up to rounding. Otherwise the box may not contain its points.
+/// Returns whether the columns of a matrix are orthonormal up to rounding. Otherwise the box may not contain its
+/// points.
 fn is_frame(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
     // Written so that NaN is rejected.
@@ -99,7 +100,7 @@ impl Fitted {
         Fitted { frame, low, high }
     }
 
-    /// Returns the node with the axes rounded to f32, longest first. The sizes are measured along the rounded axes.
+    /// Creates the node, with axes rounded to f32, the longest first. The sizes are measured along the rounded axes.
     fn node(&self, cloud: &Cloud<'_>, below: Below) -> Node {
         let size = self.high - self.low;
         let mut order = [0, 1, 2];

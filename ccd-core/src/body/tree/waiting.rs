@@ -1,20 +1,22 @@
-//! A stack of waiting nodes for descents of a tree.
+//! A stack of nodes for depth-first traversals of a tree.
 
 use super::NodeId;
 
-/// A stack of nodes. It allocates nothing, unless the tree is deeper than any balanced one.
+/// A stack of nodes that allocates nothing unless the tree is deeper than any balanced one. It allocates nothing,
+/// unless the tree is deeper than any balanced one.
 pub(super) struct Waiting {
     near: [NodeId; NEAR],
     count: usize,
-    /// The nodes above the others.
+    /// The nodes for which `near` has no room.
     far: Vec<NodeId>,
 }
 
-/// Each level leaves up to seven nodes: this is enough for nine levels of eight children, 10⁸ pieces.
+/// The number of nodes that need no allocation. Each level leaves up to seven nodes: this is enough for nine levels of
+/// eight children, 10⁸ pieces.
 const NEAR: usize = 64;
 
 impl Waiting {
-    /// Returns the stack with the root on it.
+    /// Creates a stack that holds the root.
     pub(super) fn root() -> Self {
         Waiting {
             near: [0; NEAR],

@@ -1,4 +1,4 @@
-//! The box about all points of a body, in f64.
+//! The bounding box of a whole body, in f64.
 
 use super::fit::{Cloud, Sample, best_frame};
 use crate::math::order::greater;
@@ -6,8 +6,8 @@ use crate::math::vector::length;
 use crate::rounding::U64;
 use glam::{DMat3, DVec3};
 
-/// The box about a body, as tight as f64 allows. The root's own box is rounded to f32: with it, bodies that slide
-/// along each other closer than that would count as near each other everywhere.
+/// The oriented bounding box of a body, as tight as f64 allows. The root's own box is rounded to f32: with it, bodies
+/// that slide along each other closer than that would count as near each other everywhere.
 ///
 /// # Guarantee
 /// For a unit vector n, no point of the body is farther along n from the centre than the sum of `half` times the
@@ -15,17 +15,17 @@ use glam::{DMat3, DVec3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Whole {
     pub(crate) centre: DVec3,
-    /// The axes as columns, orthonormal up to an error that `slack` covers.
+    /// The axes of the box as columns; `slack` covers their error.
     pub(crate) axes: DMat3,
     pub(crate) half: DVec3,
     /// An upper bound of the distances of the pieces' points from the centre.
     pub(crate) radius: f64,
-    /// The pieces' rounding radius, and the error of axes and half sizes.
+    /// The pieces' rounding radius, plus the error of the axes and half extents.
     pub(crate) slack: f64,
 }
 
 impl Whole {
-    /// Fits the box to a body's points.
+    /// Fits the box to all points of a body.
     pub(super) fn about(cloud: &Cloud<'_>, sample: &mut Sample) -> Self {
         sample.take(cloud);
         let axes = best_frame(sample, cloud.triangles);

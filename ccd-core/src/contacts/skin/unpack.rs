@@ -1,4 +1,4 @@
-//! The triangles of a piece, with names.
+//! Converts pieces to triangles with mesh numbers.
 
 use super::{Corner, Face, PointBits, Skin};
 use crate::body::combination::Combination;
@@ -8,11 +8,11 @@ use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// The name and the corners of a triangle. Corners have a number if the mesh has one.
+/// A triangle with its feature, and its corners with their mesh numbers. Corners have a number if the mesh has one.
 type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
 
 impl Skin<'_> {
-    /// Adds the faces of a piece, unless they are there already.
+    /// Adds the triangles of a piece to the surface.
     pub(super) fn unpack(&mut self, index: u32) {
         let piece = self.body.pieces().get(index as usize);
         for (name, corners) in self.triangles(index, &piece) {
@@ -26,8 +26,8 @@ impl Skin<'_> {
         }
     }
 
-    /// Returns the mesh's triangles on a piece. If there are none, returns the triangles of its facets, or of its
-    /// points: up to three points as one triangle, more of them as one triangle each.
+    /// Returns the triangles of a piece: the mesh's triangles on it, or else those of its facets. A piece without
+    /// facets gives one triangle if it has up to three points, and otherwise a degenerate triangle for each point.
     fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
         let mesh: Vec<Unpacked> = self.on_the_mesh(index, piece);
         if !mesh.is_empty() {
@@ -85,7 +85,7 @@ impl Skin<'_> {
         named.collect()
     }
 
-    /// Returns the number of a corner: that of its own piece, or that of another piece at the same place.
+    /// Returns the mesh number of a corner, from its own piece or another piece at the same position.
     pub(super) fn number_of(&self, corner: u32) -> Option<u32> {
         let Corner {
             place: here, id, ..
@@ -101,7 +101,7 @@ impl Skin<'_> {
         })
     }
 
-    /// Returns the number of a point of a piece in the mesh.
+    /// Returns the mesh number of a point of a piece.
     fn number(&self, piece: u32, point: u32) -> Option<u32> {
         let pieces = self.body.pieces();
         match pieces.feature(piece as usize, &Combination::point(point)) {
@@ -123,7 +123,7 @@ impl Skin<'_> {
     }
 }
 
-/// Returns the bits of a place. Both zeros are the same place.
+/// Returns the bit pattern of a point. Both zeros have the same one.
 fn place(point: DVec3) -> PointBits {
     point.to_array().map(|x| (x + 0.0).to_bits())
 }

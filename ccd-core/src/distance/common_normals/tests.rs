@@ -14,7 +14,7 @@ fn common(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
     normals
 }
 
-/// The offsets from a corner of a cube, whose other corners are on this side of it.
+/// Returns the vectors from a corner of a cube to its other corners, which are on this side of it.
 fn corner(side: DVec3) -> Vec<DVec3> {
     vec![side.x * DVec3::X, side.y * DVec3::Y, side.z * DVec3::Z]
 }
@@ -23,7 +23,7 @@ fn turned(turn: DQuat, ways: &[DVec3]) -> Vec<DVec3> {
     ways.iter().map(|&way| turn * way).collect()
 }
 
-/// The offsets from a point within a side of a cube.
+/// Returns vectors from a point within a face of a cube along its surface and inward.
 fn level() -> Vec<DVec3> {
     vec![DVec3::X, -DVec3::X, 0.1 * DVec3::Y, -3.0 * DVec3::Y]
 }
@@ -47,14 +47,14 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
     }
 }
 
-/// Some offsets within a cone about an axis. The normals of both bundles are opposite.
+/// Draws vectors within a cone about an axis. The normals of both bundles are opposite.
 fn bundle(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
     let count = rng.random_range(1..12);
     let ways = (0..count).map(|_| (about + within(rng, 1.5)) * rng.random_range(0.01..10.0));
     ways.collect()
 }
 
-/// The projection on a cone is the best of the projections on its sides and on the lines between them.
+/// Tests the projection on a cone against the best of the projections on its sides and edges.
 #[test]
 fn the_nearest_normal_is_the_best_of_all_candidates() {
     let rng = &mut rng(82);

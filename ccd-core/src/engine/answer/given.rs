@@ -1,4 +1,4 @@
-//! Translates answers about surfaces to the pieces that the surfaces bound.
+//! Translates answers about the surfaces of convex bodies to the pieces that these surfaces bound.
 
 use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
@@ -12,7 +12,7 @@ use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
 use crate::rounding::{RESTING, is_blurred};
 
-/// Returns the outcome for the given bodies. The normal, the witnesses and the bounds of a contact
+/// Translates an outcome to the bodies that the caller gave. The normal, the nearest points and the bounds of a contact
 /// are those of the pieces that it names.
 ///
 /// Here `within` is the distance at which a contact was to be found.
@@ -28,7 +28,7 @@ pub(crate) fn of_given<O: DistanceOracle>(
     })
 }
 
-/// Like [`of_given`] for the contact at a time.
+/// Like [`of_given`], for a contact at a time.
 pub(crate) fn contact_of_given<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -47,8 +47,8 @@ pub(crate) fn contact_of_given<O: DistanceOracle>(
     }
 }
 
-/// Returns the contact along a common normal of both surfaces, if its own normal is mostly rounding. Touching pieces
-/// may have normals that the rest of the surfaces does not have.
+/// Replaces a contact's normal by a common normal of both surfaces if it is mostly rounding. Touching pieces may have
+/// normals that the rest of the surfaces does not have.
 fn along_common_normal(
     problem: &Problem<'_>,
     meter: &mut Meter,

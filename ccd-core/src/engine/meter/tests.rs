@@ -1,4 +1,4 @@
-//! The limits of a query: work and time.
+//! Tests the limits of a query: work and time.
 
 use super::*;
 use crate::body::Body;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// Poses two equal balls at rest, with some limits.
+/// Creates the problem of two equal balls at rest, with limits.
 fn limited<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
     let still = (ball, Motion::STILL);
     Problem::about(still, still, 1.0, settings).unwrap()

@@ -1,10 +1,10 @@
-//! Separating axes of eight pairs of nodes.
+//! Finds separating axes of eight pairs of nodes at once.
 
 use super::shape::{Children, OtherNode};
 use crate::math::lanes::{TINY, Vec3x8, choose, splat};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// Eight axes, the gaps along them, and each side's extent towards the other.
+/// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<L: Simd> {
     pub(crate) n: Vec3x8<L>,
@@ -13,8 +13,8 @@ pub(crate) struct Axis<L: Simd> {
     pub(crate) other_reach: f32x8<L>,
 }
 
-/// Returns the best of three axes for each pair: the one between the centres, or the edges of triangles, and the
-/// normals of the two nodes.
+/// Returns for each pair the axis with the widest gap among three: the normals of the two nodes, and the vector between
+/// their centres or nearest edges.
 ///
 /// The result is homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
 #[inline(always)]
@@ -35,7 +35,7 @@ pub(crate) fn widest<L: Simd, C: Children, P: OtherNode>(
     better(better(own, others), between)
 }
 
-/// Returns the axis between the centres at the time when they are nearest, if they move by at most `travel`.
+/// Returns the axis between the centres at their time of nearest approach, if their relative displacement is `travel`.
 #[inline(always)]
 pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
     children: &C,
@@ -48,7 +48,7 @@ pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
     along(children, other, way, way - travel * nearest)
 }
 
-/// Returns axes along vectors of any length.
+/// Returns the axes along given vectors of any length, with the gaps along them.
 ///
 /// The gaps are measured before the vectors are made unit vectors: a root and a quotient take as long as the
 /// measurement.

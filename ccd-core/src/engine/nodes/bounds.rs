@@ -1,4 +1,4 @@
-//! Bounds for eight pairs of nodes at once: lower bounds of their distances, and times for which they stay apart.
+//! Bounds eight pairs of nodes at once: for how long they stay apart, and whether to split them.
 //!
 //! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
 //! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
@@ -11,20 +11,21 @@ use crate::math::lanes::splat;
 use crate::tuning::{LOOK_AGAIN, SWEPT, THICKNESS};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
-/// The bounds of eight pairs.
+/// The bounds of eight pairs, and hints for the next step of each.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// The time for which each pair is certainly farther apart than the required gap.
     pub(crate) free: FreeTimes,
-    /// The pairs that are far apart for their size: a second visit after their time is worth more than a split.
+    /// The pairs that are far apart for their size, as bits. A second visit after their time is worth more than a
+    /// split.
     pub(crate) waits: u8,
-    /// The pairs whose child is thicker along the axis than the other node, and can be split.
+    /// The pairs whose child should be split rather than the other node, as bits: it is thicker along the axis.
     pub(crate) thicker: u8,
-    /// True if the other node is a single piece.
+    /// True if the other node is a single piece, and cannot be split.
     pub(crate) whole: bool,
 }
 
-/// Bounds the pairs that are in `lanes`.
+/// Bounds the pairs in `lanes`, and decides what to do with each next.
 ///
 /// Fixed planes are perpendicular to two axes: the one with the widest gap now, and the one between the centres at
 /// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
@@ -69,22 +70,22 @@ fn bits<L: Simd>(mask: mask32x8<L>) -> u8 {
     mask.to_bitmask() as u8
 }
 
-/// A small node that passes a much larger, turning one.
+/// A small node that passes a much larger node of a turning body.
 struct Past<L: Simd> {
-    /// The time for which a plane that turns with the large node keeps the pair apart.
+    /// The time for which a plane that turns with the large node's body keeps the pair apart.
     attached: f32x8<L>,
-    /// The angular velocity of the large node's body, and the distance of the small node from that body's centre.
+    /// The angular speed of the large node's body.
     spin: f32,
     arm: f32x8<L>,
-    /// The radii.
+    /// The radius of the large node.
     large: f32x8<L>,
     small: f32x8<L>,
-    /// Set if the large node cannot be split. Then only the size of the small node decides whether it is far.
+    /// Set if the large node is a single piece. Then only the size of the small node decides whether it is far.
     whole: mask32x8<L>,
 }
 
 impl<L: Simd> Past<L> {
-    /// Returns `None` if neither side is much larger and turns.
+    /// Creates the value; `None` if no body turns whose nodes are much larger.
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
         pairs: &EightPairs<'_, L, C, P>,

@@ -1,4 +1,4 @@
-//! The split of one node of a pair: its children are bounded against the other node, at the pose of the pair's clock.
+//! Splits one node of a pair: its children are bounded against the other node, at the poses at the pair's clock.
 
 use super::bounds::{Bounds, bound};
 use super::common::Common;
@@ -15,26 +15,26 @@ use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
 
-/// The children of the split node, each paired with the other node.
+/// The bounds of a split node's children against the other node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
     pub(crate) bounds: Bounds,
     pub(crate) first: NodeId,
 }
 
-/// A node to be split, and the other body's node that its children are paired with.
+/// A node to split, and the other body's node with which its children are paired.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Split {
-    /// The body of the split node.
+    /// The body to which the split node belongs.
     pub(crate) body: Which,
     pub(crate) node: NodeId,
     pub(crate) other: NodeId,
-    /// The children to be paired.
+    /// The children to bound, as bits.
     pub(crate) lanes: u8,
 }
 
 impl Split {
-    /// Creates a split with all children.
+    /// Creates the split of a node with all children.
     pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
@@ -45,7 +45,7 @@ impl Split {
     }
 }
 
-/// Splits a node at clock `s`.
+/// Bounds the children of a node against the other node at clock `s`.
 ///
 /// # Panics
 /// When the node is a single piece.
@@ -53,7 +53,8 @@ pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
     split_at(common, split, s, Pace::AsTheyMove)
 }
 
-/// Splits a node at clock `s`, and measures its pairs: the free times are lower bounds of their distances.
+/// Computes lower bounds of the distances of the children from the other node at clock `s`. They are returned as free
+/// times.
 ///
 /// # Panics
 /// When the node is a single piece.
@@ -64,16 +65,17 @@ pub(crate) fn measure(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
     expansion
 }
 
-/// The rate at which gaps close.
+/// The rate at which gaps are assumed to close.
 #[derive(Clone, Copy, Debug)]
 enum Pace {
     /// The rate due to the motion of the bodies.
     AsTheyMove,
-    /// One unit of length per unit of time, along every axis: the free time is the distance.
+    /// One unit of length per unit of time, along every axis, so that the free time is the distance.
     Unit,
 }
 
-/// This function alone contains the kernels, compiled once for each set of instructions.
+/// Bounds the children, with the best vector instructions. This function alone contains the kernels, compiled once for
+/// each set of instructions.
 #[inline(never)]
 fn split_at(common: &Common<'_>, split: &Split, s: f64, pace: Pace) -> Expansion {
     vectorize!(common.problem.level, level => split_node(level, common, split, s, pace))
@@ -109,18 +111,17 @@ fn split_node<L: Simd>(
     Expansion { bounds, first }
 }
 
-/// The relative motion of the two bodies at a clock, along the axes of the body whose node is
-/// split.
+/// The relative motion of the two bodies at a clock, in the frame of the body whose node is split.
 struct RelativeMotion<'p, L: Simd> {
     level: L,
     common: &'p Common<'p>,
     split: &'p Split,
     split_side: &'p Side<'p>,
     other_side: &'p Side<'p>,
-    /// The other body as seen from the split one, now and at any time.
+    /// The other body's present pose and motion in the split body's frame.
     seen: Seen<L>,
     view: &'p View,
-    /// The time left.
+    /// The time left to the end of the duration.
     horizon: f32,
     pace: Pace,
 }
@@ -143,7 +144,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
         }
     }
 
-    /// Bounds a group of the split body against the other body's node.
+    /// Bounds the children in a group against the other body's node.
     #[inline(always)]
     fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
         let Seen { rotation, way, .. } = self.seen;
@@ -167,7 +168,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
     }
 }
 
-/// The relative motion as seen from a group of the split body.
+/// The relative motion in coordinates about the origin of a group.
 struct GroupView<'m, L: Simd> {
     motion: &'m RelativeMotion<'m, L>,
     members: &'m Members,
@@ -175,7 +176,7 @@ struct GroupView<'m, L: Simd> {
     rotation: PackedMatrix<L>,
     /// The same rotation in f32, by columns.
     turn: [f32x4<L>; 3],
-    /// The bodies' centres of rotation, relative to the group's origin.
+    /// The centre of rotation of the split body, relative to the group's origin.
     centre: Vec3,
     other_centre: Packed<L>,
 }
@@ -204,7 +205,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Transforms a point of the other body to the split body's frame.
+    /// Transforms a point of the other body to the group's coordinates.
     #[inline(always)]
     fn placed(&self, point: DVec3) -> Packed<L> {
         let level = self.motion.level;
@@ -259,7 +260,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Returns the motion in f32, beside a node with this centre and this radius.
+    /// Returns the motion in f32, for a node with this centre and radius.
     #[inline(always)]
     fn as_they_move(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_turn(), self.other_turn());
@@ -287,8 +288,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Returns the motion with a closing rate of 1: the times for which pairs keep apart are lower bounds of their
-    /// distances.
+    /// Returns a motion in which all gaps close at a rate of 1, so that free times are lower bounds of distances.
     #[inline(always)]
     fn at_unit_rate(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         RelativeMotionF32 {
@@ -304,7 +304,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Bounds the rounding of a gap.
+    /// Returns a bound of the rounding of gaps to a node with this centre and radius.
     #[inline(always)]
     fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
         let [x, y, z] = centre.abs().to_array();

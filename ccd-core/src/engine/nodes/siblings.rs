@@ -1,4 +1,4 @@
-//! The pairs of one split, which wait together and are removed one by one.
+//! The pairs that one split creates: they wait in the queue together, and are removed one by one.
 
 use super::expand::{Expansion, Split};
 use super::free_times::FreeTimes;
@@ -6,37 +6,37 @@ use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
 use crate::problem::{Problem, Side, Which};
 
-/// Up to eight pairs: the children of a node, each with one node of the other body.
+/// Up to eight waiting pairs: the children of a split node, each with the same node of the other body.
 #[derive(Debug)]
 pub(crate) struct Siblings {
-    /// The time after `since` up to which each pair is certified; infinite for a finished pair.
+    /// For each pair, how long after `since` it is certified apart; infinite for a finished pair.
     free: FreeTimes,
     since: f64,
     /// The split that created the pairs.
     split: Split,
     first: NodeId,
-    /// The children that are thicker than the other node and will be split next.
+    /// The children that are to be split before the other node, as bits.
     thicker: u8,
-    /// True if the other node is a single piece.
+    /// True if the other node is a single piece, and cannot be split.
     whole: bool,
-    /// The children for which a second visit is better than a split.
+    /// The pairs for which a second visit is better than a split, as bits.
     waits: u8,
-    /// The number of times that a pair was removed to wait alone.
+    /// The number of pairs that were removed to wait alone.
     parted: u8,
 }
 
-/// The next step for a pair whose clock has run out.
+/// What to do with a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Next {
-    /// Two pieces, of A and of B: the oracle measures them next.
+    /// Two pieces, of A and of B, whose distance the oracle computes next.
     Ask(u32, u32),
-    /// A split of one of the two nodes.
+    /// One of the two nodes is split next.
     Split(Split),
 }
 
 impl Next {
-    /// Creates the pair of both roots. If both nodes can be split, the smaller one is: a large node is best kept
-    /// whole as long as possible.
+    /// Creates the pair of both roots. If both can be split, the smaller one is, as a large node is best kept whole as
+    /// long as possible.
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
@@ -50,7 +50,7 @@ impl Next {
 }
 
 impl Siblings {
-    /// Creates the pair of both roots, of which the given body's root is to be split.
+    /// Creates the pair of both roots, of which the root of `body` is split first.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
             free: FreeTimes::one(),
@@ -64,7 +64,7 @@ impl Siblings {
         }
     }
 
-    /// Creates the pairs of a split at a clock.
+    /// Creates the pairs that a split at clock `s` results in.
     #[inline]
     pub(crate) fn new(expansion: &Expansion, split: Split, s: f64) -> Self {
         Siblings {
@@ -79,7 +79,7 @@ impl Siblings {
         }
     }
 
-    /// Returns the least clock among the pairs, never later than certified; infinite when all are finished.
+    /// Returns the least clock of the pairs, rounded down; infinite if all are finished.
     #[inline]
     pub(crate) fn clock(&self) -> f64 {
         let free = self.free.least();
@@ -91,7 +91,7 @@ impl Siblings {
         }
     }
 
-    /// Returns the pair of least clock: a node of A and one of B.
+    /// Returns the nodes of A and of B that form the pair with the least clock.
     #[inline]
     pub(crate) fn least_pair(&self) -> [NodeId; 2] {
         self.pair(self.free.least_lane())
@@ -105,8 +105,8 @@ impl Siblings {
         }
     }
 
-    /// Marks pairs that stay apart for good as finished. The others are to be split, not visited again: most of their
-    /// children stay apart.
+    /// Marks pairs that are proven apart to the end as finished, if `keeps_apart` returns `true`. If it returns
+    /// `false`, the pair will be split and not visited again: most of its children stay apart.
     pub(crate) fn finish(&mut self, mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>) {
         let horizon = (1.0 - self.since) as f32;
         for lane in 0..LANES {
@@ -121,13 +121,13 @@ impl Siblings {
         }
     }
 
-    /// Returns the number of times that a pair was removed to wait alone.
+    /// Returns the number of pairs that were removed to wait alone.
     #[inline]
     pub(crate) fn parted(&self) -> usize {
         usize::from(self.parted)
     }
 
-    /// Removes the pair of least clock, to wait alone for a later one.
+    /// Removes the pair with the least clock, and returns it as siblings of its own with a later clock.
     pub(crate) fn part_least(&mut self, clock: f64) -> Self {
         Siblings {
             free: FreeTimes::of_lane(self.free.take_least()),
@@ -137,7 +137,7 @@ impl Siblings {
         }
     }
 
-    /// Removes the pair of least clock, which is `s`, and returns its next step.
+    /// Removes the pair with the least clock `s`, and returns its next step.
     // In the search's loop: a larger program, such as Python's module, would call it, and take 1 % more time.
     #[inline(always)]
     pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> Next {
@@ -165,7 +165,7 @@ impl Siblings {
     }
 }
 
-/// Returns the step that measures two nodes which cannot be split.
+/// Returns the step that measures two nodes of a single piece each.
 fn ask(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
     let piece = |side: &Side<'_>, node| side.body.tree().piece(node);
     match (piece(&problem.a, a), piece(&problem.b, b)) {

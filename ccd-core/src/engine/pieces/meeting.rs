@@ -6,14 +6,14 @@ use crate::engine::meter::Meter;
 use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
-/// The nearest points of the cores of two pieces, in A's frame, and the surfaces around them.
+/// The surfaces around the nearest points of two pieces, without their radii, in A's frame.
 pub(crate) struct Meeting<'s> {
     points: [DVec3; 2],
     normals: &'s mut CommonNormals,
 }
 
 impl<'s> Meeting<'s> {
-    /// Finds the surfaces around two points, of A and of B, in A's frame.
+    /// Collects the surfaces around two points, of A and of B, in A's frame.
     pub(crate) fn at(snapshot: &Snapshot<'_>, points: [DVec3; 2], meter: &'s mut Meter) -> Self {
         let Snapshot {
             problem, pieces, ..
@@ -39,8 +39,8 @@ impl<'s> Meeting<'s> {
         }
     }
 
-    /// Returns the common normal of both surfaces that is nearest to a direction, if the points are along that normal
-    /// up to rounding.
+    /// Returns the common normal of both surfaces that is nearest to a direction, if the vector between the points is
+    /// along it up to rounding.
     pub(crate) fn normal(&self, towards: DVec3) -> Option<DVec3> {
         let [on_a, on_b] = self.points;
         self.normals.along(towards, on_b - on_a)

@@ -1,4 +1,4 @@
-//! A first guess of the least distance, from measurements at a few times.
+//! Estimates the least distance first, from measurements at a few times.
 
 use super::follow::follow;
 use super::{Best, unresolved};
@@ -12,8 +12,8 @@ use crate::shortcuts::out_of_reach::{least_distance, nearest_clock};
 use crate::tuning::{FOLLOWED, GUESSES};
 use std::ops::ControlFlow;
 
-/// Measures the bodies when bounding balls are nearest, and follows the nearest pieces from there. The search repeats
-/// this at the time found, as long as it finds nearer pieces.
+/// Measures the bodies at the time when their bounding balls are nearest, and follows the nearest pieces from there.
+/// The search repeats this at the time found, as long as it finds nearer pieces.
 ///
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
 pub(crate) fn guess<O: DistanceOracle>(
@@ -76,7 +76,7 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
     }
 }
 
-/// Returns the answer for bodies that overlap at the start, or when a limit is reached.
+/// Returns the outcome when the bodies overlap at the start, or a limit is reached.
 fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> Outcome {
     match stop {
         Stop::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),

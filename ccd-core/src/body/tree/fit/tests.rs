@@ -1,4 +1,4 @@
-//! Fitted boxes, compared with those of a slow fit that tries every frame on all points in f64.
+//! Compares fitted boxes with a slow fit that tries every frame on all points in f64.
 
 use super::*;
 use crate::math::order::lesser;
@@ -6,7 +6,7 @@ use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use crate::tuning::SAMPLED_TRIANGLES;
 use glam::DQuat;
 
-/// Returns the least surface of the boxes along all frames.
+/// Returns the least surface area of the boxes along all frames.
 fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
     let mut frames = vec![DMat3::IDENTITY];
     frames.push(principal_axes(|| points.iter().map(|&p| (p, 1.0))));
@@ -28,14 +28,14 @@ fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
     surfaces.fold(f64::INFINITY, lesser)
 }
 
-/// Returns half the surface of the box along a frame.
+/// Returns half the surface area of the bounding box along a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
     let Fitted { low, high, .. } = Fitted::along(frame, points);
     let size = high - low;
     size.x * size.y + size.y * size.z + size.z * size.x
 }
 
-/// The corners of triangles.
+/// Creates the input of a fit from the corners of triangles.
 fn triangles(points: &[DVec3]) -> Cloud<'_> {
     Cloud {
         points,
@@ -44,7 +44,7 @@ fn triangles(points: &[DVec3]) -> Cloud<'_> {
     }
 }
 
-/// Triangles of about a tenth of the size of a bent sheet.
+/// Returns triangles of a bent sheet, each about a tenth of its size.
 fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
     let turn = DQuat::from_axis_angle(direction(rng), 1.0);
     let middle = 3.0 * size * direction(rng);
@@ -57,7 +57,7 @@ fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
         .collect()
 }
 
-/// Triangles with the same winding in a rectangle. In a square no principal axes stand out, and frames turned about
+/// Returns triangles of equal winding in a rectangle. In a square no principal axes stand out, and frames turned about
 /// the normal fit best. If half of the triangles are a cluster of tiny ones, principal axes by area fit best.
 fn rectangle(rng: &mut Pcg64, count: usize, [long, cluster]: [f64; 2]) -> Vec<DVec3> {
     let turn = DQuat::from_axis_angle(direction(rng), 1.0);
@@ -158,7 +158,7 @@ fn degenerate_points_have_a_box() {
     }
 }
 
-/// A box along axes that are not orthonormal would not contain its points.
+/// Tests that frames which are not orthonormal are refused: their boxes would not contain the points.
 #[test]
 fn only_orthonormal_frames_are_frames() {
     let turned = DMat3::from_quat(DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0));
@@ -177,7 +177,7 @@ fn only_orthonormal_frames_are_frames() {
     }
 }
 
-/// Samples fill a unit about the origin, and nothing of an earlier sample remains.
+/// Tests that a sample has unit size about the origin, and contains nothing of an earlier sample.
 #[test]
 fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut rng = rng(9);

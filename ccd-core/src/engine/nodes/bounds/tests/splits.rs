@@ -1,5 +1,4 @@
-//! The choice of the pairs that wait for a second visit, and of the node of a pair to split, compared with the same
-//! in f64.
+//! Compares the choices of the pairs that wait, and of the nodes to split, with choices in f64.
 
 use super::setting::{Setting, Shape};
 use super::{Sample, find, widest};
@@ -15,15 +14,15 @@ use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
-/// The values of eight pairs, one number for each.
+/// The values of eight pairs from which the bounds choose.
 struct Rows {
     radius: [f32; LANES],
-    /// The distances from the other body's centre of rotation.
+    /// The distances of the small nodes from the other body's centre of rotation.
     arms: [f32; LANES],
     split_reach: [f32; LANES],
     other_reach: [f32; LANES],
     gap: [f32; LANES],
-    /// The times of the two fixed planes, and of the planes that turn with the split and the other body.
+    /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
     free: [[f32; LANES]; 4],
     pieces: u8,
     found: Bounds,
@@ -53,7 +52,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         })
     }
 
-    /// Returns the setting with the much larger side recorded, if there is one.
+    /// Records which side is much larger, if one is.
     fn beside_a_larger_one(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
@@ -68,13 +67,13 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 }
 
-/// Returns whether one number is greater than another; `None` within rounding.
+/// Returns whether one number is greater than another; `None` if they are equal up to rounding.
 fn exceeds(one: f64, other: f64) -> Option<bool> {
     let near = 1e-4 * (one.abs() + other.abs());
     ((one - other).abs() > near).then_some(one > other)
 }
 
-/// The numbers of decisions against and for.
+/// The number of choices against and for an option.
 #[derive(Debug, Default)]
 struct Decisions {
     waits: [usize; 2],
