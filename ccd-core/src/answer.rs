@@ -152,8 +152,8 @@ impl Answer {
 
     /// Converts an answer about enclosing bodies to one about the shapes in them. It is called once for each query
     /// about a distance.
-    pub(crate) fn of_shapes(self, excess: Excess) -> Self {
-        let outcome = self.outcome.of_shapes(excess);
+    pub(crate) fn to_shapes(self, excess: Excess) -> Self {
+        let outcome = self.outcome.to_shapes(excess);
         Answer {
             outcome,
             tolerance: greater(self.tolerance, outcome.width()),
@@ -321,7 +321,7 @@ impl Outcome {
                     at: known.at.map(|(time, contact)| (time, map(contact, time))),
                     ..known
                 }
-                .with_upper_of_contact(),
+                .with_measured_upper_bound(),
             ),
             // The contacts of an interval are those of two first contacts, which have already been mapped.
             Outcome::Free { .. }
@@ -332,11 +332,11 @@ impl Outcome {
     }
 
     /// Converts an outcome about enclosing bodies to one about the shapes in them.
-    fn of_shapes(self, excess: Excess) -> Self {
-        match self.map_contacts(|contact, _| contact.of_shapes(excess)) {
+    fn to_shapes(self, excess: Excess) -> Self {
+        match self.map_contacts(|contact, _| contact.to_shapes(excess)) {
             Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
                 overlap,
-                upper: excess.of_overlap(),
+                upper: excess.distance_of_overlap(),
             },
             outcome => outcome,
         }

@@ -26,7 +26,7 @@ use crate::math::order::greater;
 use crate::tuning::BOX_SHARE;
 use combination::Combination;
 use feature::Feature;
-use feature_lookup::{face_under, prepare};
+use feature_lookup::{face_at, prepare};
 use glam::DVec3;
 use hierarchy::Hierarchy;
 #[cfg(feature = "hull-tree")]
@@ -111,11 +111,15 @@ impl Body {
         volume: Volume,
     ) -> Result<Self, InputError> {
         let (layout, pieces) = Layout::of(pieces, hierarchy)?;
-        let (shells, tree) = join(pieces.len(), || shells(&pieces), || layout.fitted(&pieces));
+        let (shells, tree) = join(
+            pieces.len(),
+            || shells(&pieces),
+            || layout.fit_nodes(&pieces),
+        );
         if !pieces.all_triangles() {
             // The searches are prepared now, so that no query waits for them.
             for piece in pieces.iter() {
-                piece.supported(support_of);
+                piece.with_support(support_of);
                 prepare(&piece);
             }
         }
@@ -164,7 +168,7 @@ impl Body {
     /// bit and in any order.
     #[cfg(feature = "hull-tree")]
     pub fn with_hull_tree(mut self, tree: HullTree) -> Result<Self, HullTreeError> {
-        self.hull_tree = Some(tree.renumbered(&self.pieces)?);
+        self.hull_tree = Some(tree.renumber_leaves(&self.pieces)?);
         Ok(self)
     }
 
@@ -176,7 +180,7 @@ impl Body {
     /// Returns a piece by its index. A piece of many points has a search structure for extremal points.
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
-        self.pieces.get(index as usize).supported(support_of)
+        self.pieces.get(index as usize).with_support(support_of)
     }
 
     /// Computes in advance, on all cores, the values that [`Piece::kept`] would compute when first requested.
@@ -206,7 +210,7 @@ impl Body {
         }
         for_each(&mut pieces, &(), |(), _, piece| {
             // Pieces in queries have this search, too.
-            let _ = piece.supported(support_of).kept(&make);
+            let _ = piece.with_support(support_of).kept(&make);
         });
     }
 
@@ -229,7 +233,7 @@ impl Body {
     /// Returns the body to use in a query against `other`: the triangulated surface, if there is one and `other` has
     /// many triangles. A box that is larger than the other body is not replaced: its triangles would hardly be nearer
     /// to anything than the box is.
-    pub(crate) fn against(&self, other: &Body) -> &Body {
+    pub(crate) fn query_body_against(&self, other: &Body) -> &Body {
         let many = other.pieces.all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
         match &self.surface {
@@ -267,7 +271,7 @@ impl Body {
         let at = point.of(self.pieces.get(piece as usize).points);
         at.and_then(|at| {
             let mut faces =
-                pieces_at(&self.tree, at).map(|k| face_under(&self.pieces.get(k as usize), at));
+                pieces_at(&self.tree, at).map(|k| face_at(&self.pieces.get(k as usize), at));
             faces.find_map(|face| face)
         })
         .map_or(feature, Feature::Face)

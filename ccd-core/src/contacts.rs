@@ -55,12 +55,12 @@ impl Problem<'_> {
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
         for skin in &mut skins {
-            skin.hide_cuts(self.rounding);
+            skin.find_cut_edges(self.rounding);
         }
         let [a, b] = &skins;
         let mut manifold = Manifold::new(self, [a, b]);
         for faces in near {
-            manifold.meet(faces);
+            manifold.add_face_contacts(faces);
             if manifold.len() as u64 > budget {
                 return Err(too_many());
             }

@@ -103,7 +103,7 @@ impl<'a> Problem<'a> {
         terms.check(duration)?;
         let origin = b.1.start().translation();
         let side = |(given, motion): (&'a Body, Motion), other: &'a Body, acceleration: DVec3| {
-            let body = given.against(other);
+            let body = given.query_body_against(other);
             let path = Path::new(&motion, origin, duration);
             Side {
                 body,

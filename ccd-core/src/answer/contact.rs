@@ -44,10 +44,10 @@ pub struct Contact {
 
 impl Contact {
     /// Adds the excess of the bodies to the upper bound, so that it holds for the shapes within them.
-    pub(crate) fn of_shapes(self, excess: Excess) -> Self {
+    pub(crate) fn to_shapes(self, excess: Excess) -> Self {
         Contact {
             separation: Separation {
-                upper: excess.above(self.separation.upper),
+                upper: excess.upper_bound_of_shapes(self.separation.upper),
                 ..self.separation
             },
             ..self
@@ -55,7 +55,7 @@ impl Contact {
     }
 
     /// Lowers the contact's lower bound to at most `least`.
-    pub(crate) fn no_nearer_than(self, least: f64) -> Self {
+    pub(crate) fn cap_lower_bound(self, least: f64) -> Self {
         Contact {
             separation: Separation {
                 lower: lesser(self.separation.lower, least),

@@ -44,11 +44,11 @@ impl Unresolved {
             at,
             ..Unresolved::until(0.0, limit)
         }
-        .with_upper_of_contact()
+        .with_measured_upper_bound()
     }
 
     /// Sets the upper bound to that of the measured contact.
-    pub(super) fn with_upper_of_contact(self) -> Self {
+    pub(super) fn with_measured_upper_bound(self) -> Self {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
         Unresolved {
             upper: self.at.map_or(f64::INFINITY, upper),

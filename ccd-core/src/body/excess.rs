@@ -50,12 +50,12 @@ impl Excess {
     }
 
     /// Returns the largest possible distance of two shapes whose enclosing bodies overlap.
-    pub(crate) fn of_overlap(self) -> f64 {
+    pub(crate) fn distance_of_overlap(self) -> f64 {
         self.0
     }
 
     /// Converts an upper bound of the distance of two bodies to one of their shapes' distance.
-    pub(crate) fn above(self, upper: f64) -> f64 {
+    pub(crate) fn upper_bound_of_shapes(self, upper: f64) -> f64 {
         if self.0 > 0.0 {
             (upper + self.0).next_up()
         } else {
@@ -65,7 +65,7 @@ impl Excess {
 
     /// Returns the distance of bodies below which their shapes are certainly nearer than `distance`. It is 0 or less if
     /// there is none.
-    pub(crate) fn below(self, distance: f64) -> f64 {
+    pub(crate) fn certainly_nearer_below(self, distance: f64) -> f64 {
         if self.0 > 0.0 {
             (distance - self.0).next_down()
         } else {

@@ -57,7 +57,7 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
         Some((face, _)) => MeshFeature::Face(face),
         None => point
             .of(piece.points)
-            .and_then(|at| face_under(piece, at))
+            .and_then(|at| face_at(piece, at))
             .map_or(MeshFeature::Nothing, MeshFeature::Face),
     }
 }
@@ -113,7 +113,7 @@ pub(crate) fn prepare(piece: &Piece<'_>) {
 }
 
 /// Returns the face of the mesh that contains a point, up to rounding.
-pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
+pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     if !is_on_mesh(piece) {
         return None;
     }
@@ -126,14 +126,14 @@ pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     let off = piece
         .mesh_triangles()
         .filter(|&(_, triangle)| near(triangle))
-        .map(|(id, triangle)| (distance_off(triangle, point), id));
+        .map(|(id, triangle)| (distance_from_triangle(triangle, point), id));
     let (off, face) = off.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (off <= reach).then_some(face)
 }
 
 /// Returns how far a point is off a triangle: the greater of its distance from the plane, and of how far it is beyond
 /// the edges.
-fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+fn distance_from_triangle([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;
     };

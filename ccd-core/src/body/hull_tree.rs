@@ -60,13 +60,13 @@ struct Hulls {
     /// The end of each hull's facets in `classes`.
     class_ends: Vec<u32>,
     /// For each node, whether all pieces below it have the same rounding radius.
-    evenly_rounded: Vec<bool>,
+    has_uniform_radius: Vec<bool>,
     /// Half the diagonal of each hull's bounding box, rounding included.
     sizes: Vec<f64>,
     /// The facets that meet in each point, for all points of all hulls, by their indices within the hull.
-    meeting: Vec<u32>,
-    /// The end of each point's facets in `meeting`.
-    meeting_ends: Vec<u32>,
+    facets_by_point: Vec<u32>,
+    /// The end of each point's facets in `facets_by_point`.
+    facets_by_point_ends: Vec<u32>,
 }
 
 impl HullTree {
@@ -101,7 +101,7 @@ impl HullTree {
     pub fn class_of(&self, node: u32, point: &Combination) -> FacetClass {
         let at = node as usize;
         let support = point.support();
-        if support.is_empty() || !self.hulls.evenly_rounded[at] {
+        if support.is_empty() || !self.hulls.has_uniform_radius[at] {
             return FacetClass::Free;
         }
         if support.len() == 1 {
@@ -112,9 +112,9 @@ impl HullTree {
             HierarchyNode::Leaf(_) => FacetClass::Contained,
             HierarchyNode::Inner(..) => FacetClass::Free,
         };
-        let (first, others) = (self.hulls.meeting(at, support[0]), &support[1..]);
+        let (first, others) = (self.hulls.facets_by_point(at, support[0]), &support[1..]);
         let holding = first.iter().filter(|facet| {
-            let holds = |&v| self.hulls.meeting(at, v).contains(facet);
+            let holds = |&v| self.hulls.facets_by_point(at, v).contains(facet);
             others.iter().all(holds)
         });
         let classes = self.facet_classes(node);
@@ -125,7 +125,10 @@ impl HullTree {
     /// Returns the hull of a node, with a search structure for extremal points. Edges are climbed if they are proven to
     /// be those of the hull. Otherwise a tree is searched.
     pub(crate) fn hull(&self, node: u32) -> Piece<'_> {
-        self.hulls.pieces.get(node as usize).supported(support_of)
+        self.hulls
+            .pieces
+            .get(node as usize)
+            .with_support(support_of)
     }
 
     /// Returns the input nodes from which the tree can be [built](HullTree::new) again.
@@ -159,18 +162,18 @@ impl HullTree {
 
 impl Hulls {
     /// Returns the facets of a node's hull that meet in one of its points; empty if there is no such point.
-    fn meeting(&self, node: usize, point: u32) -> &[u32] {
+    fn facets_by_point(&self, node: usize, point: u32) -> &[u32] {
         let points = self.pieces.point_range(node);
         let at = points.start + point as usize;
         if !points.contains(&at) {
             return &[];
         }
-        &self.meeting[range(&self.meeting_ends, at)]
+        &self.facets_by_point[range(&self.facets_by_point_ends, at)]
     }
 
     fn bytes(&self) -> usize {
-        let meeting = 4 * (self.meeting.len() + self.meeting_ends.len());
-        self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + meeting
+        let facets_by_point = 4 * (self.facets_by_point.len() + self.facets_by_point_ends.len());
+        self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + facets_by_point
     }
 }
 

@@ -78,7 +78,7 @@ impl<'a> Piece<'a> {
     /// Adds a search structure for extremal points if the piece has many points. The structure is created once and
     /// stored.
     #[inline]
-    pub(crate) fn supported(self, make: impl FnOnce(&Self) -> Support) -> Self {
+    pub(crate) fn with_support(self, make: impl FnOnce(&Self) -> Support) -> Self {
         if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
             return self;
         }
@@ -140,7 +140,7 @@ impl<'a> Piece<'a> {
     }
 
     /// Returns an upper bound of the distances of the piece's points from `from`, as tight as rounding allows.
-    pub(crate) fn farthest_from(&self, from: DVec3) -> f64 {
+    pub(crate) fn max_distance_from(&self, from: DVec3) -> f64 {
         if let Some((middle, radius)) = self.ball() {
             return (distance(middle, from) + radius) * (1.0 + RATE_F64);
         }

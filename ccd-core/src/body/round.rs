@@ -104,7 +104,7 @@ impl Round {
     /// [`InputError::OutOfRange`] for an excess less than the [least](Round::least_excess), or a radius whose polytope
     /// reaches beyond [`MAX_COORDINATE`].
     pub fn enclosed(&self, excess: f64) -> Result<Enclosure, InputError> {
-        let ring = Ring::about(self.radius, excess)?;
+        let ring = Ring::circumscribed(self.radius, excess)?;
         let z = self.half_height;
         let count = ring.corners.len() as u32;
         let level = |z: f64| ring.corners.iter().map(move |[x, y]| DVec3::new(*x, *y, z));
@@ -195,14 +195,14 @@ struct Ring {
 }
 
 impl Ring {
-    fn about(radius: f64, excess: f64) -> Result<Self, InputError> {
+    fn circumscribed(radius: f64, excess: f64) -> Result<Self, InputError> {
         if radius == 0.0 {
             return Ok(Ring {
                 corners: vec![[0.0; 2]; 4],
                 excess: 0.0,
             });
         }
-        let count = corners(radius, excess)?;
+        let count = corner_count(radius, excess)?;
         let step = TAU / count;
         // This is the distance of the corners from the middle; the edges are at distance `radius`.
         let reach = radius / (0.5 * step).cos() * ABOUT + 4.0 * LEAST_F64;
@@ -225,7 +225,7 @@ impl Ring {
 }
 
 /// Returns the number of corners with which a regular polygon exceeds the enclosed circle by at most `asked`.
-fn corners(radius: f64, asked: f64) -> Result<f64, InputError> {
+fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
     // A corner is at `radius / cos(π/n)`. The share of the excess is clamped to a range in which angles lose no
     // digits. The rounding of the corners is subtracted.
     let share = lesser(asked / radius - 4.0 * (ABOUT - 1.0), 1.0);
@@ -261,7 +261,7 @@ impl Body {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::cylinder(radius, half_height)?.usual_body()
+        Round::cylinder(radius, half_height)?.default_enclosure()
     }
 
     /// Creates a cone about the origin, with the base at `−half_height` along z, and the apex at `half_height`. The
@@ -270,12 +270,12 @@ impl Body {
     /// # Errors
     /// [`InputError::OutOfRange`].
     pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::cone(radius, half_height)?.usual_body()
+        Round::cone(radius, half_height)?.default_enclosure()
     }
 }
 
 impl Round {
-    fn usual_body(&self) -> Result<Body, InputError> {
+    fn default_enclosure(&self) -> Result<Body, InputError> {
         self.enclosed(self.usual_excess())?.body()
     }
 }

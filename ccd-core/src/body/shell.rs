@@ -14,7 +14,7 @@ pub(crate) type Shell = [DVec3; 6];
 /// Approximately linear in the number of points.
 pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
-    let (mut parts, distinct) = by_number(pieces);
+    let (mut parts, distinct) = join_by_number(pieces);
     let mut count = distinct.len();
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
@@ -49,7 +49,7 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
 ///
 /// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
 /// numbers: points count as equal by their coordinates.
-fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
+fn join_by_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
     let range = numbers
@@ -76,11 +76,11 @@ fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
             distinct.push(k);
         }
     }
-    (Parts(parts), distinct)
+    (DisjointSets(parts), distinct)
 }
 
 /// Joins points at the same position.
-fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
+fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut DisjointSets) {
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
         // The numbers 0 and −0 are equal.
@@ -99,9 +99,9 @@ fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
 }
 
 /// A union-find forest: every element stores another one of its set, and a root stores itself.
-struct Parts(Vec<u32>);
+struct DisjointSets(Vec<u32>);
 
-impl Parts {
+impl DisjointSets {
     fn root(&mut self, mut k: usize) -> usize {
         while self.0[k] as usize != k {
             // Path halving shortens later searches.

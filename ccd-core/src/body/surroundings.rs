@@ -2,7 +2,7 @@
 
 use super::Body;
 use super::piece::Piece;
-use super::tree::point_query::{is_past, pieces_near};
+use super::tree::point_query::{is_beyond, pieces_near};
 use glam::DVec3;
 
 impl Body {
@@ -12,15 +12,15 @@ impl Body {
     ///
     /// # Complexity
     /// Linear in the number of faces of the pieces within that distance.
-    pub(crate) fn ways_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+    pub(crate) fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for k in pieces_near(self.tree(), at, reach) {
             let piece = self.pieces().get(k as usize);
             let mut is_near = false;
             for_each_face(&piece, |face| {
                 let near = match *face {
-                    [a] => !is_past([a; 3], at, reach),
-                    [a, b] => !is_past([a, b, b], at, reach),
-                    [a, b, c] => !is_past([a, b, c], at, reach),
+                    [a] => !is_beyond([a; 3], at, reach),
+                    [a, b] => !is_beyond([a, b, b], at, reach),
+                    [a, b, c] => !is_beyond([a, b, c], at, reach),
                     // The box of the piece is near.
                     _ => true,
                 };

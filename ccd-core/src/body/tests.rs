@@ -80,12 +80,17 @@ fn tetrahedron() -> [Body; 2] {
 fn a_surface_is_taken_against_many_triangles_only() {
     let [one, triangles] = tetrahedron();
     let both = one.clone().with_surface(triangles.clone()).unwrap();
-    assert_eq!(both.against(&triangles).pieces().len(), 4);
-    assert_eq!(both.against(&one).pieces().len(), 1);
-    assert_eq!(both.against(&both).pieces().len(), 1);
-    assert_eq!(both.against(&Body::ball(1.0).unwrap()).pieces().len(), 1);
-    assert_eq!(one.against(&triangles).pieces().len(), 1);
-    assert_eq!(triangles.against(&triangles).pieces().len(), 4);
+    assert_eq!(both.query_body_against(&triangles).pieces().len(), 4);
+    assert_eq!(both.query_body_against(&one).pieces().len(), 1);
+    assert_eq!(both.query_body_against(&both).pieces().len(), 1);
+    assert_eq!(
+        both.query_body_against(&Body::ball(1.0).unwrap())
+            .pieces()
+            .len(),
+        1
+    );
+    assert_eq!(one.query_body_against(&triangles).pieces().len(), 1);
+    assert_eq!(triangles.query_body_against(&triangles).pieces().len(), 4);
     assert!(both.bytes() > one.bytes());
 }
 

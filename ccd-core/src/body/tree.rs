@@ -14,7 +14,7 @@ pub(crate) use build::Layout;
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, TriangleRow, unit_normal, up};
 pub(crate) use node::{Below, Node};
 pub(crate) use slab::Slab;
-pub(crate) use whole::Whole;
+pub(crate) use whole::BodyBox;
 
 use super::pieces::Pieces;
 use glam::DVec3;
@@ -33,7 +33,7 @@ pub(crate) struct Tree {
     triangles: Vec<TriangleRow>,
     /// The slabs around flat nodes, sorted by node.
     slabs: Vec<(NodeId, Slab)>,
-    whole: Whole,
+    whole: BodyBox,
     /// The largest distance of any point from the body's origin, rounding radii included.
     span: f64,
 }
@@ -43,7 +43,7 @@ pub(crate) type NodeId = u32;
 
 /// The node or triangle that a [`NodeId`] refers to.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Named<'a> {
+pub(crate) enum NodeOrTriangle<'a> {
     Node(&'a Node),
     /// A triangle, by the index of its piece.
     Triangle(u32),
@@ -51,10 +51,10 @@ pub(crate) enum Named<'a> {
 
 impl Tree {
     #[inline(always)]
-    pub(crate) fn get(&self, id: NodeId) -> Named<'_> {
+    pub(crate) fn get(&self, id: NodeId) -> NodeOrTriangle<'_> {
         match self.nodes.get(id as usize) {
-            Some(node) => Named::Node(node),
-            None => Named::Triangle(id - self.nodes.len() as u32),
+            Some(node) => NodeOrTriangle::Node(node),
+            None => NodeOrTriangle::Triangle(id - self.nodes.len() as u32),
         }
     }
 
@@ -67,8 +67,8 @@ impl Tree {
     #[inline]
     pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
         match self.get(id) {
-            Named::Triangle(piece) => Some(piece),
-            Named::Node(node) => match node.below {
+            NodeOrTriangle::Triangle(piece) => Some(piece),
+            NodeOrTriangle::Node(node) => match node.below {
                 Below::Piece(piece) => Some(piece),
                 _ => None,
             },
@@ -115,7 +115,7 @@ impl Tree {
     }
 
     /// Returns the bounding box of the whole body.
-    pub(crate) fn whole(&self) -> &Whole {
+    pub(crate) fn whole(&self) -> &BodyBox {
         &self.whole
     }
 
@@ -126,7 +126,7 @@ impl Tree {
 
     /// Returns whether a point is in the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
-        self.nodes[0].holds(point, 0.0)
+        self.nodes[0].is_near(point, 0.0)
     }
 
     pub(crate) fn bytes(&self) -> usize {

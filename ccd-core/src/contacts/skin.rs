@@ -18,17 +18,17 @@ pub(super) struct Skin<'a> {
     corners: Vec<Corner>,
     faces: Vec<Face>,
     /// The index of the corner with a given position and mesh number.
-    known: HashMap<(PointBits, Option<u32>), u32>,
+    corner_index: HashMap<(PointBits, Option<u32>), u32>,
     /// The edges between two coplanar faces, with these faces. Points on such an edge belong to the first of the faces.
-    within: HashMap<[u32; 2], [u32; 2]>,
+    coplanar_edges: HashMap<[u32; 2], [u32; 2]>,
     /// For each corner, whether it is inside a plane and has no mesh number.
-    hidden: Vec<bool>,
+    is_hidden: Vec<bool>,
     /// The faces around each hidden corner.
     faces_around: HashMap<u32, Vec<u32>>,
     /// The first triangle with each face number.
-    first_of: HashMap<Feature, u32>,
+    first_triangle_of: HashMap<Feature, u32>,
     /// The sum of the normals of the faces around each corner.
-    outward: Vec<DVec3>,
+    corner_normals: Vec<DVec3>,
 }
 
 /// A vertex that triangles of the surface share.
@@ -66,17 +66,17 @@ impl<'a> Skin<'a> {
             to_a,
             corners: Vec::new(),
             faces: Vec::new(),
-            known: HashMap::new(),
-            within: HashMap::new(),
-            hidden: Vec::new(),
+            corner_index: HashMap::new(),
+            coplanar_edges: HashMap::new(),
+            is_hidden: Vec::new(),
             faces_around: HashMap::new(),
-            first_of: HashMap::new(),
-            outward: Vec::new(),
+            first_triangle_of: HashMap::new(),
+            corner_normals: Vec::new(),
         }
     }
 
     /// Adds the triangles of a piece, and returns their indices. It is to be called once for each piece.
-    pub(super) fn of_piece(&mut self, piece: u32) -> Range<u32> {
+    pub(super) fn add_piece(&mut self, piece: u32) -> Range<u32> {
         let first = self.faces.len() as u32;
         self.unpack(piece);
         first..self.faces.len() as u32
@@ -84,13 +84,13 @@ impl<'a> Skin<'a> {
 
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
-    pub(super) fn hide_cuts(&mut self, rounding: f64) {
+    pub(super) fn find_cut_edges(&mut self, rounding: f64) {
         self.share_numbers();
         self.add_normals();
         let mut sides: HashMap<[u32; 2], Sides> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
             if let Feature::Face(_) = name {
-                self.first_of.entry(*name).or_insert(face);
+                self.first_triangle_of.entry(*name).or_insert(face);
             }
             for ends in edges(*corners) {
                 let sides = sides.entry(ends).or_default();
@@ -100,24 +100,24 @@ impl<'a> Skin<'a> {
                 sides.count += 1;
             }
         }
-        self.hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
+        self.is_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
         // Segments and points are not within a plane.
         let thin = |face: &&Face| edges(face.corners).count() < 3;
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
-            self.hidden[corner as usize] = false;
+            self.is_hidden[corner as usize] = false;
         }
         for (ends, Sides { mut faces, count }) in sides {
             if count == 2 && self.in_one_plane(ends, faces, rounding) {
                 faces.sort_by_key(|&face| (self.face(face).name, face));
-                self.within.insert(ends, faces);
+                self.coplanar_edges.insert(ends, faces);
             } else {
                 for end in ends {
-                    self.hidden[end as usize] = false;
+                    self.is_hidden[end as usize] = false;
                 }
             }
         }
         for (face, Face { corners, .. }) in (0u32..).zip(&self.faces) {
-            for &corner in corners.iter().filter(|&&k| self.hidden[k as usize]) {
+            for &corner in corners.iter().filter(|&&k| self.is_hidden[k as usize]) {
                 self.faces_around.entry(corner).or_default().push(face);
             }
         }
@@ -147,7 +147,7 @@ impl<'a> Skin<'a> {
     /// Returns the approximate outward direction at a corner, edge or face: the sum of the normals around it, or zero
     /// if none is known.
     pub(super) fn outward(&self, spot: Spot, face: u32) -> DVec3 {
-        let at = |corner: u32| self.outward[corner as usize];
+        let at = |corner: u32| self.corner_normals[corner as usize];
         match spot {
             Spot::Corner(corner) => at(corner),
             Spot::Edge([v, w]) => at(v) + at(w),
@@ -176,7 +176,7 @@ impl<'a> Skin<'a> {
 
     /// Calls `look` with the corners of a face, and with a point of the solid below it. If the piece of the face has no
     /// facets, all its points take the place of the corners.
-    pub(super) fn for_ends_around(&self, face: u32, look: impl FnMut(DVec3)) {
+    pub(super) fn for_each_point_around(&self, face: u32, look: impl FnMut(DVec3)) {
         let index = self.face(face).piece;
         let piece = self.body.pieces().get(index as usize);
         let corners = self.triangle(face);
@@ -214,10 +214,10 @@ impl<'a> Skin<'a> {
     }
 
     /// Returns the coplanar faces around an edge or corner that is inside a flat part; empty for others.
-    pub(super) fn sharing(&self, spot: Spot) -> &[u32] {
+    pub(super) fn coplanar_faces_around(&self, spot: Spot) -> &[u32] {
         let faces = match spot {
             Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
-            Spot::Edge(ends) => self.within.get(&ends).map(<[u32; 2]>::as_slice),
+            Spot::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
             Spot::Face(_) => None,
         };
         faces.unwrap_or_default()
@@ -225,24 +225,24 @@ impl<'a> Skin<'a> {
 
     /// Returns the corner, edge or face to report instead of `spot`, and a face with it. Edges and corners inside a
     /// flat part are replaced by a face. Triangles with the same face number are one face.
-    pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
+    pub(super) fn reported_part(&self, spot: Spot, face: u32) -> (Spot, u32) {
         let face = match spot {
-            Spot::Corner(corner) if self.hidden[corner as usize] => face,
-            Spot::Edge(ends) => match self.across(ends) {
+            Spot::Corner(corner) if self.is_hidden[corner as usize] => face,
+            Spot::Edge(ends) => match self.face_of_coplanar_edge(ends) {
                 Some(face) => face,
                 None => return (spot, face),
             },
             Spot::Face(face) => face,
             Spot::Corner(_) => return (spot, face),
         };
-        let first = self.first_of.get(&self.face(face).name);
+        let first = self.first_triangle_of.get(&self.face(face).name);
         (Spot::Face(first.copied().unwrap_or(face)), face)
     }
 
     /// Returns the mesh's feature of a corner, edge or face. If it has no number, the feature is that of the face
     /// `face`, or the piece.
     pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
-        let id = |corner: u32| self.number_of(corner);
+        let id = |corner: u32| self.mesh_number(corner);
         let own = match spot {
             Spot::Corner(corner) => id(corner).map(Feature::Vertex),
             Spot::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
@@ -255,18 +255,18 @@ impl<'a> Skin<'a> {
     pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
         let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
-        let shown = |corner: &u32| !self.hidden[*corner as usize];
+        let shown = |corner: &u32| !self.is_hidden[*corner as usize];
         first.map(move |k| corners[k]).filter(shown)
     }
 
     /// Returns the edges of a face, except those between coplanar faces.
     pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
-        edges(self.face(face).corners).filter(|&ends| self.across(ends).is_none())
+        edges(self.face(face).corners).filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
     }
 
     /// Returns the face to which points on an edge between coplanar faces belong; `None` for other edges.
-    pub(super) fn across(&self, ends: [u32; 2]) -> Option<u32> {
-        self.within.get(&ends).map(|faces| faces[0])
+    pub(super) fn face_of_coplanar_edge(&self, ends: [u32; 2]) -> Option<u32> {
+        self.coplanar_edges.get(&ends).map(|faces| faces[0])
     }
 
     fn add_normals(&mut self) {
@@ -277,7 +277,7 @@ impl<'a> Skin<'a> {
                 outward[corner as usize] += normal;
             }
         }
-        self.outward = outward;
+        self.corner_normals = outward;
     }
 
     /// Copies mesh numbers to corners without one, from corners of other pieces at the same position.

@@ -30,7 +30,7 @@ pub(crate) fn intersects(
     pair: &PiecePair<'_>,
     checked: &Checked,
     rounding: f64,
-    inner: &mut Inner,
+    inner: &mut InnerPolytope,
 ) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
@@ -79,11 +79,11 @@ fn farthest_difference(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
 /// Its faces form a closed surface even if their normals are rounded: the faces that a new corner sees are replaced
 /// by a cone to their rim. Once all faces are turned away from the origin, the surface winds about it.
 #[derive(Debug, Default)]
-pub(crate) struct Inner {
+pub(crate) struct InnerPolytope {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
     /// The border edges between the faces that the last corner is in front of, and the others.
-    rim: Vec<[usize; 2]>,
+    horizon_edges: Vec<[usize; 2]>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -97,7 +97,7 @@ struct Face {
     height: f64,
 }
 
-impl Inner {
+impl InnerPolytope {
     /// Starts with a tetrahedron of differences. Returns false if all differences are in one plane.
     fn begin(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
         self.corners.clear();
@@ -133,22 +133,22 @@ impl Inner {
     fn add(&mut self, corner: DVec3, seen: [usize; 3]) {
         let new = self.corners.len();
         self.corners.push(corner);
-        let rim = &mut self.rim;
-        rim.clear();
+        let horizon_edges = &mut self.horizon_edges;
+        horizon_edges.clear();
         self.faces.retain(|face| {
             let sees = face.corners == seen || face.normal.dot(corner) > face.height;
             for k in (0..3).filter(|_| sees) {
                 let [from, to] = [face.corners[k], face.corners[(k + 1) % 3]];
                 // An edge of two removed faces is not part of the rim.
-                match rim.iter().position(|&edge| edge == [to, from]) {
-                    Some(other) => drop(rim.swap_remove(other)),
-                    None => rim.push([from, to]),
+                match horizon_edges.iter().position(|&edge| edge == [to, from]) {
+                    Some(other) => drop(horizon_edges.swap_remove(other)),
+                    None => horizon_edges.push([from, to]),
                 }
             }
             !sees
         });
-        for k in 0..self.rim.len() {
-            let [from, to] = self.rim[k];
+        for k in 0..self.horizon_edges.len() {
+            let [from, to] = self.horizon_edges[k];
             self.push([from, to, new]);
         }
     }

@@ -32,8 +32,8 @@ pub(crate) struct Checked {
 /// # Guarantee
 /// `lower ≤ distance ≤ upper`, for any claim.
 pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Checked {
-    let (a, on_a) = named(claim.a, pair.a.points);
-    let (b, on_b) = named(claim.b, pair.b.points);
+    let (a, on_a) = with_valid_indices(claim.a, pair.a.points);
+    let (b, on_b) = with_valid_indices(claim.b, pair.b.points);
     let on_b = pair.b_to_a.point(on_b);
     let way = on_b - on_a;
     let distance = length(way);
@@ -101,7 +101,7 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
 }
 
 /// Returns a combination and its position. A combination with indices that the piece does not have is replaced.
-fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
+fn with_valid_indices(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
     match combination.of(points) {
         Some(point) => (combination, point),
         None => (Combination::point(0), points[0]),

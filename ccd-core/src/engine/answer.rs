@@ -11,7 +11,7 @@ use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
 use crate::touching_plane::TouchingPlane;
-pub(crate) use given::{contact_of_given, of_given};
+pub(crate) use given::{contact_for_given_bodies, outcome_for_given_bodies};
 
 /// Runs a search that examines pairs in order of time, under the query's policy for contacts at the start.
 ///
@@ -27,7 +27,7 @@ pub(crate) fn answer<O: DistanceOracle>(
     search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     let as_found = |_: &Problem<'_>, _: &mut O, _: &mut Meter| None;
-    answer_after(problem, oracle, scratch, as_found, search)
+    answer_under_policy(problem, oracle, scratch, as_found, search)
 }
 
 /// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. If contacts at the
@@ -42,19 +42,19 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
         let beyond = problem.contact_distance().next_up();
         at_start(problem, beyond, oracle, meter)
     };
-    answer_after(problem, oracle, scratch, at_start, search)
+    answer_under_policy(problem, oracle, scratch, at_start, search)
 }
 
 /// Runs a search under the query's policy for contacts at the start. If these are to be ignored, `look` examines the
 /// start first, and may return the outcome.
-fn answer_after<O: DistanceOracle>(
+fn answer_under_policy<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     scratch: &mut Scratch,
     look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter) -> Option<Outcome>,
     mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
-    metered(problem, oracle, scratch, |oracle, meter| {
+    run_metered(problem, oracle, scratch, |oracle, meter| {
         let outcome = match problem.start {
             StartPolicy::Report => search(problem, oracle, meter),
             StartPolicy::Leave => {
@@ -63,23 +63,26 @@ fn answer_after<O: DistanceOracle>(
                 seen.unwrap_or_else(|| search(&problem, oracle, meter))
             }
         };
-        let parting = let_go(problem, problem.start, &outcome, oracle, meter);
+        let parting = ignoring_start_contact(problem, problem.start, &outcome, oracle, meter);
         let (outcome, tolerance) = match parting {
             Some(problem) => {
                 let outcome = search(&problem, oracle, meter);
-                (outcome, shown(&problem, &outcome))
+                (outcome, achieved_tolerance(&problem, &outcome))
             }
             None => (outcome, problem.tolerance),
         };
         let within = problem.margin + tolerance;
-        (of_given(problem, oracle, meter, outcome, within), tolerance)
+        (
+            outcome_for_given_bodies(problem, oracle, meter, outcome, within),
+            tolerance,
+        )
     })
     .answer()
 }
 
 /// Returns the problem in which the contact at the start is ignored, if the policy asks for that and the bodies touch;
 /// `None` otherwise.
-pub(crate) fn let_go<'a, O: DistanceOracle>(
+pub(crate) fn ignoring_start_contact<'a, O: DistanceOracle>(
     problem: &Problem<'a>,
     start: StartPolicy,
     outcome: &Outcome,
@@ -90,7 +93,8 @@ pub(crate) fn let_go<'a, O: DistanceOracle>(
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let (within, at_start) = (problem.contact_distance(), problem.time(0.0));
             // The normal is needed here. That of two pieces alone may be arbitrary.
-            let contact = contact_of_given(problem, oracle, meter, *contact, within, at_start);
+            let contact =
+                contact_for_given_bodies(problem, oracle, meter, *contact, within, at_start);
             let gap = contact.separation.lower - problem.margin;
             Some(problem.leaving(gap, TouchingPlane::of(problem, &contact)))
         }
@@ -99,13 +103,13 @@ pub(crate) fn let_go<'a, O: DistanceOracle>(
 }
 
 /// The result of a search, with its tolerance and its work.
-pub(crate) struct Searched<T> {
+pub(crate) struct SearchResult<T> {
     pub(crate) found: T,
     pub(crate) tolerance: f64,
     pub(crate) stats: Stats,
 }
 
-impl Searched<Outcome> {
+impl SearchResult<Outcome> {
     pub(crate) fn answer(self) -> Answer {
         Answer {
             outcome: self.found,
@@ -116,18 +120,18 @@ impl Searched<Outcome> {
 }
 
 /// Runs a search and counts its work. The search returns its result and the tolerance.
-pub(crate) fn metered<O: DistanceOracle, T>(
+pub(crate) fn run_metered<O: DistanceOracle, T>(
     problem: &Problem<'_>,
     oracle: &mut O,
     scratch: &mut Scratch,
     solve: impl FnOnce(&mut O, &mut Meter) -> (T, f64),
-) -> Searched<T> {
+) -> SearchResult<T> {
     let before = oracle.effort();
     let mut meter = Meter::new(problem);
     meter.scratch = scratch.take();
     let (found, tolerance) = solve(oracle, &mut meter);
     *scratch = meter.scratch.take();
-    Searched {
+    SearchResult {
         found,
         tolerance,
         stats: Stats {
@@ -140,7 +144,7 @@ pub(crate) fn metered<O: DistanceOracle, T>(
 /// Returns the tolerance that an outcome under `StartPolicy::Leave` achieves. Pieces that rest on each other count as
 /// in contact again once they cannot be proven apart. Their distance may then be known less exactly than the least
 /// tolerance.
-pub(crate) fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
+pub(crate) fn achieved_tolerance(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     match outcome {
         Outcome::Contact { contact, .. } => {
             let shown = (contact.separation.upper - problem.margin).next_up();

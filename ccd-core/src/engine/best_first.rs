@@ -2,7 +2,7 @@
 
 use super::answer::answer;
 use super::meter::Meter;
-use super::proven::{Proven, free_at_once};
+use super::proven::{Proven, free_by_bounding_volumes};
 use super::queue::Queue;
 use super::scratch::Scratch;
 use super::search::{Advance, Item, Question, Search};
@@ -85,7 +85,7 @@ impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
 
 impl<O: DistanceOracle> BestFirst<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
-        if let Some(free) = free_at_once(problem) {
+        if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
         let mut search = Search {

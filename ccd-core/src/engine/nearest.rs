@@ -39,7 +39,7 @@ pub(crate) struct Nearest<'p> {
 
 /// The reason why a search ended before it found the distance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Stop {
+pub(crate) enum SearchEnd {
     /// Two pieces that intersect, by their indices, and their contact.
     Overlap([u32; 2], Contact),
     /// A limit was reached.
@@ -62,7 +62,7 @@ impl<'p> Nearest<'p> {
     }
 
     /// Limits the search to pieces that are nearer than `beyond` to each other.
-    pub(crate) fn nearer_than(self, beyond: f64) -> Self {
+    pub(crate) fn with_cutoff(self, beyond: f64) -> Self {
         Nearest { beyond, ..self }
     }
 
@@ -74,45 +74,49 @@ impl<'p> Nearest<'p> {
         &mut self,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Option<Stop> {
+    ) -> Option<SearchEnd> {
         self.run(oracle, meter).break_value()
     }
 
-    fn run<O: DistanceOracle>(&mut self, oracle: &mut O, meter: &mut Meter) -> ControlFlow<Stop> {
+    fn run<O: DistanceOracle>(
+        &mut self,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<SearchEnd> {
         let mut next = Some(Next::roots(self.problem));
         while let Some(pair) = next {
-            if let Err(limit) = meter.visit(self.problem) {
-                return ControlFlow::Break(Stop::Limit(limit));
+            if let Err(limit) = meter.count_visit(self.problem) {
+                return ControlFlow::Break(SearchEnd::Limit(limit));
             }
             match pair {
                 Next::Split(split) => {
                     let expansion = measure(&self.common, &split, self.clock);
                     self.wait(Siblings::new(&expansion, split, 0.0))?;
                 }
-                Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
+                Next::Measure(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }
             next = self.next();
         }
         ControlFlow::Continue(())
     }
 
-    fn wait(&mut self, siblings: Siblings) -> ControlFlow<Stop> {
+    fn wait(&mut self, siblings: Siblings) -> ControlFlow<SearchEnd> {
         let distance = siblings.clock();
         if !(distance < self.upper()) {
             return ControlFlow::Continue(());
         }
         match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
             Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => ControlFlow::Break(Stop::Limit(Limit::Budget)),
+            Err(Full) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
         }
     }
 
     /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
     fn next(&mut self) -> Option<Next> {
-        let (upper, near_enough) = (self.upper(), self.near_enough());
+        let (upper, search_radius) = (self.upper(), self.search_radius());
         let (distance, siblings) = self.lists.waiting.next()?;
         // Pairs without a distance may intersect.
-        if distance > 0.0 && distance >= near_enough {
+        if distance > 0.0 && distance >= search_radius {
             self.lower = lesser(self.lower, distance);
             return None;
         }
@@ -125,21 +129,24 @@ impl<'p> Nearest<'p> {
     }
 
     /// Measures the distance of two pieces.
-    fn look<O: DistanceOracle>(
+    fn measure_pieces<O: DistanceOracle>(
         &mut self,
         ids: [u32; 2],
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> ControlFlow<Stop> {
+    ) -> ControlFlow<SearchEnd> {
         let problem = self.problem;
         let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
         let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
-            return ControlFlow::Break(Stop::Limit(Limit::OracleGaveUp));
+            return ControlFlow::Break(SearchEnd::Limit(Limit::OracleGaveUp));
         };
-        let inner = &mut meter.memory().inner;
+        let inner = &mut meter.scratch_memory().inner;
         match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
-                return ControlFlow::Break(Stop::Overlap(ids, contact(&snapshot, ids, &checked)));
+                return ControlFlow::Break(SearchEnd::Overlap(
+                    ids,
+                    contact(&snapshot, ids, &checked),
+                ));
             }
             Intersection::Undecided => self.undecided = true,
             Intersection::None => {}
@@ -162,7 +169,7 @@ impl<'p> Nearest<'p> {
     }
 
     /// Returns the distance at and beyond which pairs need not be examined.
-    fn near_enough(&self) -> f64 {
+    fn search_radius(&self) -> f64 {
         let upper = self.upper();
         if upper <= self.problem.contact_distance() {
             upper * (1.0 - NEAREST_SHARE)
@@ -173,13 +180,13 @@ impl<'p> Nearest<'p> {
 
     /// Returns the nearest pieces, with a lower bound for all pieces; `None` if no pieces are nearer than `beyond`.
     pub(crate) fn nearest(&self) -> Option<Contact> {
-        self.pieces().map(|(_, contact)| contact)
+        self.nearest_pieces().map(|(_, contact)| contact)
     }
 
     /// Like [`Nearest::nearest`], with the indices of the pieces in the problem.
-    pub(crate) fn pieces(&self) -> Option<([u32; 2], Contact)> {
+    pub(crate) fn nearest_pieces(&self) -> Option<([u32; 2], Contact)> {
         self.nearest
-            .map(|(pieces, contact)| (pieces, contact.no_nearer_than(self.lower)))
+            .map(|(pieces, contact)| (pieces, contact.cap_lower_bound(self.lower)))
     }
 
     /// Returns the nearest pieces, with a lower bound for all pieces. If a later claim of an oracle contradicts an
@@ -189,6 +196,6 @@ impl<'p> Nearest<'p> {
         let nearest = self
             .nearest()
             .filter(|nearest| nearest.separation.upper <= within);
-        nearest.unwrap_or(seen.no_nearer_than(self.lower))
+        nearest.unwrap_or(seen.cap_lower_bound(self.lower))
     }
 }

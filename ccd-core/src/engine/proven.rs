@@ -13,7 +13,7 @@ use crate::shortcuts::roots::keep_apart;
 use std::ops::ControlFlow;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
-pub(crate) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
+pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
     let by_balls = problem.takes(Shortcut::Balls) && out_of_reach(problem);
     let is_free = by_balls || problem.takes(Shortcut::Boxes) && keep_apart(problem);
     is_free.then(|| Outcome::Free {
@@ -57,7 +57,7 @@ impl Proven {
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
             time: problem.time(s),
-            contact: contact.no_nearer_than(problem.proven_gap()),
+            contact: contact.cap_lower_bound(problem.proven_gap()),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::nearest::lists::Lists;
 use crate::distance::common_normals::CommonNormals;
-use crate::distance::overlap::Inner;
+use crate::distance::overlap::InnerPolytope;
 use crate::shortcuts::screw::Profiles;
 
 /// The scratch memory of a solver, created when first needed.
@@ -14,7 +14,7 @@ pub(crate) struct Memory {
     /// The lists of the search for the nearest pieces.
     pub(crate) nearest: Lists,
     /// The polytope of the test whether two pieces intersect.
-    pub(crate) inner: Inner,
+    pub(crate) inner: InnerPolytope,
     /// The surfaces around two nearest points.
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.

@@ -112,7 +112,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     /// Adds the pair of both roots to the waiting pairs.
     pub(crate) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
         let item = match Next::roots(problem) {
-            Next::Ask(a, b) => Item::Pieces(Pair::new(a, b)),
+            Next::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
             Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
         };
         self.waiting.push(0.0, item.rank(), item)
@@ -136,7 +136,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             return ControlFlow::Break(question.done(problem));
         };
         question.arrive(problem, s)?;
-        if let Err(limit) = meter.visit(problem) {
+        if let Err(limit) = meter.count_visit(problem) {
             return ControlFlow::Break(question.stopped(problem, s, limit));
         }
         let (next, rest) = match item {
@@ -165,7 +165,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
                 look.finish(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))
             }
-            Next::Ask(a, b) => {
+            Next::Measure(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
                 let clock = question.conclude(problem, *oracle, meter, advance)?;

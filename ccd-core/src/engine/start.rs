@@ -3,7 +3,7 @@
 mod containment;
 
 use super::meter::Meter;
-use super::nearest::{Nearest, Stop};
+use super::nearest::{Nearest, SearchEnd};
 use crate::answer::{Contact, Limit, Outcome, Overlap};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -49,11 +49,11 @@ fn measured<O: DistanceOracle>(
     meter: &mut Meter,
     contact: impl FnOnce(&Nearest<'_>) -> Option<Contact>,
 ) -> Option<Outcome> {
-    let mut lists = std::mem::take(&mut meter.memory().nearest);
-    let mut nearest = Nearest::new(problem, 0.0, &mut lists).nearer_than(beyond);
+    let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
+    let mut nearest = Nearest::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
-        Some(Stop::Overlap(_, contact)) => Some(overlapping(contact)),
-        Some(Stop::Limit(limit)) => Some(unresolved(limit)),
+        Some(SearchEnd::Overlap(_, contact)) => Some(overlapping(contact)),
+        Some(SearchEnd::Limit(limit)) => Some(unresolved(limit)),
         None if nearest.undecided => Some(unresolved(Limit::Undecided)),
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
@@ -62,7 +62,7 @@ fn measured<O: DistanceOracle>(
         }
     };
     lists.clear();
-    meter.memory().nearest = lists;
+    meter.scratch_memory().nearest = lists;
     outcome
 }
 

@@ -23,7 +23,7 @@ enum Parts {
     OneTurns {
         rotation: Turning<[Row; 3]>,
         /// The vector between the centres of rotation over time, and its rate of change.
-        way: Turning<Row>,
+        offset: Turning<Row>,
         change: Turning<Row>,
         acceleration: Option<Turning<Row>>,
         spin: Row,
@@ -33,7 +33,7 @@ enum Parts {
         /// The inverse of the seeing body's rotation.
         inverse: Turning<[Row; 3]>,
         other: Turning<[Row; 3]>,
-        way: Row,
+        offset: Row,
         change: Row,
         acceleration: Option<Row>,
         spin: Row,
@@ -53,7 +53,7 @@ pub(crate) struct Seen<L: Simd> {
     /// The rotation from the seen body's frame to the seeing body's.
     pub(crate) rotation: PackedMatrix<L>,
     /// The vector from the seeing body's centre of rotation to the seen body's.
-    pub(crate) way: Packed<L>,
+    pub(crate) offset: Packed<L>,
     /// The velocity of the seeing body's centre of rotation minus that of the seen body's.
     pub(crate) velocity: Packed<L>,
     /// The derivative of `velocity`; `None` if both centres accelerate equally.
@@ -65,7 +65,7 @@ pub(crate) struct Seen<L: Simd> {
 impl View {
     /// Prepares the motion of `other` in the frame of `own`.
     pub(crate) fn new(own: &Path, other: &Path) -> Self {
-        let way = other.centre_at(0.0) - own.centre_at(0.0);
+        let offset = other.centre_at(0.0) - own.centre_at(0.0);
         let change = other.velocity - own.velocity;
         let acceleration = other.acceleration - own.acceleration;
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
@@ -74,13 +74,13 @@ impl View {
             Parts::BothTurn {
                 inverse: Turning::new(own.rate, inverse),
                 other: Turning::new(other.rate, other.rotations()),
-                way: row(way),
+                offset: row(offset),
                 change: row(change),
                 acceleration: acceleration.map(row),
                 spin: row(other.spin),
             }
         } else {
-            Parts::one_turns(own, other, inverse, [way, change], acceleration)
+            Parts::one_turns(own, other, inverse, [offset, change], acceleration)
         };
         View {
             seen,
@@ -94,7 +94,7 @@ impl View {
         match &self.seen {
             Parts::OneTurns {
                 rotation,
-                way,
+                offset,
                 change,
                 acceleration,
                 spin,
@@ -104,7 +104,7 @@ impl View {
                 let [travel, change] = accelerated(change.vector(level, angle), acceleration, s);
                 Seen {
                     rotation: rotation.matrix(level, angle),
-                    way: way.vector(level, angle) + travel,
+                    offset: offset.vector(level, angle) + travel,
                     velocity: -change,
                     acceleration: acceleration.map(|acceleration| -acceleration),
                     spin: Packed::load(level, spin),
@@ -113,7 +113,7 @@ impl View {
             Parts::BothTurn {
                 inverse,
                 other,
-                way,
+                offset,
                 change,
                 acceleration,
                 spin,
@@ -124,7 +124,7 @@ impl View {
                 let [travel, change] = accelerated(Packed::load(level, change), acceleration, s);
                 Seen {
                     rotation: inverse * other,
-                    way: inverse * (Packed::load(level, way) + travel),
+                    offset: inverse * (Packed::load(level, offset) + travel),
                     velocity: inverse * -change,
                     acceleration: acceleration.map(|acceleration| inverse * -acceleration),
                     spin: inverse * Packed::load(level, spin),
@@ -153,7 +153,7 @@ impl Parts {
         own: &Path,
         other: &Path,
         inverse: [DMat3; 3],
-        way: [DVec3; 2],
+        offset: [DVec3; 2],
         acceleration: Option<DVec3>,
     ) -> Self {
         let others = other.rotations();
@@ -169,10 +169,10 @@ impl Parts {
             rate,
             parts: inverse.map(|part| row(part * v)),
         };
-        let [way, change] = way.map(seen);
+        let [offset, change] = offset.map(seen);
         Parts::OneTurns {
             rotation: Turning::new(rate, rotation),
-            way,
+            offset,
             change,
             acceleration: acceleration.map(seen),
             spin: row(inverse[2] * other.spin),

@@ -89,7 +89,7 @@ impl<O: DistanceOracle> Naive<O> {
             let mut next = f64::INFINITY;
             let snapshot = Snapshot::new(problem, 0, 0, s);
             for pair in &mut self.pairs {
-                if let Err(limit) = meter.visit(problem) {
+                if let Err(limit) = meter.count_visit(problem) {
                     return unresolved(s, limit);
                 }
                 let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));

@@ -6,7 +6,7 @@ use crate::engine::answer::answer_in_any_order;
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Step;
-use crate::engine::proven::{Proven, free_at_once};
+use crate::engine::proven::{Proven, free_by_bounding_volumes};
 use crate::engine::search::{Advance, Question, Search};
 use crate::engine::start::overlapping;
 use crate::error::InputError;
@@ -55,7 +55,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 
     fn contact(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
-        if let Some(free) = free_at_once(problem) {
+        if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
         let mut search = Search {
@@ -123,7 +123,7 @@ impl<O: DistanceOracle> Question<O> for Any {
             // A pair that keeps its distance gives no bound for the other pairs.
             Step::Contact(contact) => Outcome::Contact {
                 time: problem.time(s),
-                contact: contact.no_nearer_than(0.0),
+                contact: contact.cap_lower_bound(0.0),
             },
             Step::Overlap(contact) => overlapping(contact),
             Step::Stalled => return self.leave(s, Limit::Stalled),

@@ -8,7 +8,7 @@ pub(crate) mod required;
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{Searched, contact_of_given, metered};
+use crate::engine::answer::{SearchResult, contact_for_given_bodies, run_metered};
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::Common;
@@ -59,7 +59,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Some(distance) => self.keeps(problem, distance, oracle),
             None => self.approach_of_bodies(problem, oracle),
         };
-        answer.of_shapes(problem.excess())
+        answer.to_shapes(problem.excess())
     }
 
     /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
@@ -100,7 +100,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
-    ) -> Searched<Result<Outcome, Beyond>> {
+    ) -> SearchResult<Result<Outcome, Beyond>> {
         self.measured(problem, beyond, oracle, |_, _, _, found| found)
     }
 
@@ -111,9 +111,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
         beyond: f64,
         oracle: &mut O,
         last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, Outcome) -> Outcome,
-    ) -> Searched<Result<Outcome, Beyond>> {
+    ) -> SearchResult<Result<Outcome, Beyond>> {
         let mut scratch = self.scratch.take();
-        let answer = metered(problem, oracle, &mut scratch, |oracle, meter| {
+        let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
             let problem = problem.measuring();
             let found = match Sample::of(&problem) {
                 Some(sample) => {
@@ -304,7 +304,7 @@ fn told<O: DistanceOracle>(
 ) -> Outcome {
     found.map_contacts(|contact, time| {
         let within = contact.separation.upper;
-        contact_of_given(problem, oracle, meter, contact, within, time)
+        contact_for_given_bodies(problem, oracle, meter, contact, within, time)
     })
 }
 

@@ -3,10 +3,10 @@
 use super::along::first::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{let_go, of_given, shown};
+use crate::engine::answer::{achieved_tolerance, ignoring_start_contact, outcome_for_given_bodies};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
-use crate::engine::proven::{Proven, free_at_once};
+use crate::engine::proven::{Proven, free_by_bounding_volumes};
 use crate::engine::search::{Question, Search};
 use crate::error::InputError;
 use crate::problem::Problem;
@@ -170,7 +170,8 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             ControlFlow::Break((outcome, tolerance)) => {
                 let within = self.problem.margin + tolerance;
                 let meter = &mut self.meter;
-                let outcome = of_given(&self.problem, oracle, meter, outcome, within);
+                let outcome =
+                    outcome_for_given_bodies(&self.problem, oracle, meter, outcome, within);
                 Progress::Answered(Answer {
                     outcome,
                     tolerance,
@@ -210,7 +211,13 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     }
                 },
             };
-            let parting = let_go(&self.current, self.start, &outcome, oracle, &mut self.meter);
+            let parting = ignoring_start_contact(
+                &self.current,
+                self.start,
+                &outcome,
+                oracle,
+                &mut self.meter,
+            );
             match parting {
                 Some(parting) => {
                     self.part = first_part(&parting);
@@ -221,7 +228,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     let tolerance = if self.start == self.problem.start {
                         self.problem.tolerance
                     } else {
-                        shown(&self.current, &outcome)
+                        achieved_tolerance(&self.current, &outcome)
                     };
                     return ControlFlow::Break((outcome, tolerance));
                 }
@@ -246,7 +253,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         let Begun { look, proven } = match &mut self.begun {
             Some(begun) => begun,
             begun => {
-                if let Some(free) = free_at_once(problem) {
+                if let Some(free) = free_by_bounding_volumes(problem) {
                     return ControlFlow::Break(free);
                 }
                 let mut proven = Proven::default();

@@ -41,7 +41,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        if self.fine && siblings.parted() < AXIS_ROUNDS {
+        if self.fine && siblings.removed_count() < AXIS_ROUNDS {
             part_flat(problem, siblings, s)
         } else {
             None
@@ -74,13 +74,13 @@ impl CloserLook {
         meter: &mut Meter,
     ) {
         if self.splits == SCREW_AFTER && problem.takes(Shortcut::Screw) {
-            self.screw = Screw::of(problem, &mut meter.memory().profiles);
+            self.screw = Screw::of(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw
             && split.lanes == u8::MAX
         {
-            let profiles = &mut meter.memory().profiles;
+            let profiles = &mut meter.scratch_memory().profiles;
             siblings.finish(|pair| screw.keeps_apart(problem, profiles, pair, s));
         }
     }
@@ -91,5 +91,5 @@ fn part_flat(problem: &Problem<'_>, siblings: &mut Siblings, s: f64) -> Option<(
     let free = flat_pair::free_time(problem, siblings.least_pair(), s);
     // One step down undoes the rounding of the sum. Written so that NaN is no clock.
     let clock = (s + free).next_down();
-    (clock > s).then(|| (clock, siblings.part_least(clock)))
+    (clock > s).then(|| (clock, siblings.remove_least(clock)))
 }

@@ -5,7 +5,7 @@
 
 use super::approach::Approach;
 use super::placed::Placed;
-use crate::body::tree::{Named, NodeId, Slab};
+use crate::body::tree::{NodeId, NodeOrTriangle, Slab};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{Problem, Side};
@@ -34,8 +34,8 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
 /// Returns whether a node is a triangle, or thin enough for a flat node.
 fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
     match side.body.tree().get(id) {
-        Named::Node(node) => node.is_thin(),
-        Named::Triangle(_) => true,
+        NodeOrTriangle::Node(node) => node.is_thin(),
+        NodeOrTriangle::Triangle(_) => true,
     }
 }
 
@@ -53,11 +53,11 @@ impl Flat {
         let node = Placed::new(side, id, s);
         let tree = side.body.tree();
         let (normal, half) = match tree.get(id) {
-            Named::Node(_) => {
+            NodeOrTriangle::Node(_) => {
                 let &Slab { normal, half } = tree.slab(id)?;
                 (normal, Some(half))
             }
-            Named::Triangle(piece) => {
+            NodeOrTriangle::Triangle(piece) => {
                 let [a, b, c] = side.body.pieces().triangle(piece as usize);
                 (unit((b - a).cross(c - a))?, None)
             }

@@ -1,6 +1,6 @@
 //! Bounding boxes of single nodes, and triangles, in f64 at the pose of a clock.
 
-use crate::body::tree::{Named, NodeId};
+use crate::body::tree::{NodeId, NodeOrTriangle};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
@@ -52,7 +52,7 @@ impl Placed {
     pub(crate) fn new(side: &Side<'_>, id: NodeId, s: f64) -> Self {
         let frame = side.path.frame(s);
         match side.body.tree().get(id) {
-            Named::Node(node) => Placed {
+            NodeOrTriangle::Node(node) => Placed {
                 frame,
                 shape: Shape::Box {
                     axes: node.axes.map(Vec3::as_dvec3),
@@ -62,7 +62,7 @@ impl Placed {
                 centre: frame.point(node.centre),
                 radius: f64::from(node.radius),
             },
-            Named::Triangle(piece) => {
+            NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
                 let [a, b, c] = corners.map(|x| frame.point(x));
                 let centre = (a + b + c) / 3.0;

@@ -10,7 +10,7 @@
 use super::Shortcut;
 use crate::answer::{Contact, Limit, Outcome, Separation};
 use crate::engine::meter::Meter;
-use crate::engine::proven::free_at_once;
+use crate::engine::proven::free_by_bounding_volumes;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::period::{Period, Reaching};
@@ -69,7 +69,7 @@ impl<'a> Rounds<'a> {
     /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
     #[inline]
     pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
-        if turns_often(problem) && free_at_once(problem).is_none() {
+        if turns_often(problem) && free_by_bounding_volumes(problem).is_none() {
             Rounds::of_many_turns(problem)
         } else {
             None
@@ -154,7 +154,7 @@ impl<'a> Rounds<'a> {
             }
         }
         // A round counts as a visit, even if bounding balls prove the bodies apart at once.
-        match meter.visit(&self.whole) {
+        match meter.count_visit(&self.whole) {
             Ok(()) => ControlFlow::Continue(()),
             Err(limit) => ControlFlow::Break(unresolved(self, limit)),
         }

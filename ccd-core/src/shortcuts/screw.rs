@@ -14,7 +14,7 @@ mod profile;
 
 use super::placed::Placed;
 use super::screw::profile::{Profile, ScrewAxis, Way, keep_apart};
-use crate::body::tree::{Below, Members, Named, NodeId};
+use crate::body::tree::{Below, Members, NodeId, NodeOrTriangle};
 use crate::engine::capacity::empty;
 use crate::math::order::lesser;
 use crate::math::vector::length;
@@ -180,8 +180,8 @@ fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
 fn triangles(side: &Side<'_>, id: NodeId) -> Option<Range<NodeId>> {
     let tree = side.body.tree();
     match tree.get(id) {
-        Named::Triangle(_) => Some(id..id + 1),
-        Named::Node(node) => match node.below {
+        NodeOrTriangle::Triangle(_) => Some(id..id + 1),
+        NodeOrTriangle::Node(node) => match node.below {
             Below::Triangles(group) => {
                 let &Members { first, count, .. } = tree.triangle_members(group);
                 Some(first..first + count)

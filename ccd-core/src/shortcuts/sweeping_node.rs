@@ -10,7 +10,7 @@
 
 use crate::engine::nodes::axis::Axis;
 use crate::engine::nodes::clock;
-use crate::engine::nodes::eight_pairs::{EightPairs, bending};
+use crate::engine::nodes::eight_pairs::{EightPairs, second_derivative_bound};
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::lanes::{Vec3x8, splat};
 use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
@@ -43,7 +43,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let own = motion.other.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.split.rate, splat(level, 1.0)),
+            second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
             &SweepingNode {
                 rate: axis.n.dot(velocity) + other.reach(own - across),
@@ -66,7 +66,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let own = motion.split.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.other.rate, splat(level, 1.0)),
+            second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
             &SweepingNode {
                 rate: axis.n.dot(velocity) + children.reach(own - across),

@@ -33,7 +33,7 @@ pub(crate) struct Member<'p> {
 impl<'p> Member<'p> {
     pub(crate) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
         let swing = if side.path.turns() {
-            side.path.rate * piece.farthest_from(piece.points[0])
+            side.path.rate * piece.max_distance_from(piece.points[0])
         } else {
             0.0
         };
@@ -60,7 +60,7 @@ pub(crate) struct SweepingPiece<'p> {
     unit: DVec3,
     omega: f64,
     /// The vector `D` at the present time.
-    way: DVec3,
+    offset: DVec3,
     velocity: DVec3,
     speed: f64,
     /// The derivative `V'` of `V`, which is constant.
@@ -108,16 +108,16 @@ impl<'p> SweepingPiece<'p> {
         } else {
             other.piece.points[0]
         };
-        let way = other.frame.point(reference) - holder.frame.point(path.centre);
+        let offset = other.frame.point(reference) - holder.frame.point(path.centre);
         let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
-        let radius = other.piece.farthest_from(reference);
+        let radius = other.piece.max_distance_from(reference);
         SweepingPiece {
             normal: Spinning::new(path.axis, normal),
             unit: path.axis,
             omega: path.rate,
-            way,
+            offset,
             velocity,
             speed,
             acceleration,
@@ -128,7 +128,7 @@ impl<'p> SweepingPiece<'p> {
             frame: other.frame,
             reference,
             radius,
-            reach: way.length() + speed + radius,
+            reach: offset.length() + speed + radius,
             misplaced: rounding,
             looks: Cell::new(0),
         }
@@ -200,7 +200,7 @@ impl<'p> SweepingPiece<'p> {
         let angle = Angle::new(self.omega * tau);
         let own = Angle::new(self.own_omega * tau);
         let axis = self.normal.at(angle);
-        let (way, velocity) = self.moved(tau);
+        let (offset, velocity) = self.moved(tau);
         let turning = self.normal.slope_at(angle) * self.omega;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
@@ -208,9 +208,9 @@ impl<'p> SweepingPiece<'p> {
             self.frame.inverse_vector(turned)
         };
         Turned {
-            height: axis.dot(way),
+            height: axis.dot(offset),
             axis: back(axis),
-            rate: turning.dot(way) + axis.dot(velocity),
+            rate: turning.dot(offset) + axis.dot(velocity),
             closing: back(self.relative.cross(axis)),
         }
     }
@@ -219,15 +219,15 @@ impl<'p> SweepingPiece<'p> {
     fn moved(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);
         (
-            self.way + velocity * tau,
+            self.offset + velocity * tau,
             self.velocity + self.acceleration * tau,
         )
     }
 
     /// Returns a bound of the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
     fn bend(&self, tau: f64) -> f64 {
-        let (way, _) = self.moved(tau);
-        let arm = self.unit.cross(way).length() + self.speed * f64::from(ATTACHED_TIME);
+        let (offset, _) = self.moved(tau);
+        let arm = self.unit.cross(offset).length() + self.speed * f64::from(ATTACHED_TIME);
         let across = self.omega * (self.normal.slope() + RATE_F64);
         let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
         let bend = across * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)

@@ -75,7 +75,7 @@ pub(super) struct EdgeMap {
 }
 
 /// The number of edges from one point above which they are sorted.
-const MANY: usize = 8;
+const SORT_THRESHOLD: usize = 8;
 
 impl EdgeMap {
     /// Creates the map in O(n log n). Of repeated edges the last one counts.
@@ -99,7 +99,7 @@ impl EdgeMap {
         }
         for range in starts.windows(2) {
             let from = &mut sorted[range[0] as usize..range[1] as usize];
-            if from.len() > MANY {
+            if from.len() > SORT_THRESHOLD {
                 from.sort_by_key(|edge| edge.0);
             }
         }
@@ -111,13 +111,13 @@ impl EdgeMap {
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
         let [start, end] = [from, from + 1].map(|k| self.starts[k as usize] as usize);
         let from = &self.edges[start..end];
-        let up_to = if from.len() > MANY {
+        let up_to = if from.len() > SORT_THRESHOLD {
             from.partition_point(|edge| edge.0 <= to)
         } else {
             from.len()
         };
         let mut found = from[..up_to].iter().rev();
-        if from.len() > MANY {
+        if from.len() > SORT_THRESHOLD {
             found.next().filter(|edge| edge.0 == to)
         } else {
             found.find(|edge| edge.0 == to)

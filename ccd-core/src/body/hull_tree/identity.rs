@@ -12,7 +12,7 @@ pub(super) struct Identity {
     pub(super) of_left: Vec<u32>,
     pub(super) of_right: Vec<u32>,
     /// The position of each number.
-    pub(super) places: Vec<DVec3>,
+    pub(super) positions: Vec<DVec3>,
     /// The mesh's vertex number of each point of the hull.
     pub(super) vertex_ids: Vec<u32>,
 }
@@ -24,13 +24,13 @@ impl Identity {
         let all = [&hull.points[..], &left.points, &right.points];
         let same = representatives(all, own);
         let mut numbers = same.clone();
-        let mut places = hull.points.clone();
+        let mut positions = hull.points.clone();
         let points = left.points.iter().chain(right.points.iter());
         for (k, point) in (own..).zip(points) {
             numbers[k] = match same[k] as usize {
                 first if first == k => {
-                    places.push(*point);
-                    places.len() as u32 - 1
+                    positions.push(*point);
+                    positions.len() as u32 - 1
                 }
                 first => numbers[first],
             };
@@ -51,7 +51,7 @@ impl Identity {
         Ok(Identity {
             of_left: numbers[own..middle].to_vec(),
             of_right: numbers[middle..].to_vec(),
-            places,
+            positions,
             vertex_ids,
         })
     }

@@ -16,9 +16,9 @@ pub(super) struct Node<'a> {
     /// The origin, class and mesh faces of each facet.
     pub(super) facet_data: Vec<FacetData>,
     /// The mesh's faces on a leaf; `None` for an inner node, which has those of its facets.
-    pub(super) own_faces: Option<Vec<Face>>,
+    pub(super) leaf_faces: Option<Vec<Face>>,
     pub(super) radius: f64,
-    pub(super) evenly_rounded: bool,
+    pub(super) has_uniform_radius: bool,
     pub(super) size: f64,
 }
 
@@ -35,7 +35,7 @@ impl Node<'_> {
     /// Returns the mesh's faces on the node's surface.
     pub(super) fn faces(&self) -> impl Iterator<Item = &Face> {
         let of_skins = self.facet_data.iter().flat_map(|facet| &facet.faces);
-        let (own, of_skins) = match &self.own_faces {
+        let (own, of_skins) = match &self.leaf_faces {
             Some(own) => (&own[..], None),
             None => (&[][..], Some(of_skins)),
         };

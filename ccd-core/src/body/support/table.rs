@@ -115,7 +115,7 @@ impl SupportTable {
                 if !(highest >= height - slack) {
                     return at;
                 }
-                match self.beyond_level(at, height, slack, direction) {
+                match self.higher_across_plateau(at, height, slack, direction) {
                     Some(higher) => (next, highest) = higher,
                     None => return at,
                 }
@@ -126,7 +126,7 @@ impl SupportTable {
     }
 
     /// Returns a higher corner that is reached across corners of equal height up to rounding; `None` if there is none.
-    fn beyond_level(
+    fn higher_across_plateau(
         &self,
         at: u32,
         height: f64,

@@ -58,7 +58,7 @@ impl SupportTree {
         let scale = power_of_two_above(reach).recip();
         let placed: Vec<DVec3> = points.iter().map(|&p| (p - middle) * scale).collect();
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        arrange(&placed, &mut order);
+        sort_spatially(&placed, &mut order);
         let sorted: Vec<DVec3> = order.iter().map(|&k| placed[k as usize]).collect();
         let mut tree = SupportTree {
             blocks: order
@@ -88,9 +88,9 @@ impl SupportTree {
     /// # Complexity
     /// About logarithmic in the number of points of a curved surface; linear if all are equally far.
     pub fn extremal(&self, direction: DVec3) -> u32 {
-        let mut look = Look::new(direction);
-        self.descend(self.levels.len(), 0, &mut look);
-        look.found
+        let mut search = Search::new(direction);
+        self.descend(self.levels.len(), 0, &mut search);
+        search.found
     }
 
     /// Returns the centre and radius of a ball around the points.
@@ -102,57 +102,57 @@ impl SupportTree {
     /// Returns the number of nodes that a search along a direction visits.
     #[cfg(test)]
     pub(super) fn visits(&self, direction: DVec3) -> usize {
-        let mut look = Look::new(direction);
-        self.descend(self.levels.len(), 0, &mut look);
-        look.visits
+        let mut search = Search::new(direction);
+        self.descend(self.levels.len(), 0, &mut search);
+        search.visits
     }
 
     /// Visits the children of a node of a level, in descending order of their bounds.
-    fn descend(&self, level: usize, at: usize, look: &mut Look) {
+    fn descend(&self, level: usize, at: usize, search: &mut Search) {
         #[cfg(test)]
         {
-            look.visits += 1;
+            search.visits += 1;
         }
         let Some(below) = level.checked_sub(1) else {
-            return look.at(&self.blocks[at]);
+            return search.at(&self.blocks[at]);
         };
-        let mut bounds = self.groups[self.levels[below] + at].bounds(look.unit);
+        let mut bounds = self.groups[self.levels[below] + at].bounds(search.unit);
         for _ in 0..LANES {
-            let lane = highest(&bounds);
+            let lane = index_of_highest(&bounds);
             // Written so that NaN ends the loop.
-            if !(bounds[lane] > look.floor) {
+            if !(bounds[lane] > search.min_height) {
                 return;
             }
             bounds[lane] = f32::NEG_INFINITY;
-            self.descend(below, LANES * at + lane, look);
+            self.descend(below, LANES * at + lane, search);
         }
     }
 }
 
 /// The state of a search: its direction, and the farthest point so far.
-struct Look {
+struct Search {
     direction: DVec3,
     /// The direction of the search, scaled so that its largest component is 1.
     unit: Vec3,
     size: f64,
     highest: f64,
     /// The height above which a disc is visited.
-    floor: f32,
+    min_height: f32,
     found: u32,
     #[cfg(test)]
     visits: usize,
 }
 
-impl Look {
+impl Search {
     #[inline]
     fn new(direction: DVec3) -> Self {
         let size = direction.abs().max_element();
-        Look {
+        Search {
             direction,
             unit: (direction / size).as_vec3(),
             size,
             highest: f64::NEG_INFINITY,
-            floor: f32::NEG_INFINITY,
+            min_height: f32::NEG_INFINITY,
             found: 0,
             #[cfg(test)]
             visits: 0,
@@ -166,10 +166,10 @@ impl Look {
         for k in 0..LANES {
             heights[k] = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
         }
-        let lane = highest(&heights);
+        let lane = index_of_highest(&heights);
         if heights[lane] > self.highest {
             self.highest = heights[lane];
-            self.floor = ((self.highest / self.size) as f32).next_down();
+            self.min_height = ((self.highest / self.size) as f32).next_down();
             self.found = block.numbers[lane];
         }
     }
@@ -247,7 +247,7 @@ impl Disc {
             DMat3::IDENTITY
         };
         let turned = frame.transpose();
-        let (low, high) = extent(points.iter().map(|&p| turned * p));
+        let (low, high) = bounding_box(points.iter().map(|&p| turned * p));
         let thinnest = (high - low).min_position();
         let centre = (frame * (0.5 * (low + high))).as_vec3();
         let normal = frame.col(thinnest).as_vec3();
@@ -270,7 +270,7 @@ impl Disc {
 }
 
 /// Sorts points so that those of each block, of each eight blocks, and so on, are near each other.
-fn arrange(points: &[DVec3], order: &mut [u32]) {
+fn sort_spatially(points: &[DVec3], order: &mut [u32]) {
     if order.len() <= LANES {
         return;
     }
@@ -279,25 +279,25 @@ fn arrange(points: &[DVec3], order: &mut [u32]) {
         unit *= LANES;
     }
     let at = |k: u32| points[k as usize];
-    let (low, high) = extent(order.iter().map(|&k| at(k)));
+    let (low, high) = bounding_box(order.iter().map(|&k| at(k)));
     let axis = (high - low).max_position();
     let half = order.len().div_ceil(unit) / 2 * unit;
     order.select_nth_unstable_by(half, |&k, &l| at(k)[axis].total_cmp(&at(l)[axis]));
     let (before, after) = order.split_at_mut(half);
-    arrange(points, before);
-    arrange(points, after);
+    sort_spatially(points, before);
+    sort_spatially(points, after);
 }
 
 /// Returns the middle of the bounding box of one or more points, and their largest distance from it.
 pub(super) fn ball_about(points: &[DVec3]) -> (DVec3, f64) {
-    let (low, high) = extent(points.iter().copied());
+    let (low, high) = bounding_box(points.iter().copied());
     let middle = low + 0.5 * (high - low);
     let ways = points.iter().map(|&p| distance(p, middle));
     (middle, ways.fold(0.0, greater).next_up())
 }
 
 /// Returns the lowest and highest corner of the bounding box of one or more points.
-fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for point in points {
         for axis in 0..3 {
@@ -319,7 +319,7 @@ fn power_of_two_above(x: f64) -> f64 {
 
 /// Returns the index of the highest value; the first of several.
 #[inline]
-fn highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
+fn index_of_highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
     let (mut best, mut most) = (0, values[0]);
     for (k, &value) in values.iter().enumerate().skip(1) {
         let higher = value > most;

@@ -1,8 +1,8 @@
 //! Builds the wide tree from a binary hierarchy.
 
-use super::fit::{Cloud, Sample, fit};
+use super::fit::{NodePoints, Sample, fit};
 use super::group::longest;
-use super::{Below, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow, Whole};
+use super::{Below, BodyBox, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
@@ -14,7 +14,7 @@ use glam::DVec3;
 /// The nodes and groups of a tree before boxes are fitted to their pieces.
 #[derive(Default)]
 pub(crate) struct Layout {
-    nodes: Vec<Slot>,
+    nodes: Vec<NodeSlot>,
     boxes: Vec<BoxesBelow>,
     triangles: Vec<TrianglesBelow>,
 }
@@ -30,13 +30,13 @@ fn span(pieces: &Pieces) -> f64 {
 }
 
 /// For each node of the hierarchy, the range of its pieces in depth-first order.
-struct Ranges {
+struct PieceRanges {
     order: Vec<u32>,
     /// The start and end in `order` of each node of the hierarchy.
     of: Vec<(u32, u32)>,
 }
 
-impl Ranges {
+impl PieceRanges {
     fn new(hierarchy: &Hierarchy, pieces: usize) -> Result<Self, InputError> {
         let nodes = hierarchy.nodes();
         let mut order = Vec::with_capacity(pieces);
@@ -61,7 +61,7 @@ impl Ranges {
             }
         }
         if order.len() == pieces {
-            Ok(Ranges { order, of })
+            Ok(PieceRanges { order, of })
         } else {
             Err(InputError::BadHierarchy { at: order.len() })
         }
@@ -74,7 +74,7 @@ impl Ranges {
 }
 
 /// A node of the wide tree: its pieces, and its children.
-struct Slot {
+struct NodeSlot {
     start: u32,
     end: u32,
     below: Below,
@@ -98,7 +98,7 @@ struct TrianglesBelow {
 ///
 /// Unit: groups. Less: more memory, as most groups of nodes are at the bottom. More: nodes that
 /// just exceed it are split into two.
-const FULL_LANES: u64 = 6;
+const TYPICAL_FULL_GROUPS: u64 = 6;
 
 impl Layout {
     /// Arranges the nodes of the tree, and returns the pieces in the tree's order.
@@ -106,19 +106,19 @@ impl Layout {
     /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
     /// triangles, or one piece of another kind.
     pub(crate) fn of(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Self, Pieces), InputError> {
-        let ranges = Ranges::new(hierarchy, pieces.len())?;
+        let ranges = PieceRanges::new(hierarchy, pieces.len())?;
         let layout = Layout::over(hierarchy, &ranges, pieces.all_triangles());
         Ok((layout, pieces.reordered(&ranges.order)))
     }
 
-    fn over(hierarchy: &Hierarchy, ranges: &Ranges, triangles: bool) -> Self {
-        let opener = Opener {
+    fn over(hierarchy: &Hierarchy, ranges: &PieceRanges, triangles: bool) -> Self {
+        let opener = ChildChooser {
             hierarchy,
             ranges,
-            whole: if triangles { LANES } else { 1 },
+            max_leaf_pieces: if triangles { LANES } else { 1 },
             // Pieces other than triangles form no groups.
-            layers: if triangles {
-                layers(ranges.order.len())
+            layer_capacities: if triangles {
+                layer_capacities(ranges.order.len())
             } else {
                 Vec::new()
             },
@@ -132,7 +132,7 @@ impl Layout {
                 layout.triangles.push(TrianglesBelow { parent, start, end });
                 Below::Triangles(layout.triangles.len() as u32 - 1)
             } else if ranges.len(at) > 1 {
-                let (members, count) = opener.open(at);
+                let (members, count) = opener.choose_children(at);
                 let first = layout.nodes.len() as u32;
                 for (&member, child) in members[..count].iter().zip(first..) {
                     layout.push_node(&opener, member);
@@ -153,19 +153,19 @@ impl Layout {
         layout
     }
 
-    fn push_node(&mut self, opener: &Opener<'_>, at: u32) {
+    fn push_node(&mut self, opener: &ChildChooser<'_>, at: u32) {
         let (start, end) = opener.ranges.of[at as usize];
         // The group is created when the node is visited.
         let below = Below::Piece(start);
-        self.nodes.push(Slot { start, end, below });
+        self.nodes.push(NodeSlot { start, end, below });
     }
 
     /// Fits boxes to the nodes, and creates the groups. Each of them depends on its own pieces alone, so that all can
     /// be computed in parallel.
-    pub(crate) fn fitted(&self, pieces: &Pieces) -> Tree {
+    pub(crate) fn fit_nodes(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
-            *node = self.nodes[k].fitted(pieces, sample);
+            *node = self.nodes[k].fit_nodes(pieces, sample);
         });
         let mut boxes = vec![BoxGroup::EMPTY; self.boxes.len()];
         for_each(&mut boxes, &(), |(), k, group| {
@@ -186,7 +186,10 @@ impl Layout {
             *group = TriangleRow::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
-            whole: Whole::about(&self.nodes[0].cloud(pieces), &mut Sample::EMPTY.clone()),
+            whole: BodyBox::about(
+                &self.nodes[0].node_points(pieces),
+                &mut Sample::EMPTY.clone(),
+            ),
             slabs: self.slabs(pieces, &nodes),
             nodes,
             boxes,
@@ -202,7 +205,7 @@ impl Layout {
         if !pieces.all_triangles() {
             return Vec::new();
         }
-        let slab = |(id, (slot, node)): (NodeId, (&Slot, &Node))| {
+        let slab = |(id, (slot, node)): (NodeId, (&NodeSlot, &Node))| {
             if !node.is_thin() {
                 return None;
             }
@@ -216,17 +219,17 @@ impl Layout {
     }
 }
 
-impl Slot {
-    fn fitted(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
-        fit(&self.cloud(pieces), self.below, sample)
+impl NodeSlot {
+    fn fit_nodes(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
+        fit(&self.node_points(pieces), self.below, sample)
     }
 
     /// Returns the points and radii that the node's box has to contain.
-    fn cloud<'p>(&self, pieces: &'p Pieces) -> Cloud<'p> {
+    fn node_points<'p>(&self, pieces: &'p Pieces) -> NodePoints<'p> {
         let range = self.start as usize..self.end as usize;
         let triangles = pieces.all_triangles();
         let radii = range.clone().map(|k| pieces.get(k).radius);
-        Cloud {
+        NodePoints {
             points: pieces.points_of(range),
             radius: if triangles {
                 0.0
@@ -239,19 +242,19 @@ impl Slot {
 }
 
 /// Chooses the children of the wide tree's nodes among the descendants in the binary hierarchy.
-struct Opener<'a> {
+struct ChildChooser<'a> {
     hierarchy: &'a Hierarchy,
-    ranges: &'a Ranges,
+    ranges: &'a PieceRanges,
     /// The largest number of pieces of a node that becomes a leaf.
-    whole: usize,
+    max_leaf_pieces: usize,
     /// The largest number of pieces of a node, for each layer from the bottom.
-    layers: Vec<usize>,
+    layer_capacities: Vec<usize>,
 }
 
 /// Returns the largest number of pieces of a node, for each layer from the bottom. Full groups come first, then by even
 /// ratios as many layers as needed.
-fn layers(pieces: usize) -> Vec<usize> {
-    let (full, pieces) = (LANES as u64 * FULL_LANES, pieces as u64);
+fn layer_capacities(pieces: usize) -> Vec<usize> {
+    let (full, pieces) = (LANES as u64 * TYPICAL_FULL_GROUPS, pieces as u64);
     let mut count = 1;
     while full * (LANES as u64).pow(count) < pieces {
         count += 1;
@@ -264,23 +267,27 @@ fn layers(pieces: usize) -> Vec<usize> {
     [LANES].into_iter().chain(below).collect()
 }
 
-impl Opener<'_> {
+impl ChildChooser<'_> {
     /// Returns the largest number of pieces of a child of a node with this many pieces.
-    fn layer_below(&self, pieces: usize) -> usize {
-        let lower = self.layers.iter().rev().find(|&&layer| layer < pieces);
-        lower.copied().unwrap_or(self.whole)
+    fn max_child_pieces(&self, pieces: usize) -> usize {
+        let lower = self
+            .layer_capacities
+            .iter()
+            .rev()
+            .find(|&&layer| layer < pieces);
+        lower.copied().unwrap_or(self.max_leaf_pieces)
     }
 
     /// Returns the descendants that become a node's children, and their number. The one with the most pieces is opened
     /// repeatedly, unless it fits into a lower layer of full groups.
     ///
     /// Groups are full at the bottom, where most of the groups are.
-    fn open(&self, at: u32) -> ([u32; LANES], usize) {
+    fn choose_children(&self, at: u32) -> ([u32; LANES], usize) {
         let (mut members, mut count) = ([at; LANES], 1);
-        let whole = self.layer_below(self.ranges.len(at));
+        let max_leaf_pieces = self.max_child_pieces(self.ranges.len(at));
         while count < LANES {
             let largest = (0..count).max_by_key(|&k| self.ranges.len(members[k]));
-            let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > whole) else {
+            let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > max_leaf_pieces) else {
                 break;
             };
             let HierarchyNode::Inner(left, right) = self.hierarchy.nodes()[members[k] as usize]

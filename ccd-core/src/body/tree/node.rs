@@ -46,14 +46,15 @@ impl Node {
     }
 
     /// Returns half the extent of the box along one of its axes, widened because the axes are rounded.
-    pub(super) fn reach_f64(&self, axis: usize) -> f64 {
+    pub(super) fn half_extent(&self, axis: usize) -> f64 {
         f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
     }
 
     /// Returns whether a point is in the box, or within about `reach` of it.
-    pub(super) fn holds(&self, point: DVec3, reach: f64) -> bool {
+    pub(super) fn is_near(&self, point: DVec3, reach: f64) -> bool {
         let way = point - self.centre;
         let reach = reach + 8.0 * U64 * way.abs().element_sum();
-        (0..3).all(|k| way.dot(self.axes[k].as_dvec3()).abs() <= self.reach_f64(k) + 1.001 * reach)
+        (0..3)
+            .all(|k| way.dot(self.axes[k].as_dvec3()).abs() <= self.half_extent(k) + 1.001 * reach)
     }
 }

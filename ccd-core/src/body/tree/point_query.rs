@@ -28,12 +28,12 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
 pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     leaves_near(tree, point, reach).all(|leaf| match leaf {
         Leaf::Triangles(mut triangles) => {
-            triangles.all(|piece| is_past(pieces.triangle(piece as usize), point, reach))
+            triangles.all(|piece| is_beyond(pieces.triangle(piece as usize), point, reach))
         }
         Leaf::Piece(piece) => pieces
             .get(piece as usize)
             .mesh_triangles()
-            .all(|(_, triangle)| is_past(triangle, point, reach)),
+            .all(|(_, triangle)| is_beyond(triangle, point, reach)),
     })
 }
 
@@ -50,7 +50,7 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
     std::iter::from_fn(move || {
         while let Some(id) = stack.pop() {
             let node = &tree.nodes[id as usize];
-            if !node.holds(point, reach) {
+            if !node.is_near(point, reach) {
                 continue;
             }
             match node.below {
@@ -72,7 +72,7 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
 
 /// Returns whether a separating axis proves that a point is farther than `reach` from a triangle. It tries the normal
 /// of the plane, and the directions from the edges and corners.
-pub(crate) fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
+pub(crate) fn is_beyond(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();
     let separates = |axis: DVec3| {

@@ -18,7 +18,7 @@ pub(crate) struct Crossings {
     /// The sum of the crossings at the start, up to rounding.
     pub(crate) at_start: i32,
     /// The number of triangles that contain the start.
-    pub(crate) on: u32,
+    pub(crate) triangles_at_start: u32,
     /// The direction of the ray.
     pub(crate) along: DVec3,
 }
@@ -60,13 +60,13 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
     let mut found = Crossings {
         beyond: 0,
         at_start: 0,
-        on: 0,
+        triangles_at_start: 0,
         along,
     };
     let mut stack = Waiting::root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
-        if !meets(node, start.from, along) {
+        if !may_hit(node, start.from, along) {
             continue;
         }
         match node.below {
@@ -92,13 +92,13 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
 }
 
 /// Returns whether a ray may hit a node's box.
-fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
+fn may_hit(node: &Node, from: DVec3, along: DVec3) -> bool {
     let way = from - node.centre;
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
     for k in 0..3 {
         let axis = node.axes[k].as_dvec3();
         // Positions along the ray are off by the rounding of the distance to the box.
-        let half = node.reach_f64(k) + 32.0 * U64 * way.abs().element_sum();
+        let half = node.half_extent(k) + 32.0 * U64 * way.abs().element_sum();
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
         // A ray parallel to a slab, within it, gives an infinity on either side. NaN counts as met.
@@ -162,7 +162,7 @@ impl Crossings {
             true => Sign::Positive,
             _ if height.abs() <= start.slack * normal => Sign::Unclear,
             false => match Sign::of(height, size(a) * size(b) * size(c)) {
-                Sign::Unclear => by_edges(triangle, corners, sign),
+                Sign::Unclear => sign_by_edges(triangle, corners, sign),
                 clear => clear,
             },
         };
@@ -171,7 +171,7 @@ impl Crossings {
             Sign::Negative => {}
             Sign::Unclear => {
                 self.at_start += sign;
-                self.on += 1;
+                self.triangles_at_start += 1;
             }
         }
         Some(())
@@ -180,7 +180,7 @@ impl Crossings {
 
 /// Returns on which side of the start a triangle is, computed from its edges. They may be far shorter than the vectors
 /// to its corners.
-fn by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+fn sign_by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);

@@ -34,7 +34,7 @@ fn farthest(pieces: &Pieces) -> f64 {
 
 /// Checks a node and all nodes below it, and returns the pieces below.
 fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
-    let Named::Node(node) = tree.get(id) else {
+    let NodeOrTriangle::Node(node) = tree.get(id) else {
         let piece = tree.piece(id).expect("a triangle");
         seen[piece as usize] += 1;
         return vec![piece];

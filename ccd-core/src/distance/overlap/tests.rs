@@ -1,6 +1,6 @@
 //! Tests that intersecting pieces are distinguished from touching ones.
 
-use super::{Inner, Intersection, intersects};
+use super::{InnerPolytope, Intersection, intersects};
 use crate::body::Body;
 use crate::body::combination::Combination;
 use crate::body::piece::Piece;
@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-13;
 /// Returns whether the pieces intersect, and asserts that this is decided.
 fn decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
-    match intersects(pair, &checked, ROUNDING, &mut Inner::default()) {
+    match intersects(pair, &checked, ROUNDING, &mut InnerPolytope::default()) {
         Intersection::Certain => true,
         Intersection::None => false,
         Intersection::Undecided => panic!("{pair:?}"),
@@ -263,7 +263,7 @@ fn flat_differences_have_no_tetrahedron() {
             b_to_a: at(turn * DVec3::Z),
         };
         assert_eq!(super::tetrahedron(&pair, ROUNDING), None);
-        assert!(!Inner::default().begin(&pair, ROUNDING));
+        assert!(!InnerPolytope::default().begin(&pair, ROUNDING));
     }
 }
 
@@ -281,7 +281,10 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
         a: Combination::point(0),
         b: Combination::point(0),
     };
-    let (checked, mut inner) = (separation::check(&pair, &claim, ROUNDING), Inner::default());
+    let (checked, mut inner) = (
+        separation::check(&pair, &claim, ROUNDING),
+        InnerPolytope::default(),
+    );
     let decision = intersects(&pair, &checked, ROUNDING, &mut inner);
     assert_eq!(decision, Intersection::None);
     assert!(inner.corners.is_empty());
@@ -298,7 +301,7 @@ fn balls_that_touch_exactly_do_not_intersect() {
     };
     let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
     let checked = separation::check(&pair, &claim, 0.0);
-    let decision = intersects(&pair, &checked, 0.0, &mut Inner::default());
+    let decision = intersects(&pair, &checked, 0.0, &mut InnerPolytope::default());
     assert_eq!(decision, Intersection::None);
 }
 

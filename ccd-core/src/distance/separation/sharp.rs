@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3};
 ///
 /// The vector between nearest points is only as exact as their coordinates. Along it, two pieces that are near for
 /// their size lose some of their distance. The normal of a face, or of two edges, is exact to its last bits.
-pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
+pub(crate) fn sharpen(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
     let radii = pair.a.radius + pair.b.radius;
     let mut best = *checked;
     for axis in axes(pair, checked).into_iter().filter_map(unit) {

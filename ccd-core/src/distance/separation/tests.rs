@@ -1,6 +1,6 @@
 //! Tests the bounds that come from true and from false claims.
 
-use super::sharp::sharpened;
+use super::sharp::sharpen;
 use super::*;
 use crate::body::Body;
 use crate::body::combination::Combination;
@@ -175,7 +175,7 @@ fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
         axis,
         witness_a,
         ..
-    } = sharpened(pair, &checked, ROUNDING);
+    } = sharpen(pair, &checked, ROUNDING);
     // The bound was computed along this axis.
     assert_eq!(support_gap(pair, axis, witness_a) - ROUNDING, lower);
     assert!(lower <= distance, "{lower} {distance}");

@@ -42,7 +42,7 @@ pub(crate) struct EightPairs<'a, L: Simd, C, P> {
     pub(crate) other: &'a P,
     pub(crate) motion: &'a RelativeMotionF32,
     /// The vectors from the children's centres to the other node's centre.
-    pub(crate) way: Vec3x8<L>,
+    pub(crate) offset: Vec3x8<L>,
     /// The velocities of the children's centres relative to the other node's.
     pub(crate) velocity: Vec3x8<L>,
     /// Upper bounds of the speeds of the children's points due to rotation.
@@ -56,7 +56,7 @@ pub(crate) struct EightPairs<'a, L: Simd, C, P> {
 impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     #[inline(always)]
     pub(crate) fn level(&self) -> L {
-        self.way.level()
+        self.offset.level()
     }
 
     #[inline(always)]
@@ -74,7 +74,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             children,
             other,
             motion,
-            way: other_centre - centre,
+            offset: other_centre - centre,
             velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the second derivatives.
             speed: turning.length()
@@ -97,12 +97,12 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         if motion.split.turns {
             let m = motion.split.across(axis.n);
             rate += self.children.reach(m);
-            bend += bending(m, motion.split.rate, self.speed);
+            bend += second_derivative_bound(m, motion.split.rate, self.speed);
         }
         if motion.other.turns {
             let m = motion.other.across(axis.n);
             rate += self.other.reach(m);
-            bend += bending(m, motion.other.rate, self.other_speed);
+            bend += second_derivative_bound(m, motion.other.rate, self.other_speed);
         }
         let apart = axis.gap - motion.slack;
         if let Some(acceleration) = motion.acceleration {
@@ -120,6 +120,10 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
 /// Returns an upper bound of the second derivative of heights along `n`, for points that turn at an angular speed
 /// `rate` and move at `speed` at most; `m` is `n × ω`.
 #[inline(always)]
-pub(crate) fn bending<L: Simd>(m: Vec3x8<L>, rate: f32, speed: f32x8<L>) -> f32x8<L> {
+pub(crate) fn second_derivative_bound<L: Simd>(
+    m: Vec3x8<L>,
+    rate: f32,
+    speed: f32x8<L>,
+) -> f32x8<L> {
     (m.length() * BEND_F32 + ACROSS_F32 * rate) * speed
 }

@@ -5,7 +5,7 @@ use super::common::Common;
 use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::turn::Turn;
-use crate::body::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal, up};
+use crate::body::tree::{Below, LANES, Members, Node, NodeId, NodeOrTriangle, unit_normal, up};
 use crate::math::order::greater;
 use crate::math::packed::{Packed, PackedMatrix, as_vec3};
 use crate::motion::relative::{Seen, View};
@@ -50,7 +50,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
-    split_at(common, split, s, Pace::AsTheyMove)
+    split_at(common, split, s, ClosingRate::OfMotion)
 }
 
 /// Computes lower bounds of the distances of the children from the other node at clock `s`. They are returned as free
@@ -59,17 +59,17 @@ pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
-    let mut expansion = split_at(common, split, s, Pace::Unit);
+    let mut expansion = split_at(common, split, s, ClosingRate::Unit);
     // A second visit would give the same result.
-    expansion.bounds.waits = 0;
+    expansion.bounds.revisit = 0;
     expansion
 }
 
 /// The rate at which gaps are assumed to close.
 #[derive(Clone, Copy, Debug)]
-enum Pace {
+enum ClosingRate {
     /// The rate due to the motion of the bodies.
-    AsTheyMove,
+    OfMotion,
     /// One unit of length per unit of time, along every axis, so that the free time is the distance.
     Unit,
 }
@@ -77,8 +77,8 @@ enum Pace {
 /// Bounds the children, with the best vector instructions. This function alone contains the kernels, compiled once for
 /// each set of instructions.
 #[inline(never)]
-fn split_at(common: &Common<'_>, split: &Split, s: f64, pace: Pace) -> Expansion {
-    vectorize!(common.problem.level, level => split_node(level, common, split, s, pace))
+fn split_at(common: &Common<'_>, split: &Split, s: f64, closing_rate: ClosingRate) -> Expansion {
+    vectorize!(common.problem.level, level => split_node(level, common, split, s, closing_rate))
 }
 
 #[inline(always)]
@@ -87,12 +87,12 @@ fn split_node<L: Simd>(
     common: &Common<'_>,
     split: &Split,
     s: f64,
-    pace: Pace,
+    closing_rate: ClosingRate,
 ) -> Expansion {
-    let motion = RelativeMotion::new(level, common, split, s, pace);
+    let motion = RelativeMotion::new(level, common, split, s, closing_rate);
     let body = motion.split_side.body;
     let tree = body.tree();
-    let Named::Node(node) = tree.get(split.node) else {
+    let NodeOrTriangle::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
     };
     let (bounds, first) = match node.below {
@@ -123,13 +123,19 @@ struct RelativeMotion<'p, L: Simd> {
     view: &'p View,
     /// The time left to the end of the duration.
     horizon: f32,
-    pace: Pace,
+    closing_rate: ClosingRate,
 }
 
 impl<'p, L: Simd> RelativeMotion<'p, L> {
     // The struct is half a kilobyte, made once a visit. It is built in place, not moved.
     #[inline(always)]
-    fn new(level: L, common: &'p Common<'_>, split: &'p Split, s: f64, pace: Pace) -> Self {
+    fn new(
+        level: L,
+        common: &'p Common<'_>,
+        split: &'p Split,
+        s: f64,
+        closing_rate: ClosingRate,
+    ) -> Self {
         let view = common.view_from(split.body);
         RelativeMotion {
             level,
@@ -140,16 +146,18 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             seen: view.at(level, s),
             view,
             horizon: (1.0 - s) as f32,
-            pace,
+            closing_rate,
         }
     }
 
     /// Bounds the children in a group against the other body's node.
     #[inline(always)]
     fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
-        let Seen { rotation, way, .. } = self.seen;
+        let Seen {
+            rotation, offset, ..
+        } = self.seen;
         let centre = self.view.centre(self.level) - Packed::new(self.level, members.origin);
-        let other_centre = centre + way;
+        let other_centre = centre + offset;
         let group_view = GroupView {
             rotation,
             turn: rotation.narrow(),
@@ -159,8 +167,8 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             members,
         };
         match self.other_side.body.tree().get(self.split.other) {
-            Named::Node(node) => group_view.bound(group, &group_view.node(node)),
-            Named::Triangle(piece) => {
+            NodeOrTriangle::Node(node) => group_view.bound(group, &group_view.node(node)),
+            NodeOrTriangle::Triangle(piece) => {
                 let corners = self.other_side.body.pieces().triangle(piece as usize);
                 group_view.bound(group, &group_view.triangle(corners))
             }
@@ -184,9 +192,9 @@ struct GroupView<'m, L: Simd> {
 impl<L: Simd> GroupView<'_, L> {
     #[inline(always)]
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
-        let motion = match self.motion.pace {
-            Pace::AsTheyMove => self.as_they_move(other.centre(), other.radius()),
-            Pace::Unit => self.at_unit_rate(other.centre(), other.radius()),
+        let motion = match self.motion.closing_rate {
+            ClosingRate::OfMotion => self.motion_in_f32(other.centre(), other.radius()),
+            ClosingRate::Unit => self.at_unit_rate(other.centre(), other.radius()),
         };
         let lanes = self.motion.split.lanes & u8::MAX >> (LANES as u32 - self.members.count);
         bound(self.motion.level, group, other, &motion, lanes)
@@ -262,7 +270,7 @@ impl<L: Simd> GroupView<'_, L> {
 
     /// Returns the motion in f32, for a node with this centre and radius.
     #[inline(always)]
-    fn as_they_move(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
+    fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_turn(), self.other_turn());
         let reach = self.members.reach;
         let common = self.motion.common;

@@ -20,7 +20,7 @@ const FINISHED: u32 = f32::INFINITY.to_bits() | LANE_BITS;
 
 impl FreeTimes {
     /// Creates the times of a single pair, in the first lane, with a free time of 0.
-    pub(crate) fn one() -> Self {
+    pub(crate) fn first_lane() -> Self {
         FreeTimes::of_lane(0)
     }
 
@@ -80,7 +80,7 @@ impl FreeTimes {
     }
 
     /// Returns the free time of a lane.
-    pub(crate) fn of(&self, lane: usize) -> f32 {
+    pub(crate) fn time_of_lane(&self, lane: usize) -> f32 {
         time(self.0[lane])
     }
 }

@@ -21,7 +21,7 @@ pub(crate) trait Children {
     }
     /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
     /// from the children's centres to the target.
-    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
+    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children are single pieces, and cannot be split.
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
@@ -40,9 +40,9 @@ pub(crate) trait OtherNode {
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.reach(n)
     }
-    /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `way` leads from
+    /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads from
     /// the given points to the node's centre.
-    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L>;
+    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;
 }
@@ -77,7 +77,7 @@ impl Children for BoxGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         to
     }
     #[inline(always)]
@@ -122,7 +122,7 @@ impl Children for TriangleGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         let level = to.level();
         let to = self.centre(level) + to;
         to - nearest_of_edges(self.corners(level), to)
@@ -178,12 +178,12 @@ impl OtherNode for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L> {
-        let [u, v, w] = splats(way.level(), self.axes);
-        let x = way.dot(u).min(self.half[0]).max(-self.half[0]);
-        let y = way.dot(v).min(self.half[1]).max(-self.half[1]);
-        let z = way.dot(w).min(self.half[2]).max(-self.half[2]);
-        way - (u * x + v * y + w * z)
+    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+        let [u, v, w] = splats(offset.level(), self.axes);
+        let x = offset.dot(u).min(self.half[0]).max(-self.half[0]);
+        let y = offset.dot(v).min(self.half[1]).max(-self.half[1]);
+        let z = offset.dot(w).min(self.half[2]).max(-self.half[2]);
+        offset - (u * x + v * y + w * z)
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -226,10 +226,10 @@ impl OtherNode for OtherTriangle {
         self.radius
     }
     #[inline(always)]
-    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L> {
-        let level = way.level();
-        let from = Vec3x8::splat(level, Vec3::ZERO) - way;
-        way + nearest_of_edges(splats(level, self.corners), from)
+    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+        let level = offset.level();
+        let from = Vec3x8::splat(level, Vec3::ZERO) - offset;
+        offset + nearest_of_edges(splats(level, self.corners), from)
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {

@@ -16,20 +16,20 @@ pub(crate) struct Siblings {
     split: Split,
     first: NodeId,
     /// The children that are to be split before the other node, as bits.
-    thicker: u8,
+    split_child: u8,
     /// True if the other node is a single piece, and cannot be split.
-    whole: bool,
+    other_is_piece: bool,
     /// The pairs for which a second visit is better than a split, as bits.
-    waits: u8,
+    revisit: u8,
     /// The number of pairs that were removed to wait alone.
-    parted: u8,
+    removed_count: u8,
 }
 
 /// What to do with a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Next {
     /// Two pieces, of A and of B, whose distance the oracle computes next.
-    Ask(u32, u32),
+    Measure(u32, u32),
     /// One of the two nodes is split next.
     Split(Split),
 }
@@ -40,7 +40,7 @@ impl Next {
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
-            (Some(a), Some(b)) => return Next::Ask(a, b),
+            (Some(a), Some(b)) => return Next::Measure(a, b),
             (None, None) if !(b.radius() < a.radius()) => Which::A,
             (None, Some(_)) => Which::A,
             _ => Which::B,
@@ -53,14 +53,14 @@ impl Siblings {
     /// Creates the pair of both roots, of which the root of `body` is split first.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
-            free: FreeTimes::one(),
+            free: FreeTimes::first_lane(),
             since: 0.0,
             split: Split::all(body, 0, 0),
             first: 0,
-            thicker: 1,
-            whole: false,
-            waits: 0,
-            parted: 0,
+            split_child: 1,
+            other_is_piece: false,
+            revisit: 0,
+            removed_count: 0,
         }
     }
 
@@ -72,10 +72,10 @@ impl Siblings {
             since: s,
             split,
             first: expansion.first,
-            thicker: expansion.bounds.thicker,
-            whole: expansion.bounds.whole,
-            waits: expansion.bounds.waits,
-            parted: 0,
+            split_child: expansion.bounds.split_child,
+            other_is_piece: expansion.bounds.other_is_piece,
+            revisit: expansion.bounds.revisit,
+            removed_count: 0,
         }
     }
 
@@ -111,10 +111,10 @@ impl Siblings {
         let horizon = (1.0 - self.since) as f32;
         for lane in 0..LANES {
             // The other pairs are already certified to the end.
-            if self.free.of(lane) < horizon {
+            if self.free.time_of_lane(lane) < horizon {
                 match keeps_apart(self.pair(lane)) {
                     Some(true) => self.free.finish(lane),
-                    Some(false) => self.waits &= !(1 << lane),
+                    Some(false) => self.revisit &= !(1 << lane),
                     None => {}
                 }
             }
@@ -123,16 +123,16 @@ impl Siblings {
 
     /// Returns the number of pairs that were removed to wait alone.
     #[inline]
-    pub(crate) fn parted(&self) -> usize {
-        usize::from(self.parted)
+    pub(crate) fn removed_count(&self) -> usize {
+        usize::from(self.removed_count)
     }
 
     /// Removes the pair with the least clock, and returns it as siblings of its own with a later clock.
-    pub(crate) fn part_least(&mut self, clock: f64) -> Self {
+    pub(crate) fn remove_least(&mut self, clock: f64) -> Self {
         Siblings {
             free: FreeTimes::of_lane(self.free.take_least()),
             since: clock,
-            parted: self.parted.saturating_add(1),
+            removed_count: self.removed_count.saturating_add(1),
             ..*self
         }
     }
@@ -148,28 +148,28 @@ impl Siblings {
         } = self.split;
         let child = self.first + lane as NodeId;
         // A second visit at the same instant would give the same result.
-        if advanced && self.waits >> lane & 1 == 1 {
+        if advanced && self.revisit >> lane & 1 == 1 {
             return Next::Split(Split {
                 lanes: 1 << lane,
                 ..Split::all(body, node, other)
             });
         }
-        let thicker = self.thicker >> lane & 1 == 1;
-        if self.whole && !thicker {
-            return ask(problem, self.pair(lane));
+        let split_child = self.split_child >> lane & 1 == 1;
+        if self.other_is_piece && !split_child {
+            return measure_step(problem, self.pair(lane));
         }
         // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);
-        let k = usize::from(thicker);
+        let k = usize::from(split_child);
         Next::Split(Split::all(bodies[k], nodes[k], nodes[1 - k]))
     }
 }
 
 /// Returns the step that measures two nodes of a single piece each.
-fn ask(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
+fn measure_step(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
     let piece = |side: &Side<'_>, node| side.body.tree().piece(node);
     match (piece(&problem.a, a), piece(&problem.b, b)) {
-        (Some(a), Some(b)) => Next::Ask(a, b),
+        (Some(a), Some(b)) => Next::Measure(a, b),
         _ => unreachable!("only single pieces are thin beside a single piece"),
     }
 }

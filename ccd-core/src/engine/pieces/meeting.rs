@@ -20,22 +20,22 @@ impl<'s> Meeting<'s> {
         } = snapshot;
         let reach = AROUND * problem.rounding;
         let (mut looks, turn) = (0, pieces.b_to_a.rotation);
-        let normals = &mut meter.memory().normals;
+        let normals = &mut meter.scratch_memory().normals;
         normals.begin(LEVEL * problem.rounding);
-        problem.a.body.ways_around(points[0], reach, |way| {
+        problem.a.body.offsets_around(points[0], reach, |way| {
             looks += 1;
-            normals.add_a(way);
+            normals.add_offset_of_a(way);
         });
         let in_b = pieces.b_to_a.inverse_point(points[1]);
-        problem.b.body.ways_around(in_b, reach, |way| {
+        problem.b.body.offsets_around(in_b, reach, |way| {
             looks += 1;
-            normals.add_b(turn * way);
+            normals.add_offset_of_b(turn * way);
         });
         normals.sort();
         meter.stats.point_looks += looks;
         Meeting {
             points,
-            normals: &mut meter.memory().normals,
+            normals: &mut meter.scratch_memory().normals,
         }
     }
 

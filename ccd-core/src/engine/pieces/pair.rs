@@ -7,7 +7,7 @@ use crate::body::combination::Combination;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::distance::separation::Checked;
-use crate::distance::separation::sharp::sharpened;
+use crate::distance::separation::sharp::sharpen;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
 use crate::problem::{Problem, Side};
@@ -106,7 +106,7 @@ impl<C: Default + Clone> Pair<C> {
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
-                let inner = &mut meter.memory().inner;
+                let inner = &mut meter.scratch_memory().inner;
                 match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
                     Intersection::Certain => {
                         return Step::Overlap(contact(snapshot, ids, &checked));
@@ -141,7 +141,7 @@ impl<C: Default + Clone> Pair<C> {
         // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
         // such a loss.
         let checked = if is_resting || !(checked.lower > kept + problem.rounding) {
-            sharpened(&snapshot.pieces, &checked, problem.rounding)
+            sharpen(&snapshot.pieces, &checked, problem.rounding)
         } else {
             checked
         };
@@ -181,7 +181,7 @@ impl<C: Default + Clone> Pair<C> {
         }
         let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
         let start = snapshot.ask(oracle, &mut C::default(), meter)?;
-        let start = sharpened(&snapshot.pieces, &start, problem.rounding);
+        let start = sharpen(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting =
             start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;

@@ -234,7 +234,7 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
         return None;
     }
     let found = crossings(body.tree(), body.pieces(), point, 0.0)?;
-    (found.on == 0).then_some(found.beyond != 0)
+    (found.triangles_at_start == 0).then_some(found.beyond != 0)
 }
 
 #[cfg(test)]

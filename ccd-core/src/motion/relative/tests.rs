@@ -34,7 +34,7 @@ fn path(rng: &mut Pcg64) -> Path {
 fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
     let Seen {
         rotation,
-        way,
+        offset,
         velocity,
         acceleration,
         spin,
@@ -42,7 +42,7 @@ fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
     let point = rotation * (Packed::new(level, point) - view.other_centre(level));
     let acceleration = acceleration.unwrap_or(Packed::new(level, DVec3::ZERO));
     [
-        way + point + view.centre(level),
+        offset + point + view.centre(level),
         velocity,
         acceleration,
         spin,

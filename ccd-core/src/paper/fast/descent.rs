@@ -95,7 +95,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        if let Err(reason) = self.meter.visit(self.problem) {
+        if let Err(reason) = self.meter.count_visit(self.problem) {
             return ControlFlow::Break(Outcome::unresolved(
                 self.problem.time(snapshot.clock),
                 reason,

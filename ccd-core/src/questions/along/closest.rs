@@ -31,7 +31,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Some(distance) => self.keeps_along(query, distance, oracle)?,
             None => self.approach_of_bodies_along(&query.measuring(), oracle)?,
         };
-        Ok(answer.of_shapes(query.excess()))
+        Ok(answer.to_shapes(query.excess()))
     }
 
     /// Bounds the least distance of the bodies themselves, without their excess over the shapes.

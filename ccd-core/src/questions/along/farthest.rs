@@ -9,10 +9,10 @@ use super::motions::{Motions, Span};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::metered;
+use crate::engine::answer::run_metered;
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
-use crate::engine::nearest::Stop;
+use crate::engine::nearest::SearchEnd;
 use crate::engine::start::at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
@@ -56,8 +56,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Err((upper, reason)) => (upper, Some(reason)),
         };
         let excess = query.excess();
-        let upper = excess.above(upper);
-        let seen = |(time, contact): (f64, Contact)| (time, contact.of_shapes(excess));
+        let upper = excess.upper_bound_of_shapes(upper);
+        let seen = |(time, contact): (f64, Contact)| (time, contact.to_shapes(excess));
         let at = search.best.map(seen);
         let lower = at.map_or(0.0, |(_, contact)| greater(0.0, contact.separation.lower));
         let outcome = match reason {
@@ -218,7 +218,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         let query = self.stretches.query();
         let problem = pose.problem(query, &terms)?.measuring();
         let kept = &mut self.schedule.scratch;
-        let answer = metered(&problem, self.oracle, kept, |oracle, meter| {
+        let answer = run_metered(&problem, self.oracle, kept, |oracle, meter| {
             (measured(&problem, oracle, meter), 0.0)
         });
         self.stretches.add(&answer.stats);
@@ -270,8 +270,8 @@ fn measured<O: DistanceOracle>(
         // Any two points bound the distance from above.
         _ => match nearest_at(problem, 0.0, f64::INFINITY, oracle, meter) {
             ControlFlow::Continue(Some(nearest)) => Ok(Place::Meeting(nearest.contact)),
-            ControlFlow::Break(Stop::Overlap(_, contact)) => Ok(Place::Meeting(contact)),
-            ControlFlow::Break(Stop::Limit(reason)) => Err(reason),
+            ControlFlow::Break(SearchEnd::Overlap(_, contact)) => Ok(Place::Meeting(contact)),
+            ControlFlow::Break(SearchEnd::Limit(reason)) => Err(reason),
             ControlFlow::Continue(None) => Err(Limit::OracleGaveUp),
         },
     }

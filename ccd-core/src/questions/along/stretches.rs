@@ -3,7 +3,7 @@
 use super::motions::{Motions, Span};
 use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::metered;
+use crate::engine::answer::run_metered;
 use crate::engine::scratch::Scratch;
 use crate::engine::start::at_start;
 use crate::error::InputError;
@@ -206,7 +206,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             return Ok(None);
         };
         let problem = motions.problem(self.query, &terms)?.measuring();
-        let answer = metered(&problem, oracle, scratch, |oracle, meter| {
+        let answer = run_metered(&problem, oracle, scratch, |oracle, meter| {
             (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
         });
         self.stats.add(&answer.stats);

@@ -36,14 +36,14 @@ impl Nearing {
 
     pub(crate) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
         let best = self.best.ok_or(Beyond { lower })?;
-        let contact = best.contact.no_nearer_than(lower);
+        let contact = best.contact.cap_lower_bound(lower);
         Ok(Outcome::least(lower, problem.time(best.clock), contact))
     }
 
     pub(crate) fn unresolved(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.ladder.lower, self.upper());
         let seen = |best: Best| {
-            let contact = best.contact.no_nearer_than(lower);
+            let contact = best.contact.cap_lower_bound(lower);
             (problem.time(best.clock), contact)
         };
         Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))

@@ -62,7 +62,7 @@ impl Required {
     /// Returns the distance of bodies below which their shapes are certainly nearer than the required distance. It is 0
     /// or less if there is none.
     fn certain(&self) -> f64 {
-        self.excess.below(self.distance)
+        self.excess.certainly_nearer_below(self.distance)
     }
 
     /// Converts the outcome of a query with the distance as its margin to a decision.
@@ -72,7 +72,8 @@ impl Required {
                 proven_gap: greater(proven_gap, self.distance),
             },
             Outcome::Contact { time, contact }
-                if !(self.excess.above(contact.separation.upper) < self.distance) =>
+                if !(self.excess.upper_bound_of_shapes(contact.separation.upper)
+                    < self.distance) =>
             {
                 bracket(0.0, time, contact)
             }
@@ -155,5 +156,5 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
 
 fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
-    Outcome::least(lower, time, contact.no_nearer_than(lower))
+    Outcome::least(lower, time, contact.cap_lower_bound(lower))
 }

@@ -209,7 +209,7 @@ fn worst_views() {
         let found = crate::vectorize!(level, level => {
             let seen = view.at(level, s);
             let arm = crate::math::packed::Packed::new(level, arm);
-            (seen.rotation * arm + seen.way).unpacked()
+            (seen.rotation * arm + seen.offset).unpacked()
         });
         let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));
         let exact = scene.place(1 - own, s, y) - scene.place(own, s, x);

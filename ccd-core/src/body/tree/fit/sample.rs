@@ -1,6 +1,6 @@
 //! A sample of a node's points, to compare the boxes of many frames quickly.
 
-use super::Cloud;
+use super::NodePoints;
 use crate::body::hierarchy::bounds;
 use crate::math::order::{greater, lesser};
 use crate::tuning::SAMPLED_TRIANGLES;
@@ -29,13 +29,13 @@ impl Sample {
     };
 
     /// Fills the sample with the points, at even steps if there are too many. Triangles are taken whole.
-    pub(in super::super) fn take(&mut self, cloud: &Cloud<'_>) {
+    pub(in super::super) fn take(&mut self, node_points: &NodePoints<'_>) {
         self.count = 0;
-        let size = if cloud.triangles { 3 } else { 1 };
-        let groups = cloud.points.len() / size;
+        let size = if node_points.triangles { 3 } else { 1 };
+        let groups = node_points.points.len() / size;
         let step = groups.div_ceil(POINTS / size).max(1);
         for group in (0..groups).step_by(step) {
-            let points = &cloud.points[size * group..size * (group + 1)];
+            let points = &node_points.points[size * group..size * (group + 1)];
             self.list[self.count..][..size].copy_from_slice(points);
             self.count += size;
         }

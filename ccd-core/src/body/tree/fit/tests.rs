@@ -30,14 +30,14 @@ fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
 
 /// Returns half the surface area of the bounding box along a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
-    let Fitted { low, high, .. } = Fitted::along(frame, points);
+    let FittedBox { low, high, .. } = FittedBox::along(frame, points);
     let size = high - low;
     size.x * size.y + size.y * size.z + size.z * size.x
 }
 
 /// Creates the input of a fit from the corners of triangles.
-fn triangles(points: &[DVec3]) -> Cloud<'_> {
-    Cloud {
+fn triangles(points: &[DVec3]) -> NodePoints<'_> {
+    NodePoints {
         points,
         radius: 0.0,
         triangles: true,
@@ -107,12 +107,12 @@ fn boxes_are_as_small_as_those_of_all_points() {
         for count in [1, 2, 8, 40, SAMPLED_TRIANGLES, 4 * SAMPLED_TRIANGLES, 1_000] {
             for triangles in [true, false] {
                 let points = sheet(&mut rng, count, size);
-                let cloud = Cloud {
+                let node_points = NodePoints {
                     points: &points,
                     radius: 0.0,
                     triangles,
                 };
-                let node = fit(&cloud, Below::Piece(0), &mut sample);
+                let node = fit(&node_points, Below::Piece(0), &mut sample);
                 let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
                 assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
@@ -144,12 +144,12 @@ fn degenerate_points_have_a_box() {
     for shape in shapes {
         let points = shape.map(|x| DVec3::new(x, 2.0 * x, -x));
         for triangles in [true, false] {
-            let cloud = Cloud {
+            let node_points = NodePoints {
                 points: &points,
                 radius: 0.0,
                 triangles,
             };
-            let node = fit(&cloud, Below::Piece(0), &mut sample);
+            let node = fit(&node_points, Below::Piece(0), &mut sample);
             for (point, k) in points.iter().zip([0, 1, 2, 0]) {
                 let way = (*point - node.centre).dot(node.axes[k].as_dvec3());
                 assert!(way.abs() <= f64::from(node.half[k]));
@@ -162,7 +162,7 @@ fn degenerate_points_have_a_box() {
 #[test]
 fn only_orthonormal_frames_are_frames() {
     let turned = DMat3::from_quat(DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0));
-    assert!(is_frame(&turned));
+    assert!(is_orthonormal(&turned));
     for column in 0..3 {
         let next = turned.col((column + 1) % 3);
         // The column has the right length, but is tilted.
@@ -172,7 +172,7 @@ fn only_orthonormal_frames_are_frames() {
         for fault in [tilted, long, nan, infinite] {
             let mut frame = turned;
             *frame.col_mut(column) = fault;
-            assert!(!is_frame(&frame), "{frame}");
+            assert!(!is_orthonormal(&frame), "{frame}");
         }
     }
 }

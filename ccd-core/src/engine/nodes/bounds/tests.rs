@@ -172,11 +172,11 @@ fn find<L: Simd, C: Children, P: OtherNode>(
     some: Vec3,
 ) -> [Found; 3] {
     let pairs = sample.pairs(level);
-    let some = axis::towards(Vec3x8::splat(level, some), pairs.way);
+    let some = axis::towards(Vec3x8::splat(level, some), pairs.offset);
     let axes = [
         widest(&pairs),
         passing(&pairs),
-        axis::along(pairs.children, pairs.other, pairs.way, some),
+        axis::along(pairs.children, pairs.other, pairs.offset, some),
     ];
     axes.map(|axis| along(&pairs, axis))
 }
@@ -185,13 +185,13 @@ type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
 fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
-    axis::widest(pairs.children, pairs.other, pairs.way)
+    axis::widest(pairs.children, pairs.other, pairs.offset)
 }
 
 #[inline(never)]
 fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
-    let travel = pairs.velocity * splat(pairs.way.level(), pairs.motion.horizon);
-    axis::passing(pairs.children, pairs.other, pairs.way, travel)
+    let travel = pairs.velocity * splat(pairs.offset.level(), pairs.motion.horizon);
+    axis::passing(pairs.children, pairs.other, pairs.offset, travel)
 }
 
 #[inline(never)]

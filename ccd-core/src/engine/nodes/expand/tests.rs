@@ -150,7 +150,7 @@ impl Audit<'_> {
 
     /// Chooses the child with which to continue, mostly the one of least free time.
     fn next(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
-        let free = |k: &u32| expansion.bounds.free.of(*k as usize);
+        let free = |k: &u32| expansion.bounds.free.time_of_lane(*k as usize);
         let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
         if rng.random_bool(0.8) {
             least.unwrap_or(0)
@@ -163,12 +163,12 @@ impl Audit<'_> {
     fn below(&self, split: Which, node: NodeId) -> (u32, bool) {
         let tree = split.of(self.problem).body.tree();
         match tree.get(node) {
-            Named::Node(node) => match node.below {
+            NodeOrTriangle::Node(node) => match node.below {
                 Below::Boxes(group) => (tree.box_group(group).members.count, false),
                 Below::Triangles(group) => (tree.triangle_members(group).count, true),
                 Below::Piece(_) => (0, false),
             },
-            Named::Triangle(_) => (0, false),
+            NodeOrTriangle::Triangle(_) => (0, false),
         }
     }
 
@@ -184,7 +184,7 @@ impl Audit<'_> {
         let still = planes_that_stand_still(self.problem, split, node, other, s);
         let (count, triangles) = self.below(split, node);
         for lane in 0..count {
-            let free = expansion.bounds.free.of(lane as usize);
+            let free = expansion.bounds.free.time_of_lane(lane as usize);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
             let pair = Lane {
                 split,
@@ -197,7 +197,7 @@ impl Audit<'_> {
                 self.verify(&pair, tally);
                 tally.free += 1;
                 tally.by_role[split as usize] += 1;
-                tally.attached += usize::from(free > 1.5 * still.free.of(lane as usize));
+                tally.attached += usize::from(free > 1.5 * still.free.time_of_lane(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
                 tally.against_triangle += usize::from(other_tree.piece(other).is_some());
                 if triangles {
@@ -282,8 +282,8 @@ impl Audit<'_> {
 fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     let tree = side.body.tree();
     let members = match tree.get(id) {
-        Named::Triangle(piece) => return visit(piece),
-        Named::Node(node) => match node.below {
+        NodeOrTriangle::Triangle(piece) => return visit(piece),
+        NodeOrTriangle::Node(node) => match node.below {
             Below::Piece(piece) => return visit(piece),
             Below::Boxes(group) => tree.box_group(group).members,
             Below::Triangles(group) => *tree.triangle_members(group),
@@ -348,13 +348,13 @@ fn planes_that_stand_still(
     s: f64,
 ) -> Bounds {
     let tree = split.of(problem).body.tree();
-    let Named::Node(below) = tree.get(node) else {
+    let NodeOrTriangle::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
     let common = Common::new(problem);
     let split_all = Split::all(split, node, other);
     vectorize!(problem.level, level => {
-        let motion = RelativeMotion::new(level, &common, &split_all, s, Pace::AsTheyMove);
+        let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::OfMotion);
         match below.below {
             Below::Boxes(group) => {
                 let group = tree.box_group(group);
@@ -380,8 +380,8 @@ fn still<L: Simd, C: Children>(
 ) -> Bounds {
     let far = motion.other_side;
     let radius = match far.body.tree().get(motion.split.other) {
-        Named::Node(node) => node.radius,
-        Named::Triangle(piece) => {
+        NodeOrTriangle::Node(node) => node.radius,
+        NodeOrTriangle::Triangle(piece) => {
             let [a, b, c] = far.body.pieces().triangle(piece as usize);
             let mean = (a + b + c) / 3.0;
             [a, b, c]

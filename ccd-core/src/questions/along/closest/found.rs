@@ -171,7 +171,7 @@ impl Found {
             return self.answer(query, stretches, self.known(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = Outcome::least(lower, time, contact.no_nearer_than(lower));
+        let nearest = Outcome::least(lower, time, contact.cap_lower_bound(lower));
         self.answer(query, stretches, nearest)
     }
 
@@ -200,7 +200,7 @@ impl Found {
     /// Returns the outcome when a limit is reached; `lower` is a lower bound for all times.
     fn known(&self, lower: f64, limit: Limit) -> Outcome {
         let lower = lesser(greater(self.ladder.lower, lower), self.upper());
-        let seen = |(time, contact): (f64, Contact)| (time, contact.no_nearer_than(lower));
+        let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
         Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
     }
 

@@ -62,7 +62,7 @@ impl Setting<'_> {
         let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
         let arm = turned(x + y + z, own);
         let passing = velocity - away;
-        let way = Double3::from(self.sweep.way) + passing.scale(Double::from(tau)) + arm;
+        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau)) + arm;
         let rate = spin.cross(normal).dot(way) + normal.dot(passing + own.cross(arm));
         [normal.dot(way), rate]
     }
@@ -72,14 +72,17 @@ impl Setting<'_> {
         let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
         let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
         let (passing, time) = (velocity - away, Double::from(f64::from(ATTACHED_TIME)));
-        let way = Double3::from(self.sweep.way) + passing.scale(Double::from(tau));
+        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau));
         let arm = spin.unit().cross(way).length() + passing.length() * time;
         let across = spin.cross(Double3::from(self.normal)).length();
         let two = Double::from(2.0);
         let exact = across * (spin.length() * arm + two * passing.length())
             + (spin - own).length() * (across + own.length()) * Double::from(self.sweep.radius);
         let sweep = self.sweep;
-        let arm = sweep.unit.cross(sweep.way + sweep.velocity * tau).length()
+        let arm = sweep
+            .unit
+            .cross(sweep.offset + sweep.velocity * tau)
+            .length()
             + sweep.speed * f64::from(ATTACHED_TIME);
         let across = sweep.omega * sweep.normal.slope();
         let plain = across * (sweep.omega * arm + 2.0 * sweep.speed)

@@ -66,7 +66,7 @@ impl Shape {
         let node = Node {
             centre,
             axes,
-            half: axes.map(|u| farthest(&|way| way.dot(u.as_dvec3()).abs())),
+            half: axes.map(|u| farthest(&|offset| offset.dot(u.as_dvec3()).abs())),
             rounding: 0.0,
             radius: farthest(&DVec3::length),
             below: Below::Boxes(0),

@@ -2,7 +2,7 @@
 
 use super::super::*;
 use crate::body::{Body, Volume};
-use crate::distance::separation::sharp::sharpened;
+use crate::distance::separation::sharp::sharpen;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
@@ -87,7 +87,7 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
     let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
     let mut meter = Meter::new(&problem);
     let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
-    let checked = sharpened(&snapshot.pieces, &checked, problem.rounding);
+    let checked = sharpen(&snapshot.pieces, &checked, problem.rounding);
     let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
     free.map(|free| free * speed.abs() / problem.rounding)
