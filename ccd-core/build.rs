@@ -1,25 +1,25 @@
-//! Finds out whether the compiler's LLVM is of those that miscompile AVX-512.
+//! Detects compilers whose LLVM miscompiles AVX-512, and sets the cfg `faulty_avx512` for them.
 
 use std::process::Command;
 
-/// The first LLVM that is free of it.
-const MENDED: u32 = 23;
+/// The first major version of LLVM that compiles AVX-512 correctly.
+const FIRST_CORRECT_LLVM: u32 = 23;
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rustc-check-cfg=cfg(faulty_avx512)");
     // An unknown version counts as faulty.
-    if llvm().is_none_or(|major| major < MENDED) {
+    if llvm_major_version().is_none_or(|major| major < FIRST_CORRECT_LLVM) {
         println!("cargo::rustc-cfg=faulty_avx512");
     }
 }
 
-/// The major version of the LLVM behind rustc.
-fn llvm() -> Option<u32> {
+/// Returns the major version of the LLVM in rustc; `None` if it is unknown.
+fn llvm_major_version() -> Option<u32> {
     let rustc = std::env::var_os("RUSTC")?;
-    let told = Command::new(rustc).arg("-vV").output().ok()?;
-    let told = String::from_utf8(told.stdout).ok()?;
-    let version = told
+    let output = Command::new(rustc).arg("-vV").output().ok()?;
+    let output = String::from_utf8(output.stdout).ok()?;
+    let version = output
         .lines()
         .find_map(|line| line.strip_prefix("LLVM version: "))?;
     version.split('.').next()?.trim().parse().ok()

@@ -12,21 +12,21 @@ pub use contact::{Contact, Overlap, Separation};
 pub use stats::Stats;
 pub use unresolved::{Limit, Unresolved};
 
-/// An outcome with its accuracy and its cost.
+/// The outcome of a query, with the accuracy of its numbers and the cost of computing them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// The outcome.
+    /// What the query found: contact, no contact, a distance, or the limit that stopped it.
     pub outcome: Outcome,
     /// The tolerance of the answer. It is the requested one, unless only a larger one can be certified at the
     /// coordinates of the scene, or the bodies were [let go](crate::StartPolicy::Leave) with a smaller one. For
     /// bounds of a distance it is at least their width, which includes the [excess](crate::Body::with_excess) of the
     /// bodies.
     pub tolerance: f64,
-    /// The cost.
+    /// The number of steps that the query took, by kind.
     pub stats: Stats,
 }
 
-/// The outcome of a query.
+/// What a query found out about two bodies.
 ///
 /// | question | outcomes |
 /// |---|---|
@@ -67,7 +67,7 @@ pub enum Outcome {
     /// The bodies are in contact at `time`: within margin + tolerance, or nearer than a required
     /// [clearance](crate::Settings::clearance). There is no contact before a first contact.
     Contact {
-        /// The time, in the motions' unit.
+        /// The time of the contact, in the motions' unit.
         time: f64,
         /// The separation at that time: `lower` and `upper` bound the distance of the bodies.
         contact: Contact,
@@ -79,7 +79,7 @@ pub enum Outcome {
     },
     /// The bodies overlap at the start.
     Overlapping {
-        /// The proof.
+        /// The proof that the bodies overlap at the start.
         overlap: Overlap,
         /// An upper bound of the distance at the start: 0, or the [excess](crate::Body::with_excess) of both bodies
         /// if the query was about the distance.
@@ -99,29 +99,29 @@ pub enum Outcome {
         lower: f64,
         /// An upper bound of the same distance.
         upper: f64,
-        /// The time of the measurement that gave one of the bounds (the upper bound of the least distance, the lower
-        /// bound of the greatest one), and the nearest pieces at that time. `None` if the bodies overlap whenever
-        /// they are measured.
+        /// The time of the measurement that gave one of the bounds, and the nearest pieces at that time. It gave the
+        /// upper bound of the least distance, or the lower bound of the greatest one. `None` if the bodies overlap at
+        /// all times that were measured.
         at: Option<(f64, Contact)>,
     },
-    /// A limit was reached before an answer.
+    /// A limit, such as the budget, was reached before the answer was known.
     Unresolved(Unresolved),
 }
 
-/// A contact at a time.
+/// A time at which the bodies are in contact, with the kind of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// The time, in the motions' unit. Nothing touches before a first contact, except for contacts at the start that
-    /// [`StartPolicy::Leave`](crate::StartPolicy::Leave) ignores.
+    /// The time of the contact, in the motions' unit. Nothing touches before a first contact, except for contacts at
+    /// the start that [`StartPolicy::Leave`](crate::StartPolicy::Leave) ignores.
     pub time: f64,
-    /// The kind of the contact.
+    /// Whether the bodies come near, touch at the start, or overlap.
     pub kind: HitKind,
 }
 
 /// The kind of a contact, with the pieces in contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HitKind {
-    /// The bodies come within margin + tolerance.
+    /// The bodies come within margin + tolerance of each other.
     Contact(Contact),
     /// The bodies are within margin + tolerance at the start, without overlapping.
     Touching(Contact),
@@ -130,12 +130,12 @@ pub enum HitKind {
     Overlapping(Overlap),
 }
 
-/// The comparison of the least distance of two bodies to a required one.
+/// Whether two bodies keep a required distance over the whole duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clearance {
-    /// The bodies are certainly never nearer.
+    /// The bodies are certainly at least the required distance apart at all times.
     Kept,
-    /// The bodies are certainly nearer at some time.
+    /// The bodies are certainly nearer than the required distance at some time.
     Violated,
     /// The bounds of the least distance are too far apart to decide.
     Unverified,
@@ -150,10 +150,10 @@ impl Answer {
         self.outcome.hit()
     }
 
-    /// Returns the answer for the shapes, given one for the bodies. It is called once for each query about a
-    /// distance.
-    pub(crate) fn of_shapes(self, excess: Excess) -> Self {
-        let outcome = self.outcome.of_shapes(excess);
+    /// Converts an answer about enclosing bodies to one about the shapes in them. It is called once for each query
+    /// about a distance.
+    pub(crate) fn to_shapes(self, excess: Excess) -> Self {
+        let outcome = self.outcome.to_shapes(excess);
         Answer {
             outcome,
             tolerance: greater(self.tolerance, outcome.width()),
@@ -216,8 +216,8 @@ impl Outcome {
         }
     }
 
-    /// Returns the time of the contact, or of the measured distance, in the motions' unit; `None` if there is
-    /// neither.
+    /// Returns the time of the contact, or of the measured distance, in the motions' unit; `None` if nothing was found
+    /// or measured.
     pub fn time(&self) -> Option<f64> {
         match *self {
             Outcome::Contact { time, .. } => Some(time),
@@ -229,7 +229,7 @@ impl Outcome {
         }
     }
 
-    /// Returns the pieces in contact, or those that were measured, and their time.
+    /// Returns the pieces in contact, or those between which a distance was measured, with the time.
     pub fn nearest(&self) -> Option<(f64, Contact)> {
         match *self {
             Outcome::Contact { time, contact } => Some((time, contact)),
@@ -249,7 +249,7 @@ impl Outcome {
         }
     }
 
-    /// Compares the least distance to a required one.
+    /// Compares the bounds of the least distance to a required distance.
     ///
     /// Bodies that may touch keep no clearance, not even a clearance of 0.
     pub fn clearance(&self, required: f64) -> Clearance {
@@ -263,7 +263,7 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome for two bodies that overlap at the start.
+    /// Creates the outcome for two bodies that overlap at the start.
     pub(crate) fn overlapping(overlap: Overlap) -> Self {
         Outcome::Overlapping {
             overlap,
@@ -271,12 +271,12 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome of a query about contacts that a limit ended.
+    /// Creates the outcome of a query about contacts that a limit ended.
     pub(crate) fn unresolved(safe_until: f64, limit: Limit) -> Self {
         Outcome::Unresolved(Unresolved::until(safe_until, limit))
     }
 
-    /// Returns the width of the measured bounds; 0 if nothing was measured.
+    /// Returns the difference of the measured bounds; 0 if nothing was measured.
     pub(crate) fn width(&self) -> f64 {
         match *self {
             Outcome::Measured { lower, upper, .. } => upper - lower,
@@ -284,7 +284,7 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome of a query about the least distance, measured at a time.
+    /// Creates the outcome of a query about the least distance, from a lower bound and the contact measured at `time`.
     pub(crate) fn least(lower: f64, time: f64, contact: Contact) -> Self {
         Outcome::Measured {
             lower,
@@ -293,8 +293,8 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome with each contact replaced, and the upper bounds of the least distance taken from the new
-    /// contacts; `map` takes a contact and its time. This is not for the greatest distance.
+    /// Replaces each contact by `map(contact, time)`, and takes the upper bounds of the least distance from the new
+    /// contacts. This is not for queries about the greatest distance.
     pub(crate) fn map_contacts(self, mut map: impl FnMut(Contact, f64) -> Contact) -> Self {
         match self {
             Outcome::Contact { time, contact } => Outcome::Contact {
@@ -321,7 +321,7 @@ impl Outcome {
                     at: known.at.map(|(time, contact)| (time, map(contact, time))),
                     ..known
                 }
-                .with_upper_of_contact(),
+                .with_measured_upper_bound(),
             ),
             // The contacts of an interval are those of two first contacts, which have already been mapped.
             Outcome::Free { .. }
@@ -331,12 +331,12 @@ impl Outcome {
         }
     }
 
-    /// Returns the outcome for the shapes, given one for the bodies.
-    fn of_shapes(self, excess: Excess) -> Self {
-        match self.map_contacts(|contact, _| contact.of_shapes(excess)) {
+    /// Converts an outcome about enclosing bodies to one about the shapes in them.
+    fn to_shapes(self, excess: Excess) -> Self {
+        match self.map_contacts(|contact, _| contact.to_shapes(excess)) {
             Outcome::Overlapping { overlap, .. } => Outcome::Overlapping {
                 overlap,
-                upper: excess.of_overlap(),
+                upper: excess.distance_of_overlap(),
             },
             outcome => outcome,
         }
@@ -353,17 +353,17 @@ impl Hit {
         }
     }
 
-    /// Returns the point of A that is nearest to B, in world coordinates at the time.
+    /// Returns the point of A that is nearest to B at the time of the contact, in world coordinates.
     pub fn witness_a(&self) -> DVec3 {
         self.witnesses()[0]
     }
 
-    /// Returns the point of B that is nearest to A, in world coordinates at the time.
+    /// Returns the point of B that is nearest to A at the time of the contact, in world coordinates.
     pub fn witness_b(&self) -> DVec3 {
         self.witnesses()[1]
     }
 
-    /// Returns the nearest points of A and B. Both are the same point of both bodies if one body is inside the other.
+    /// Returns the nearest points of A and B. If one body is inside the other, both are the same point.
     fn witnesses(&self) -> [DVec3; 2] {
         match self.kind {
             HitKind::Contact(contact)

@@ -1,4 +1,4 @@
-//! A body: convex pieces, a tree over them, and whether they bound a solid.
+//! A rigid body: convex pieces, a tree over them, and whether they bound a solid.
 
 pub(crate) mod combination;
 pub(crate) mod excess;
@@ -26,7 +26,7 @@ use crate::math::order::greater;
 use crate::tuning::BOX_SHARE;
 use combination::Combination;
 use feature::Feature;
-use feature_lookup::{face_under, prepare};
+use feature_lookup::{face_at, prepare};
 use glam::DVec3;
 use hierarchy::Hierarchy;
 #[cfg(feature = "hull-tree")]
@@ -43,7 +43,8 @@ use threads::{for_each, join};
 use tree::point_query::pieces_at;
 use tree::{Layout, Tree};
 
-/// A rigid body: convex pieces in the body's own frame, ready for queries; immutable and shareable.
+/// A rigid body that is ready for queries: convex pieces in the body's own frame, and a tree over them. It is
+/// immutable, and can be shared between queries.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, Body, Pieces, Volume};
@@ -58,7 +59,8 @@ pub struct Body {
     tree: Tree,
     volume: Volume,
     shells: Vec<Shell>,
-    /// The hull tree. Its leaves name the pieces in the order of the tree.
+    /// The tree of convex hulls, if one was given; its leaves are pieces, in the order of the tree. Its leaves name the
+    /// pieces in the order of the tree.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
     surface: Option<Box<Surface>>,
@@ -66,29 +68,30 @@ pub struct Body {
     excess: f64,
 }
 
-/// The triangles of a convex body's surface. They replace the body in queries against a body of many triangles.
+/// The surface of a convex body as triangles, which replace the body in queries against a body of many triangles. They
+/// replace the body in queries against a body of many triangles.
 #[derive(Clone, Debug)]
 struct Surface {
     triangles: Body,
-    /// True if the convex body is the box that its tree stores.
+    /// True if the body is the box at the root of its tree.
     is_box: bool,
 }
 
-/// The meaning of a body's inside: whether a body in it counts as touching.
+/// Whether another body that is completely inside this one counts as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Volume {
-    /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound a solid: together
-    /// they are closed. The solid consists of the points about which they wind, in either direction. Of nested
-    /// shells, each has to be wound opposite to the one around it. A body inside the solid overlaps it. A single
-    /// piece is solid by itself.
+    /// The body's triangles bound a solid. They are the pieces, or the [mesh's triangles](crate::Piece::mesh_triangles)
+    /// on the pieces, and together they are closed. The solid consists of the points about which they wind, in either
+    /// direction. Of nested shells, each has to be wound opposite to the one around it. A body inside the solid
+    /// overlaps it. A single piece is solid by itself.
     Solid,
-    /// Only the pieces themselves can be touched.
+    /// Only contact with the pieces counts; their inside is empty.
     Surface,
 }
 
 impl Body {
-    /// Creates a body over a hierarchy that this function builds, split at medians.
+    /// Creates a body, and builds its hierarchy by splits at medians.
     ///
     /// # Errors
     /// [`InputError::TooManyPieces`].
@@ -97,8 +100,8 @@ impl Body {
         Body::with_hierarchy(pieces, &hierarchy, volume)
     }
 
-    /// Creates a body over a given hierarchy. The body keeps the pieces in the hierarchy's order;
-    /// features have the numbers that the pieces carry.
+    /// Creates a body with a given hierarchy. The body keeps the pieces in the hierarchy's order; features have the
+    /// numbers that the pieces carry.
     ///
     /// # Errors
     /// [`InputError::BadHierarchy`] when the nodes are no hierarchy over these pieces.
@@ -108,11 +111,15 @@ impl Body {
         volume: Volume,
     ) -> Result<Self, InputError> {
         let (layout, pieces) = Layout::of(pieces, hierarchy)?;
-        let (shells, tree) = join(pieces.len(), || shells(&pieces), || layout.fitted(&pieces));
+        let (shells, tree) = join(
+            pieces.len(),
+            || shells(&pieces),
+            || layout.fit_nodes(&pieces),
+        );
         if !pieces.all_triangles() {
             // The searches are prepared now, so that no query waits for them.
             for piece in pieces.iter() {
-                piece.supported(support_of);
+                piece.with_support(support_of);
                 prepare(&piece);
             }
         }
@@ -128,8 +135,8 @@ impl Body {
         })
     }
 
-    /// Returns the body of one piece with the triangles of its surface. They are for queries against bodies of many
-    /// triangles, each of which is near only a few of them. Against other bodies the body stays one piece.
+    /// Adds the triangles of the surface to a body of one piece. They are for queries against bodies of many triangles,
+    /// each of which is near only a few of them. Against other bodies the body stays one piece.
     ///
     /// # Guarantee
     /// The guarantee of queries holds when the triangles bound the same solid as the piece; this is not checked.
@@ -154,30 +161,29 @@ impl Body {
         Ok(self)
     }
 
-    /// Returns the body with a hull tree over its pieces, for the schedules that use one.
+    /// Adds a hull tree over the body's pieces, for the schedules that use one.
     ///
     /// # Errors
     /// [`HullFault::NotAPiece`](crate::HullFault::NotAPiece) unless the tree's leaves are the body's pieces, to the
     /// bit and in any order.
     #[cfg(feature = "hull-tree")]
     pub fn with_hull_tree(mut self, tree: HullTree) -> Result<Self, HullTreeError> {
-        self.hull_tree = Some(tree.renumbered(&self.pieces)?);
+        self.hull_tree = Some(tree.renumber_leaves(&self.pieces)?);
         Ok(self)
     }
 
-    /// Returns the pieces, in the order of the tree.
+    /// Returns the body's pieces, in the order of the tree.
     pub fn pieces(&self) -> &Pieces {
         &self.pieces
     }
 
-    /// Returns a piece. A piece of many points has a search structure for extremal points.
+    /// Returns a piece by its index. A piece of many points has a search structure for extremal points.
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
-        self.pieces.get(index as usize).supported(support_of)
+        self.pieces.get(index as usize).with_support(support_of)
     }
 
-    /// Computes in advance the values that [`Piece::kept`] computes at the first request: for the pieces, for the
-    /// hulls of the hull tree, and for the triangles of the [surface](Body::with_surface), on all cores.
+    /// Computes in advance, on all cores, the values that [`Piece::kept`] would compute when first requested.
     ///
     /// Searches for extremal points of hulls are prepared in advance as well. Values that exist already stay.
     ///
@@ -204,11 +210,11 @@ impl Body {
         }
         for_each(&mut pieces, &(), |(), _, piece| {
             // Pieces in queries have this search, too.
-            let _ = piece.supported(support_of).kept(&make);
+            let _ = piece.with_support(support_of).kept(&make);
         });
     }
 
-    /// Returns an upper bound of the distances of the body's points from its origin.
+    /// Returns an upper bound of the distance of any point of the body from the body's origin.
     ///
     /// ```
     /// let box_of_4 = ccd_core::Body::cuboid([2.0, 2.0, 1.0])?;
@@ -219,15 +225,15 @@ impl Body {
         self.tree.span()
     }
 
-    /// Returns the meaning of the body's inside.
+    /// Returns whether a body inside this one counts as touching.
     pub fn volume(&self) -> Volume {
         self.volume
     }
 
-    /// Returns the body that replaces this one against another: its surface, if it has one and the other body has
+    /// Returns the body to use in a query against `other`: the triangulated surface, if there is one and `other` has
     /// many triangles. A box that is larger than the other body is not replaced: its triangles would hardly be nearer
     /// to anything than the box is.
-    pub(crate) fn against(&self, other: &Body) -> &Body {
+    pub(crate) fn query_body_against(&self, other: &Body) -> &Body {
         let many = other.pieces.all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
         match &self.surface {
@@ -242,7 +248,7 @@ impl Body {
         self.hull_tree.as_ref()
     }
 
-    /// Returns the approximate number of bytes held.
+    /// Returns the approximate memory use in bytes.
     pub fn bytes(&self) -> usize {
         #[cfg(feature = "hull-tree")]
         let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
@@ -253,7 +259,7 @@ impl Body {
         self.pieces.bytes() + self.tree.bytes() + hulls + surface
     }
 
-    /// Returns the mesh's feature at a point of a piece.
+    /// Returns the mesh's vertex, edge or face that contains a point of a piece.
     ///
     /// A virtual facet may be within the surface, over faces of other pieces. If the piece has no
     /// feature for the point, these pieces are searched.
@@ -265,13 +271,13 @@ impl Body {
         let at = point.of(self.pieces.get(piece as usize).points);
         at.and_then(|at| {
             let mut faces =
-                pieces_at(&self.tree, at).map(|k| face_under(&self.pieces.get(k as usize), at));
+                pieces_at(&self.tree, at).map(|k| face_at(&self.pieces.get(k as usize), at));
             faces.find_map(|face| face)
         })
         .map_or(feature, Feature::Face)
     }
 
-    /// Returns whether the body's faces bound a solid that its pieces need not fill.
+    /// Returns whether the body is a solid whose inside may not be filled by its pieces.
     pub(crate) fn may_be_hollow(&self) -> bool {
         self.volume == Volume::Solid && (self.pieces.all_triangles() || self.pieces.len() > 1)
     }
@@ -281,14 +287,14 @@ impl Body {
         &self.tree
     }
 
-    /// Returns some points of every connected part. Either a whole part is inside another solid, or its surface
-    /// crosses that of the solid.
+    /// Returns a few points of every connected part. A part without its points inside another solid is outside it, or
+    /// its surface crosses that of the solid.
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }
 }
 
-/// Prepares the search for extremal points of a piece of many points.
+/// Builds the search structure for extremal points of a piece of many points.
 #[cfg(not(feature = "hull-tree"))]
 fn support_of(piece: &Piece<'_>) -> Support {
     Support::of_points(piece.points)

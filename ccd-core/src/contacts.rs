@@ -1,4 +1,4 @@
-//! All features that are in contact at a time `[FAST06 §5.2]`.
+//! Finds all pairs of features that are in contact at a time `[FAST06 §5.2]`.
 
 mod boxes;
 mod candidate;
@@ -19,24 +19,23 @@ use near::near_faces;
 use skin::Skin;
 use std::fmt;
 
-/// The reason why there is no list of contacts.
+/// The reason why the contacts cannot be listed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ContactsError {
-    /// A trajectory has no pose at the time, or one out of range.
+    /// A trajectory has no pose at the time, or a pose out of range.
     Input(InputError),
-    /// The time is NaN, or not within the duration.
+    /// The time is NaN, or outside of the duration.
     NotInDuration {
-        /// The requested time.
+        /// The requested time, in the motions' unit.
         time: f64,
-        /// The problem's duration.
+        /// The query's duration.
         duration: f64,
     },
-    /// More pairs are near than the problem's [budget](crate::Settings::budget) allows: pairs of nodes, of boxes of
-    /// faces, or of features. Either the bodies are small for the margin and the tolerance, or one is deep in the
-    /// other.
+    /// More pairs are near than the [budget](crate::Settings::budget) allows. Either the bodies are small for the
+    /// margin and the tolerance, or one is deep in the other.
     TooMany {
-        /// The budget.
+        /// The query's budget.
         budget: u64,
     },
 }
@@ -56,12 +55,12 @@ impl Problem<'_> {
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
         for skin in &mut skins {
-            skin.hide_cuts(self.rounding);
+            skin.find_cut_edges(self.rounding);
         }
         let [a, b] = &skins;
         let mut manifold = Manifold::new(self, [a, b]);
         for faces in near {
-            manifold.meet(faces);
+            manifold.add_face_contacts(faces);
             if manifold.len() as u64 > budget {
                 return Err(too_many());
             }

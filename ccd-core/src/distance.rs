@@ -1,4 +1,4 @@
-//! The distance of two pieces: the claim of a backend, and the bounds proven from it.
+//! The distance of two pieces: claims of backends, and the bounds that are proven from them.
 
 pub(crate) mod common_normals;
 pub(crate) mod oracle;

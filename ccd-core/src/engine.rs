@@ -1,4 +1,4 @@
-//! The search: conservative advancement of pairs, each with its own clock.
+//! The search for contacts: conservative advancement in which each pair has its own clock.
 //!
 //! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one at a time, in
 //! f64). `search.rs` has the steps of every search: the next waiting pair is proven apart for longer, or split.

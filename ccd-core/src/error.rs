@@ -1,61 +1,61 @@
-//! Faults of an input. Numerical trouble is an [`Outcome`](crate::Outcome) instead.
+//! Errors for invalid input. Numerical trouble is an [`Outcome`](crate::Outcome) instead.
 
 use crate::limits::MAX_COORDINATE;
 use std::fmt;
 
-/// An invalid input, with the invalid element.
+/// The reason why an input is invalid, with the invalid element.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
-    /// The quantity is NaN or infinite.
+    /// A quantity is NaN or infinite.
     NotFinite {
         /// The name of the quantity.
         what: &'static str,
     },
-    /// A quaternion of length zero represents no orientation.
+    /// A quaternion has length zero, and represents no orientation.
     ZeroQuaternion,
-    /// A quantity is out of range.
+    /// A quantity is outside of its accepted range.
     OutOfRange {
         /// The name of the quantity.
         what: &'static str,
         /// The value of the quantity.
         value: f64,
-        /// The accepted values, in words.
+        /// The accepted values, described in words.
         allowed: &'static str,
     },
-    /// A joint is outside of its limits.
+    /// The position of a joint is outside of the joint's limits.
     JointPosition {
-        /// The joint's index in its chain, if it is in one.
+        /// The index of the joint in its chain, if it is in one.
         joint: Option<usize>,
-        /// The position.
+        /// The requested position of the joint.
         position: f64,
-        /// The least and the greatest position.
+        /// The least and the greatest accepted position.
         limits: [f64; 2],
     },
-    /// A chain has no such link.
+    /// A link number is greater than the number of joints of the chain.
     NoSuchLink {
-        /// The link's number.
+        /// The requested number of the link.
         link: usize,
         /// The number of joints: links count from 0, the base, to this.
         joints: usize,
     },
-    /// A link can be seen only from links nearer to the base, or from itself.
+    /// A link's motion was requested relative to a link that is farther from the base.
     NotSeenFrom {
-        /// The link from which the other is seen.
+        /// The number of the link that serves as reference.
         from: usize,
-        /// The link that is seen.
+        /// The number of the link whose motion was requested.
         link: usize,
     },
-    /// Each joint of a chain has a position, fixed ones included.
+    /// The number of positions differs from the number of joints. Each joint needs one, fixed ones included.
     JointCount {
-        /// The number of positions.
+        /// The number of given positions.
         positions: usize,
-        /// The number of joints.
+        /// The number of joints in the chain.
         joints: usize,
     },
-    /// A body needs at least one piece.
+    /// A body has no pieces.
     NoPieces,
-    /// A piece needs at least one point.
+    /// A piece has no points.
     EmptyPiece {
         /// The index of the piece.
         piece: usize,
@@ -72,29 +72,29 @@ pub enum InputError {
     BadRadius {
         /// The piece's index.
         piece: usize,
-        /// The radius.
+        /// The invalid radius.
         radius: f64,
     },
-    /// A face has a vertex index that does not exist.
+    /// A face refers to a vertex that does not exist.
     VertexOutOfRange {
         /// The face's index.
         face: usize,
-        /// The index of the vertex.
+        /// The index of the missing vertex.
         vertex: u32,
-        /// The number of vertices.
+        /// The number of vertices in the mesh.
         vertices: usize,
     },
-    /// Every face needs a number.
+    /// The number of face numbers differs from the number of faces.
     FaceIds {
         /// The number of faces.
         faces: usize,
-        /// The number of face numbers.
+        /// The number of given face numbers.
         ids: usize,
     },
-    /// A surface must consist of triangles that bound a solid, and belong to a solid body of one piece without
-    /// rounding.
+    /// A surface does not consist of triangles that bound a solid, or does not belong to a solid body of one piece with
+    /// radius 0.
     BadSurface,
-    /// A facet of a polytope has a corner index that the polytope does not have.
+    /// A facet of a polytope refers to a point that does not exist.
     FacetOutOfRange {
         /// The piece's index.
         piece: usize,
@@ -108,14 +108,14 @@ pub enum InputError {
         /// The face's index within the piece.
         face: usize,
     },
-    /// A hierarchy must hold every piece exactly once, below one root, without cycles.
+    /// A hierarchy is not a tree with one root in which every piece occurs exactly once.
     BadHierarchy {
-        /// The piece or node at which the check fails.
+        /// The index of the piece or node at which the check fails.
         at: usize,
     },
-    /// There are more pieces than an index can name.
+    /// There are more pieces than indices of 32 bits can number.
     TooManyPieces {
-        /// The number of pieces.
+        /// The number of given pieces.
         pieces: usize,
     },
 }
@@ -204,7 +204,7 @@ impl fmt::Display for InputError {
 
 impl std::error::Error for InputError {}
 
-/// Returns an error for a quantity, unless `allowed` holds. The condition has to be false for NaN.
+/// Returns an error for a quantity unless `allowed` is true. The condition has to be false for NaN.
 pub(crate) fn check(
     what: &'static str,
     value: f64,
@@ -222,13 +222,13 @@ pub(crate) fn check(
     }
 }
 
-/// Returns an error for a value that is not a valid length of a shape.
+/// Returns an error unless a value is a valid length of a shape.
 pub(crate) fn check_length(what: &'static str, length: f64) -> Result<(), InputError> {
     let allowed = (0.0..=MAX_COORDINATE).contains(&length);
     check(what, length, allowed, "from 0 to 1e12")
 }
 
-/// A number in as few digits as identify it. Very large and very small numbers have a power of ten.
+/// Prints a number in as few digits as identify it. Very large and very small numbers have a power of ten.
 struct Short(f64);
 
 impl fmt::Display for Short {

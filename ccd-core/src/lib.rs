@@ -1,5 +1,5 @@
-//! Certified continuous collision detection for rigid bodies: two bodies move; when do they first
-//! touch, where, and with which features?
+//! Certified continuous collision detection for rigid bodies. Two bodies move: when do they first touch, where, and
+//! with which features?
 //!
 //! A [`Body`] is a set of convex [pieces](Pieces) with a tree over them, and a [`Motion`] moves it. A [`Query`]
 //! combines two moving bodies with a duration and settings. A [`Schedule`] answers it with the help of a

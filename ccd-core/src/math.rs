@@ -1,4 +1,4 @@
-//! Numbers and vectors: rounding, underflow, and exact signs.
+//! Arithmetic on numbers and vectors: rounding, underflow and exact signs.
 
 #[cfg(feature = "exact")]
 pub mod exact;

@@ -1,5 +1,4 @@
-//! The motion of a body: a chosen centre moves at constant velocity, and the body turns about it at
-//! constant angular velocity.
+//! Motions with constant velocity of a centre and constant angular velocity about it.
 
 pub(crate) mod bound;
 pub(crate) mod gap;
@@ -18,8 +17,8 @@ use crate::math::vector::length;
 use glam::{DQuat, DVec3};
 use pose::{Frame, Pose};
 
-/// A motion with constant linear velocity of a chosen centre and constant angular velocity; any
-/// number of turns `[FAST06 §4.1]`.
+/// A motion with constant linear velocity of a chosen centre, and constant angular velocity about it, for any number of
+/// turns `[FAST06 §4.1]`.
 ///
 /// `x(t) = R(t)(x − c) + C₀ + v t`, with `R(t) = exp(t [ω]×) R₀`, `c` the centre in the body's
 /// frame and `C₀` its position in the world at `t = 0`. Angular velocity is in radians per unit of
@@ -39,7 +38,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motion at rest, with the body's frame equal to the world's.
+    /// The motion at rest whose body frame equals the world's frame.
     pub const STILL: Motion = Motion {
         start: Pose::IDENTITY,
         velocity: DVec3::ZERO,
@@ -55,8 +54,7 @@ impl Motion {
         }
     }
 
-    /// Creates a motion from the pose at `t = 0` and the velocities, per unit of time. The body
-    /// turns about its origin.
+    /// Creates a motion about the body's origin, from the pose at `t = 0` and the velocities per unit of time.
     ///
     /// Velocities are arrays, or types that convert to arrays: vectors of `glam` and `nalgebra`.
     ///
@@ -70,8 +68,8 @@ impl Motion {
         Motion::about(start, velocity, spin, DVec3::ZERO)
     }
 
-    /// Like [`Motion::new`], with a turn about `centre`, a point in the body's frame; `velocity` is the velocity of
-    /// that point.
+    /// Creates a motion about `centre`, a point in the body's frame, from the pose at `t = 0` and the velocities per
+    /// unit of time. `velocity` is the velocity of that point.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -100,7 +98,7 @@ impl Motion {
         })
     }
 
-    /// Creates a motion from the poses at `t = 0` and `t = duration` by the shortest turn about
+    /// Creates a motion from the poses at `t = 0` and `t = duration`. The body takes the shortest rotation about
     /// `centre`, a point in the body's frame that moves on a straight line.
     ///
     /// Velocities are derived from the poses and rounded. A query over at most `duration` accounts for that rounding:
@@ -137,7 +135,7 @@ impl Motion {
         Motion::about(start, travel / duration, turn / duration, centre)
     }
 
-    /// Returns the pose at `t = 0`.
+    /// Returns the body's pose at `t = 0`.
     pub fn start(&self) -> Pose {
         self.start
     }
@@ -147,17 +145,17 @@ impl Motion {
         self.velocity
     }
 
-    /// Returns the angular velocity, in radians per unit of time, along the world's axes.
+    /// Returns the angular velocity in radians per unit of time, in the world's frame.
     pub fn spin(&self) -> DVec3 {
         self.spin
     }
 
-    /// Returns the point of the body that moves on a straight line, in the body's frame.
+    /// Returns the centre of rotation, a point in the body's frame that moves on a straight line.
     pub fn centre(&self) -> DVec3 {
         self.centre
     }
 
-    /// Returns the pose at time `t`.
+    /// Returns the body's pose at time `t`.
     pub fn pose(&self, t: f64) -> Pose {
         let rotation = DQuat::from_scaled_axis(t * self.spin) * self.start.rotation();
         // The displacement of the centre, minus that of the origin by the turn about the centre.
@@ -169,7 +167,7 @@ impl Motion {
     }
 }
 
-/// Returns the rotation vector of a unit quaternion, of length at most π.
+/// Returns the rotation vector of a unit quaternion, with a length of at most π.
 fn shortest_turn(rotation: DQuat) -> DVec3 {
     let rotation = if rotation.w < 0.0 {
         -rotation

@@ -1,4 +1,4 @@
-//! The schedules of the paper: a slow and obvious one, and FAST as published `[FAST06]`.
+//! The schedules of the paper: a slow and simple one, and FAST as published `[FAST06]`.
 
 #[cfg(feature = "hull-tree")]
 pub(crate) mod fast;

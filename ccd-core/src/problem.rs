@@ -1,4 +1,4 @@
-//! A query about two motions, in the form that schedules search.
+//! Queries about two motions in normalised units, as schedules search them.
 
 use crate::body::Body;
 use crate::body::excess::Excess;
@@ -18,45 +18,45 @@ use glam::DVec3;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// A query about two motions, in its own units: time runs from 0 to 1, and the origin is near both bodies.
+/// A query about two motions in normalised units: time runs from 0 to 1, and the origin is near both bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem<'a> {
     pub(crate) a: Side<'a>,
     pub(crate) b: Side<'a>,
-    /// The time at which the problem begins: 0, unless it is a part of another one.
+    /// The time of the motions at clock 0; not 0 if the problem is a part of another one.
     begin: f64,
     duration: f64,
     /// The origin of the problem's coordinates in the world, near both bodies.
     origin: DVec3,
-    /// The tolerance; at least the least one that can be certified.
+    /// The tolerance for contacts, at least the least one that can be certified.
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
-    /// The distance with which the closest approach is compared.
+    /// The required distance, if the query compares the closest approach to one.
     pub(crate) clearance: Option<f64>,
     pub(crate) start: StartPolicy,
-    /// The plane in which bodies that are let go touch at the start.
+    /// The plane of the contact at the start, if that contact is to be ignored.
     pub(crate) touching: Option<TouchingPlane>,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
     /// A flag that another thread sets to stop the query.
     pub(crate) stop: Option<&'a AtomicBool>,
-    /// A bound of the rounding of any distance computed in f64: [`rounding::distance_rounding`].
+    /// A bound of the rounding of distances in f64, from [`rounding::distance_rounding`].
     pub(crate) rounding: f64,
-    /// The vector instructions to use.
+    /// The vector instructions that kernels use.
     pub(crate) level: Level,
     pub(crate) shortcuts: Shortcuts,
 }
 
-/// A body on its path, in the problem's units.
+/// One body and its path, in the problem's units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side<'a> {
     pub(crate) body: &'a Body,
-    /// The given body, of one piece, if `body` is the surface of that body.
+    /// The body that the caller gave, if `body` is the surface that replaces it.
     pub(crate) given: Option<&'a Body>,
     pub(crate) path: Path,
 }
 
-/// One of the two bodies.
+/// Body A or body B.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Which {
     A,
@@ -80,7 +80,7 @@ impl Which {
 }
 
 impl<'a> Problem<'a> {
-    /// Creates the problem of two bodies on motions.
+    /// Creates the problem of two bodies with constant velocities.
     ///
     /// # Errors
     /// The errors of [`Query::new`](crate::Query::new).
@@ -92,8 +92,8 @@ impl<'a> Problem<'a> {
         Problem::accelerated(bodies, [DVec3::ZERO; 2], duration, terms)
     }
 
-    /// Like [`Problem::new`], for bodies whose centres accelerate, and for schedules that take
-    /// [accelerations](crate::engine::solve::Solve::takes_accelerations) into account.
+    /// Creates the problem of two bodies whose centres may accelerate, for schedules that handle
+    /// [accelerations](crate::engine::solve::Solve::takes_accelerations).
     pub(crate) fn accelerated(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
@@ -103,7 +103,7 @@ impl<'a> Problem<'a> {
         terms.check(duration)?;
         let origin = b.1.start().translation();
         let side = |(given, motion): (&'a Body, Motion), other: &'a Body, acceleration: DVec3| {
-            let body = given.against(other);
+            let body = given.query_body_against(other);
             let path = Path::new(&motion, origin, duration);
             Side {
                 body,
@@ -148,48 +148,48 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Returns the tolerance of the answer: the requested one, or the least that can be certified in f64 at the
-    /// scene's coordinates.
+    /// Returns the tolerance of the answer: the requested one, or the least that can be certified in f64 at the scene's
+    /// coordinates.
     pub(crate) fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Returns the distance by which the given bodies may exceed their shapes.
+    /// Returns the distance by which the caller's bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
         let given = |side: &Side<'a>| side.given.unwrap_or(side.body);
         Excess::of(given(&self.a), given(&self.b))
     }
 
-    /// Returns true if the query takes a shortcut.
+    /// Returns whether the query uses a shortcut.
     #[inline]
     pub(crate) fn takes(&self, shortcut: Shortcut) -> bool {
         self.shortcuts.has(shortcut)
     }
 
-    /// Returns a piece of A and one of B.
+    /// Returns piece `a` of A and piece `b` of B.
     pub(crate) fn pieces(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
         let piece = |side: &Side<'a>, k: u32| side.body.piece(k);
         [piece(&self.a, a), piece(&self.b, b)]
     }
 
-    /// Returns the distance at which a pair is in contact.
+    /// Returns the distance at which a pair is in contact: margin + tolerance.
     pub(crate) fn contact_distance(&self) -> f64 {
         self.margin + self.tolerance
     }
 
-    /// Returns the gap that all clocks prove: half the tolerance beyond the margin. A pair of pieces whose clock has
+    /// Returns the gap that every clock proves: the margin plus half the tolerance. A pair of pieces whose clock has
     /// run out is well within the tolerance.
     pub(crate) fn gap(&self) -> f64 {
         self.margin + 0.5 * self.tolerance
     }
 
-    /// Returns the gap that the clocks of pairs of nodes prove if rounding allows. It is the same for all sizes of
+    /// Returns the gap that the clocks of pairs of nodes keep if rounding allows. It is the same for all sizes of
     /// nodes, so that clocks that run out at a common contact run out together.
     pub(crate) fn node_gap(&self) -> f64 {
         self.margin + NODE_GAP * self.tolerance
     }
 
-    /// Returns the clock that belongs to a time of the motions, up to rounding.
+    /// Converts a time of the motions to a clock, up to rounding.
     pub(crate) fn clock(&self, time: f64) -> f64 {
         if self.duration > 0.0 {
             (time - self.begin) / self.duration
@@ -198,7 +198,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem of the given bodies, if surfaces replace them here; `None` otherwise.
+    /// Returns the problem with the caller's bodies, if surfaces replace them here; `None` otherwise.
     pub(crate) fn given(&self) -> Option<Self> {
         let of = |side: &Side<'a>| Side {
             body: side.given.unwrap_or(side.body),
@@ -213,7 +213,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Returns the problem with a contact at the start as an answer.
+    /// Returns the problem with the policy that a contact at the start is the answer.
     pub(crate) fn reporting(&self) -> Self {
         Problem {
             start: StartPolicy::Report,
@@ -221,9 +221,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem in which bodies that begin at a gap beyond the margin are let go: pairs that part or slide
-    /// keep more than half of that gap. If there is no useful gap, pairs of pieces are let go instead, and all pairs
-    /// that touch in the plane of the contact.
+    /// Returns the problem in which the contact at the start is ignored. `gap` is the distance beyond the margin there.
+    /// Pairs that separate or slide keep more than half of that gap. If there is no useful gap, pairs of pieces in
+    /// contact are ignored instead, and all pairs that touch in the plane of the contact.
     pub(crate) fn leaving(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
         let least = rounding::least_tolerance(self.rounding);
         let (tolerance, start) = if 0.5 * gap > least {
@@ -243,7 +243,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem for measuring distances: without a margin, and with a contact at the start as an answer.
+    /// Returns the problem for measuring distances: with a margin of 0, and a contact at the start as an answer.
     pub(crate) fn measuring(&self) -> Self {
         Problem {
             margin: 0.0,
@@ -251,15 +251,15 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem for distances below the least one found. Pairs in contact are nearer than that by half of
-    /// the tolerance, and pairs that keep the margin are within the tolerance of it. The rest in between is room for
-    /// proofs.
+    /// Returns the problem of finding pairs nearer than `upper`, the least distance found. Pairs in contact are nearer
+    /// than that by half of the tolerance, and pairs that keep the margin are within the tolerance of it. The rest in
+    /// between is room for proofs.
     pub(crate) fn below(&self, upper: f64) -> Self {
         let half = self.keeping(upper, 0.5 * self.tolerance).tolerance;
         self.keeping(greater(0.0, upper - 2.0 * half), half)
     }
 
-    /// Returns the problem with another margin, and with a tolerance that can be certified with it.
+    /// Returns the problem with another margin and tolerance; the tolerance is raised to one that can be certified.
     pub(crate) fn keeping(&self, margin: f64, tolerance: f64) -> Self {
         // Distances may be off by more if they are measured beyond a margin.
         let rounding = self.rounding + rounding::margin_rounding(margin);
@@ -271,9 +271,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem in a part of the time, from one clock to a later one, with the margin raised by a distance
-    /// and with another tolerance. Positions are off by more than in the whole, see
-    /// [`place_rounding`](rounding::place_rounding).
+    /// Returns the problem between two clocks, with the margin raised by a distance and with another tolerance.
+    /// Positions are off by more than in the whole, see [`place_rounding`](rounding::place_rounding).
     pub(crate) fn part(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
         let of = |side: &Side<'a>| Side {
             path: side.path.part(clocks),
@@ -294,7 +293,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the distance that bodies keep until the clocks of all pairs.
+    /// Returns the distance that the bodies are proven to keep until the clocks of all pairs.
     pub(crate) fn proven_gap(&self) -> f64 {
         match self.start {
             StartPolicy::Report => self.gap(),
@@ -303,7 +302,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the time of the motions that belongs to a clock, rounded so that it is never late.
+    /// Converts a clock to a time of the motions, rounded so that it is never late.
     pub(crate) fn time(&self, s: f64) -> f64 {
         if s >= 1.0 {
             self.begin + self.duration
@@ -324,13 +323,12 @@ impl<'a> Problem<'a> {
 }
 
 impl Side<'_> {
-    /// Returns the index that a piece has in the given body.
+    /// Returns the index of a piece in the body that the caller gave.
     pub(crate) fn number(&self, piece: u32) -> u32 {
         if self.given.is_some() { 0 } else { piece }
     }
 
-    /// Returns the span of the body plus twice the distance of its centre of rotation from its origin, in the body's
-    /// frame.
+    /// Returns the span of the body plus twice the distance of its centre of rotation from its origin.
     pub(crate) fn span(&self) -> f64 {
         self.body.tree().span() + 2.0 * length(self.path.centre)
     }
@@ -348,7 +346,7 @@ impl Side<'_> {
     }
 }
 
-/// Returns an error for a point with a coordinate that is too large.
+/// Returns an error if a coordinate of a point is too large.
 pub(crate) fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError> {
     let largest = point
         .to_array()

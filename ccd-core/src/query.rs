@@ -1,4 +1,4 @@
-//! A query: two moving bodies, a duration, and settings.
+//! Queries: two moving bodies, a duration and settings.
 
 use crate::body::Body;
 use crate::body::excess::Excess;
@@ -13,7 +13,7 @@ use crate::settings::{Settings, Terms};
 use std::fmt;
 use std::time::Duration;
 
-/// A body and its movement.
+/// A body and how it moves.
 ///
 /// ```
 /// use ccd_core::{Body, Motion, Moving};
@@ -23,18 +23,18 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'a> {
-    /// The body.
+    /// The body that moves.
     pub body: &'a Body,
-    /// The movement of the body.
+    /// How the body moves during the query.
     pub movement: Movement<'a>,
 }
 
-/// The movement of a body.
+/// How a body moves: with constant velocities, or along a trajectory.
 #[derive(Clone, Copy)]
 pub enum Movement<'a> {
-    /// Constant velocities.
+    /// The body moves with constant velocities.
     Motion(Motion),
-    /// Any other movement.
+    /// The body moves along any other trajectory.
     Trajectory(&'a dyn Trajectory),
 }
 
@@ -131,7 +131,7 @@ impl fmt::Debug for Movement<'_> {
     }
 }
 
-/// A valid query about two moving bodies over `[0, duration]`.
+/// A validated query about two moving bodies over `[0, duration]`.
 ///
 /// One query serves every question: [schedules](crate::Schedule) find the first contact,
 /// [`BestFirst`](crate::schedule::BestFirst) and [`DepthFirst`](crate::schedule::DepthFirst) answer the others.
@@ -155,7 +155,7 @@ pub struct Query<'a> {
     pub(crate) b: Moving<'a>,
     pub(crate) duration: f64,
     pub(crate) terms: Terms<'a>,
-    /// The problem, if both bodies move at constant velocities.
+    /// The normalised problem, if both bodies move at constant velocities.
     pub(crate) problem: Option<Problem<'a>>,
 }
 
@@ -204,7 +204,7 @@ impl<'a> Query<'a> {
         })
     }
 
-    /// Returns the query with another deadline, for callers that divide the time among many queries.
+    /// Sets another deadline, for callers that divide the time among many queries.
     #[must_use]
     pub fn with_deadline(mut self, deadline: Option<Duration>) -> Self {
         self.terms.deadline = deadline;
@@ -288,7 +288,7 @@ impl<'a> Query<'a> {
         Problem::new(bodies, 0.0, &self.terms)?.contacts_at(0.0)
     }
 
-    /// Returns the distance by which the bodies may exceed their shapes.
+    /// Returns the distance by which the two bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
         Excess::of(self.a.body, self.b.body)
     }

@@ -1,4 +1,4 @@
-//! The questions beside the first contact of two motions, each with its own conclusions from the steps of a search.
+//! Questions other than the first contact of two motions, each as a rule on the steps of a search.
 //!
 //! `any.rs` asks whether bodies touch at all, `closest.rs` how close they come. `steps.rs` searches for a first contact
 //! up to a time, and continues later. `along.rs` asks about bodies that move along trajectories.

@@ -1,5 +1,5 @@
-//! Every allowance that a proof relies on: its unit, its derivation, and the consequence of leaving it out. A wrong
-//! allowance breaks the guarantee. Numbers that only cost time are in `tuning.rs`.
+//! All error bounds that proofs rely on, each with its unit, its derivation, and the consequence of leaving it out. A
+//! wrong one breaks the guarantee. Numbers that only cost time are in `tuning.rs`.
 //!
 //! `u` is half a unit in the last place of 1: [`U64`] in f64, [`U32`] in f32. An operation rounds with a relative
 //! error of at most `u`. The counts below add up the worst error of every operation. Tests compare each allowance
@@ -8,29 +8,30 @@
 
 use glam::DVec3;
 
-/// Relative rounding error of one operation in f64.
+/// The relative rounding error of one operation in f64.
 pub const U64: f64 = f64::EPSILON / 2.0;
 
-/// Relative rounding error of one operation in f32.
+/// The relative rounding error of one operation in f32.
 pub const U32: f32 = f32::EPSILON / 2.0;
 
-/// The largest share of its distance by which a skipped pair may be nearer than the nearest measured pair of pieces.
-/// Bounds of nodes are rounded by at most this share ([`CLOCK_F32`]). With it, one pair suffices if many pairs share
-/// a corner, or lie in two planes.
+/// The share of its distance by which a skipped pair may be nearer than the nearest measured pair of pieces. Bounds of
+/// nodes are rounded by at most this share ([`CLOCK_F32`]). With it, one pair suffices if many pairs share a corner, or
+/// lie in two planes.
 pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
 
-/// The range of squares of lengths with a relative error of a few `u`. A component whose own square underflows, below
-/// 2.2e-308, is negligible in this range.
+/// The range of squared lengths that are computed with a relative error of a few `u`. A component whose own square
+/// underflows, below 2.2e-308, is negligible in this range.
 pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 
-/// The factor that scales vectors outside of [`SQUARES`], up or down: 2⁷⁰⁰ = 5.3e210.
+/// The power of two that scales vectors with squares outside of [`SQUARES`], up or down: 2⁷⁰⁰ = 5.3e210.
 ///
 /// It takes the least number, 4.9e-324, to 2.6e-113, whose square is exact enough, and 1e-100 to
 /// 5.3e110. Its inverse takes the greatest, 1.8e308, to 3.4e97, and 1e100 to 1.9e-111.
 pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 
-/// Bounds the difference between a support gap or witness distance computed in f64 and the exact
-/// one of the bodies as posed: the given points, poses, centres and velocities, or end poses.
+/// Returns a bound of the rounding of distances computed in f64: the difference of a support gap or witness distance
+/// from the exact one. The exact distance is that of the bodies as posed: the given points, poses, centres and
+/// velocities, or end poses.
 ///
 /// All numbers are in units of `u`. The error of a matrix is the largest displacement of a unit
 /// vector. A point `x` of a body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
@@ -77,19 +78,20 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     U64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
 }
 
-/// Bounds the share of one body in [`distance_rounding`], whatever the other body does. The sum of the shares of two
-/// bodies, with the ways of their centres from the world's origin, is no less than the rounding of their distance.
+/// Returns the contribution of one body to [`distance_rounding`], whatever the other body does. The sum of the shares
+/// of two bodies, with the ways of their centres from the world's origin, is no less than the rounding of their
+/// distance.
 pub fn share_of_rounding(span: f64, turn: f64, way: f64) -> f64 {
     U64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
 }
 
-/// Returns the part of [`distance_rounding`] that a margin adds. The margin counts as a part of `way`.
+/// Returns the contribution of a margin to [`distance_rounding`]. The margin counts as a part of `way`.
 pub fn margin_rounding(margin: f64) -> f64 {
     96.0 * U64 * margin
 }
 
-/// The error of a pose that is computed for another time of a motion. It is relative to the lengths of its position,
-/// its centre and its travel; as an angle, it is relative to a radian more than its turn.
+/// The relative error of a pose that is computed for another time of a motion. It is relative to the lengths of its
+/// position, its centre and its travel; as an angle, it is relative to a radian more than its rotation.
 ///
 /// In units of `u`: the angle is off by 1 of the turn, its sine and cosine by 2, the product of two
 /// quaternions by 6, and normalising by 4: an angle of twice that, 24 and 2 of the turn. Turning the centre
@@ -97,8 +99,8 @@ pub fn margin_rounding(margin: f64) -> f64 {
 /// pose that it is computed from: 80 are taken.
 pub const STRETCH_F64: f64 = 80.0 * U64;
 
-/// Bounds the error of positions of a body on a part of its path, in addition to [`distance_rounding`], and the error
-/// of bounds that are taken over from one period to others.
+/// Returns a bound of the error of positions on a part of a path, in addition to [`distance_rounding`]. It also bounds
+/// the error of bounds that are taken over from one period to others.
 ///
 /// In units of `u`, of a point at `reach` from the centre, with a turn of `ω` over the whole path:
 /// - sine and cosine of the angle at which the part begins add 3, their products and sums 6, that angle `ω`, and the
@@ -112,11 +114,10 @@ pub fn place_rounding(reach: f64, turn: f64, way: f64) -> f64 {
     32.0 * U64 * ((1.0 + turn) * reach + way)
 }
 
-/// The error of lengths due to squares that underflow, in the scene's unit of length: see
-/// [`distance_rounding`].
+/// The absolute error of lengths whose squares underflow, in the scene's unit of length: see [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
 
-/// The least tolerance that can be certified when distances are off by up to `rounding`.
+/// Returns the least tolerance that can be certified if distances are off by up to `rounding`.
 ///
 /// A pair is in contact when its upper bound is within the tolerance, and advances while its lower
 /// bound exceeds half of it. The two bounds differ by up to `2 × rounding`, which leaves `tolerance/2 − 2
@@ -125,15 +126,14 @@ pub fn least_tolerance(rounding: f64) -> f64 {
     8.0 * rounding
 }
 
-/// The allowance on a support gap computed in f32, relative to the other node's distance from the split group's
-/// origin.
+/// The error of a support gap computed in f32, relative to the other node's distance from the split group's origin.
 ///
 /// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
 /// projected by three operations (3), the reaches subtracted (2), and the gap divided by the axis's
 /// length: a root and a quotient (3), and a product (1). That is 11u; 12u are taken.
 pub const WAY_F32: f32 = 12.0 * U32;
 
-/// The allowance on a support gap computed in f32, relative to the split group's radius and the other node's.
+/// The error of a support gap computed in f32, relative to the radii of the split group and the other node.
 ///
 /// A box's half sizes are measured along axes rounded to f32, which are orthogonal to 2u (3.5u of
 /// its radius). Three products with three half sizes, each projected by three operations, add `√3
@@ -142,51 +142,51 @@ pub const WAY_F32: f32 = 12.0 * U32;
 /// 28u of the other one; 32u are taken. Triangles need less.
 pub const REACH_F32: f32 = 32.0 * U32;
 
-/// The relative allowance on the largest speed in a rate of approach that is computed in f32.
+/// The error of a rate of approach computed in f32, relative to the largest speed in it.
 ///
 /// Velocities, arms and angular velocities are rounded once (1u each), crossed (3u), rotated with the box (9u)
 /// and projected (4u). A rate is therefore off by at most 32u = 1.9e-6 of the largest speed.
 pub const RATE_F32: f32 = 2e-6;
 
-/// The share of a distance from the split group's origin that is added to an arm when the largest
-/// speed is taken. The arm is the difference of two positions, a node's and that of its body's centre
-/// of rotation, each rounded by 1u. The share is 4u of the 33u of [`RATE_F32`].
+/// The share of a distance from the split group's origin that is added to an arm when the largest speed is computed.
+/// The arm is the difference of two positions, a node's and that of its body's centre of rotation, each rounded by 1u.
+/// The share is 4u of the 33u of [`RATE_F32`].
 pub const PLACES: f64 = 1.0 / 8.0;
 
-/// The factor on a free time that is computed in f32 from a gap and a rate that are already conservative.
+/// The factor that lowers a free time computed in f32, from a gap and a rate that are conservative already.
 ///
 /// Square, product, sum, root, sum and quotient: at most 8u; 32u are taken.
 pub const CLOCK_F32: f32 = 1.0 - 32.0 * U32;
 
-/// The relative allowance on the second derivative of a path computed in f32: two lengths of vectors whose components
-/// are off by up to `8u` each.
+/// The factor that raises a second derivative computed in f32. It covers two lengths of vectors whose components are
+/// off by up to `8u` each.
 pub const BEND_F32: f32 = 1.0 + 64.0 * U32;
 
-/// The absolute allowance on `|n × ω|`, in units of `|ω|`: both vectors are rounded (1u each) and crossed (3u). For
-/// parallel vectors the computed product is nothing but this error.
+/// The error of `|n × ω|` in f32, in units of `|ω|`: both vectors are rounded (1u each) and crossed (3u). For parallel
+/// vectors the computed product is nothing but this error.
 pub const ACROSS_F32: f32 = 8.0 * U32;
 
 /// The least length of a vector that is used as an axis in f32. Above it, squares that underflow, each by at most
 /// 7e-46, are less than `u` of their sum; below 1e-22 they would leave a vector that is off by a fifth. Half sizes'
-/// products with it that underflow are less than 1e-27 of a unit vector's. Nothing is lost: shorter vectors cross
-/// gaps below [`LEAST_GAP_F32`].
+/// products with it that underflow are less than 1e-27 of a unit vector's. Nothing is lost: shorter vectors cross gaps
+/// below [`LEAST_GAP_F32`].
 pub const LEAST_AXIS_F32: f32 = 1e-18;
 
-/// The gap below which a gap counts as closed in f32, in the scene's unit of length. Above it, a second derivative
-/// whose product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the whole duration.
+/// The gap at and below which a gap counts as closed in f32, in the scene's unit of length. Above it, a second
+/// derivative whose product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the whole duration.
 pub const LEAST_GAP_F32: f32 = 1e-15;
 
-/// The least second derivative of a path, in units of length over time squared. It keeps a division by the second
-/// derivative finite for a straight path, and can only increase it.
+/// The least second derivative of a path that is used, in units of length over time squared. It keeps a division by the
+/// second derivative finite for a straight path, and can only increase it.
 pub const LEAST_BEND_F32: f32 = 1e-30;
 
-/// The relative allowance on speeds and free times computed in f64: the axis is off by 2u, the arm by 5u, products
+/// The error of speeds and free times computed in f64, relative to them: the axis is off by 2u, the arm by 5u, products
 /// and sums add 7u. The quotient and the root of a free time need less.
 pub const RATE_F64: f64 = 16.0 * U64;
 
-/// The allowance on heights and rates along an axis that turns with a body, computed in f64 for points of the other
-/// body, in addition to the error of their positions. It is relative to the farthest distance from the turning body's
-/// centre, and to the largest speed past it. `turns` is the sum of both bodies' turns.
+/// Returns the error of heights and rates along an axis that turns with one body, computed in f64 for points of the
+/// other body. It comes in addition to the error of their positions. It is relative to the farthest distance from the
+/// turning body's centre, and to the largest speed past it. `turns` is the sum of both bodies' rotations.
 ///
 /// In units of `u`: an angle is off by `4ω` (its rate by 3, a product adds 1), sine and cosine by 4
 /// more, and the turned axis by 8 more (3 terms, and 2 of its own). Turning it with its body and
@@ -197,21 +197,21 @@ pub fn attached_rounding(turns: f64) -> f64 {
     U64 * (96.0 + 8.0 * turns)
 }
 
-/// The allowance on the distance of two points that move for a while, computed in f64, relative to the lengths of
-/// their positions, of their centres, and of their displacements.
+/// The error of the distance of two moving points computed in f64, relative to the lengths of their positions, of their
+/// centres, and of their displacements.
 ///
 /// In units of `u`: places and their difference 3; a velocity 10 of a speed, times the time 1, added to the offset 1,
 /// and the length of that 3; the difference of two lengths doubles it; second derivatives and deviations 8. That is
 /// below 40; 64 are taken.
 pub const FARTHEST_F64: f64 = 64.0 * U64;
 
-/// The decrease below its distance at the start from which on a pair that began in contact counts as approaching, in
-/// units of the distance's rounding. Four units cover the rounding of both distances, and the rounding that a rate of
-/// zero accumulates over the whole duration.
+/// The decrease of a pair's distance below that at the start at which the pair counts as approaching, in units of the
+/// distance's rounding. It is for pairs in contact at the start. Four units cover the rounding of both distances, and
+/// the rounding that a rate of zero accumulates over the whole duration.
 pub const RESTING: f64 = 4.0;
 
-/// The height up to which the surface around a point counts as level, in units of the distance's rounding: one for
-/// the point, and one for the corners around it.
+/// The height up to which the surface around a point counts as level, in units of the distance's rounding: one for the
+/// point, and one for the corners around it.
 pub const LEVEL: f64 = 2.0;
 
 /// The distance up to which faces count as around a point, in units of the distance's rounding. They are the faces
@@ -225,51 +225,49 @@ pub fn is_blurred(distance: f64, rounding: f64) -> bool {
     !(1e-6 * distance > rounding)
 }
 
-/// The least component of a unit vector perpendicular to others whose direction counts. Rounding turns it by the
-/// inverse of the component, in units of [`U64`].
+/// The least length of a component perpendicular to other vectors for which its direction is used, for a unit vector.
+/// Rounding turns it by the inverse of the length, in units of [`U64`].
 pub const LEAST_SHARE: f64 = 1e-6;
 
-/// Bounds the rounding of the determinant of three vectors, at least two of them differences of
-/// points, relative to the product of their 1-norms. Also bounds that of a product of two vectors,
-/// relative to theirs.
+/// The error of the determinant of three vectors, relative to the product of their 1-norms, if at least two of them are
+/// differences of points. It also bounds that of a product of two vectors, relative to theirs.
 ///
 /// Each difference is rounded (1u), the products of three components take 2 more, the six of them are
 /// summed in 3: at most 8u; 16u are taken.
 pub const SIGN_F64: f64 = 16.0 * U64;
 
-/// The error of the columns of an orthonormal frame computed in f64, from unit length and right
-/// angles: twelve rotations of [`U64`] each come to less, and f32, to which a box's axes are rounded,
-/// is far above.
+/// The deviation of a computed orthonormal frame from unit lengths and right angles, in f64: twelve rotations of
+/// [`U64`] each come to less, and f32, to which a box's axes are rounded, is far above.
 pub const FRAME_F64: f64 = 1e-13;
 
-/// The widening of a node's box for rays, relative to its radius: its axes are rounded to f32, and
+/// The widening of a node's box for tests against rays, relative to its radius: the box's axes are rounded to f32, and
 /// rays are not counted by the bit.
 pub const BOX_F64: f64 = 1e-5;
 
-/// The gap at which the clock of a pair of nodes stops, beyond the margin and in units of the
-/// tolerance. It takes up the rounding of nodes that are not too large, so that all of them stop at
-/// the same gap. With a slack that grows with the size of the nodes instead, two flat faces that meet
-/// would have all of their larger nodes split before a pair of pieces is seen.
+/// The gap beyond the margin that the clocks of pairs of nodes keep, in units of the tolerance. It takes up the
+/// rounding of nodes that are not too large, so that all of them stop at the same gap. With a slack that grows with the
+/// size of the nodes instead, two flat faces that meet would have all of their larger nodes split before a pair of
+/// pieces is seen.
 pub const NODE_GAP: f64 = 7.0 / 8.0;
 
-/// The range of weights of a convex combination before they are divided by their sum. No product of a weight with a
-/// coordinate, and no sum of four weights, overflows or underflows.
+/// The accepted range of weights of a convex combination before they are divided by their sum. No product of a weight
+/// with a coordinate, and no sum of four weights, overflows or underflows.
 pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// The least distance of a point from a surface, in units of the rounding of distances, at which it
-/// is known to be inside or outside: the positions of both are rounded.
+/// The least distance from a surface at which a point is known to be inside or outside, in units of the rounding of
+/// distances: the positions of both are rounded.
 pub const INSIDE: f64 = 4.0;
 
-/// The distance from an edge on a flat piece at which points of the piece are examined, in units of
-/// the edge's part on it: far above rounding, below the distance to other features.
+/// The distance from an edge on a flat piece at which points of the piece are tested, in units of the edge's part on
+/// it: far above rounding, below the distance to other features.
 pub const BESIDE_EDGE: f64 = 1e-3;
 
-/// Bounds the rounding of a height `n·x`, relative to `|n|₁` and the largest coordinate: three
-/// products and two sums, at most 3u; 4u are taken.
+/// The error of a height `n·x`, relative to `|n|₁` and the largest coordinate: three products and two sums, at most 3u;
+/// 4u are taken.
 pub const HEIGHT_F64: f64 = 4.0 * U64;
 
-/// The allowance on the height of a disc about points along a direction whose largest component is 1, computed in f32
-/// in units of the piece's size.
+/// The error of the height of a disc around points computed in f32, in units of the piece's size, along a direction
+/// whose largest component is 1.
 ///
 /// In units of `u = 2⁻²⁴`, with lengths of points and of the direction at most √3: the direction is
 /// rounded (3u); the centre is projected by five operations (12u); radius and thickness are
@@ -277,13 +275,13 @@ pub const HEIGHT_F64: f64 = 4.0 * U64;
 /// part across it (12u); the sums add 14u. That is 59u; 96u are taken.
 pub const DISC_F32: f32 = 96.0 * U32;
 
-/// The allowance on the square of a direction's component across a disc's normal, relative to the direction's own
-/// square: the square (9u), that of its component along the normal (27u), the normal's length (6u), and the
-/// difference (3u) add up to 45u; 64u are taken.
+/// The error of the squared component of a direction perpendicular to a disc's normal, relative to the direction's own
+/// square. The square (9u), that of its component along the normal (27u), the normal's length (6u), and the difference
+/// (3u) add up to 45u; 64u are taken.
 pub const DISC_TILT_F32: f32 = 64.0 * U32;
 
-/// The error of the lowest height of many points along an axis while their body turns, in units of
-/// their farthest distances from the centre of rotation and from the body's origin.
+/// The error of the least height of many points along an axis while their body turns. Its unit is the sum of their
+/// farthest distances from the centre of rotation and from the body's origin.
 ///
 /// The axis in the body's frame is off by the direction of the angular velocity (2u), two products with it
 /// (6u), sine and cosine (4u), their products and sums (4u), and the rotation into that frame (7u):
@@ -291,9 +289,8 @@ pub const DISC_TILT_F32: f32 = 64.0 * U32;
 /// heights, at most 14u ([`HEIGHT_F64`]): 60u; 64u are taken.
 pub const TURNED_SUPPORT: f64 = 64.0 * U64;
 
-/// Bounds the error of the height `n·x − n·a`, with `n = u × v`, of a point above a plane. All
-/// three vectors are rounded differences of points, and no coordinate of `x` or `a` exceeds
-/// `reach`.
+/// Returns a bound of the error of the height `n·x − n·a` of a point above a plane, with `n = u × v`. All three vectors
+/// are rounded differences of points, and no coordinate of `x` or `a` exceeds `reach`.
 ///
 /// With `u` half a unit in the last place and `m` the product of the largest coordinates of `u` and
 /// `v`: a component of `n` is at most `2m` and off by `8u m`, which a height of two terms of three
@@ -305,29 +302,29 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
     128.0 * U64 * u * v * reach + f64::MIN_POSITIVE
 }
 
-/// The error of the extent of a box along an axis, computed in f64, relative to the box's radius: the box's axes are
+/// The error of the extent of a box along an axis computed in f64, relative to the box's radius: the box's axes are
 /// orthonormal to f32 only.
 ///
 /// Half sizes are measured along the rounded axes. With `U` the matrix of these, `UᵀU` differs from
 /// 1 by at most `2√3 u`, as each axis is off by `u` in length: 3.5u; 4u are taken.
 pub const BOX_AXES_F32: f64 = 4.0 * U32 as f64;
 
-/// The thickness up to which a node's box may be that of a flat node, relative to its radius: its
-/// axis is rounded to f32 ([`BOX_AXES_F32`]), its size outward.
+/// The thickness of a box, relative to its radius, up to which a node counts as flat: its axis is rounded to f32
+/// ([`BOX_AXES_F32`]), its size outward.
 pub const THIN_F32: f32 = 16.0 * U32;
 
-/// The error of the advance along a screw, which counts as drift, relative to the velocity: the axis is
-/// off by 4.5u, twice, and products, sums and differences by 9u; 32u are taken.
+/// The error of the velocity along a screw axis, relative to the whole velocity: the axis is off by 4.5u, twice, and
+/// products, sums and differences by 9u; 32u are taken.
 pub const ADVANCE_F64: f64 = 32.0 * U64;
 
 /// The widening of an interval of numbers of turns before its whole numbers are taken, in turns and relative to them.
 /// It is far above the rounding of a quotient, a few units in the last place.
 pub const TURNS_F64: f64 = 1e-9;
 
-/// Bounds the rounding of `f = a r + b ζ` of a node, with its reach, computed in f64 (see
-/// `shortcuts/screw/profile.rs`): `n` are `|a|` and `|b|`; `arm` is the distance of the node's centre
-/// from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per
-/// radian, divided by the distance from the axis.
+/// Returns a bound of the rounding of `f = a r + b ζ` for a node, together with the rounding of its extent, computed in
+/// f64. `shortcuts/screw/profile.rs` explains `f`. The values `n` are `|a|` and `|b|`; `arm` is the distance of the
+/// node's centre from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per radian,
+/// divided by the distance from the axis.
 ///
 /// In units of `u`: a centre's offset is rounded (1), its height taken (4) and taken off (2), and the
 /// rest measured (4), which is 11 of an arm in `z` and in `r`. The azimuth is off by that in units
@@ -340,14 +337,14 @@ pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 
     64.0 * U64 * ((a + b) + b * tilt.abs()) * (arm + radius)
 }
 
-/// The factor on the corners of a polygon about a circle that compensates for their rounding.
+/// The factor that moves the corners of a polygon around a circle outward, to compensate for their rounding.
 ///
 /// In units of `u`: a corner's angle is off by 9 (a product with 2π, rounded twice), which brings an edge nearer by
 /// 6.4 at most; sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a cosine,
 /// by 4. That is 13.4, for which 16 are taken.
 pub(crate) const ABOUT: f64 = 1.0 + 16.0 * U64;
 
-/// The least positive number: the rounding of a product that underflows.
+/// The least positive f64, which bounds the rounding of a product that underflows.
 pub(crate) const LEAST_F64: f64 = f64::from_bits(1);
 
 #[cfg(test)]

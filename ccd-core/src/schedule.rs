@@ -1,4 +1,4 @@
-//! Schedules: the order in which the clocks of pairs are advanced.
+//! The public interface of schedules, which choose the order in which pairs of pieces are advanced.
 
 use crate::answer::Answer;
 use crate::distance::oracle::DistanceOracle;
@@ -14,7 +14,7 @@ use crate::questions::along::first;
 pub use crate::questions::steps::{FirstContact, Progress};
 pub use crate::shortcuts::{Shortcut, Shortcuts};
 
-/// An order in which a solver advances the pairs of two bodies until the first contact is certain.
+/// An algorithm that answers queries: it chooses in which order the pairs of two bodies are advanced.
 ///
 /// A schedule owns its working memory. Keep the schedule and the oracle between queries.
 ///
@@ -39,7 +39,7 @@ pub use crate::shortcuts::{Shortcut, Shortcuts};
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Schedule<O: DistanceOracle> {
-    /// Answers when the bodies first touch.
+    /// Finds the time at which the bodies first touch.
     ///
     /// # Guarantee
     /// [Never late](crate#guarantee); ends on every input; the same call gives the same bits, unless a

@@ -1,5 +1,4 @@
-//! The settings of queries: the distance that counts as a contact, the accuracy of the answer, and the limits of the
-//! work.
+//! The settings of queries: contact distance, accuracy, and limits of the work.
 
 use crate::error::{InputError, check};
 use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE};
@@ -9,8 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// The settings of a query: the distance that counts as a contact, the accuracy of the answer, and the limits of the
-/// work.
+/// The settings of a query: contact distance, accuracy, and limits of the work.
 ///
 /// ```
 /// use ccd_core::Settings;
@@ -21,20 +19,21 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// A contact is reported at a distance of at most margin + tolerance. In the scene's unit of
+    /// The accuracy of contacts: they are reported at a distance of at most margin + tolerance. In the scene's unit of
     /// length, at least [`LEAST_TOLERANCE`](limits::LEAST_TOLERANCE).
     pub tolerance: f64,
-    /// The distance to keep; 0 reports touching. In the scene's unit of length.
+    /// The distance at which bodies count as touching, in the scene's unit of length; 0 reports actual contact.
     pub margin: f64,
-    /// The required distance with which the closest approach is compared. The search ends as soon as the distance is
-    /// proven to be kept, or violated, by the shapes that the bodies may [exceed](crate::Body::with_excess). With
-    /// `None` the closest approach is measured. Other questions use the margin. In the scene's unit of length.
+    /// The distance that the bodies are required to keep, in the scene's unit of length; the closest approach is
+    /// compared with it. The search ends as soon as the distance is proven to be kept, or violated, by the shapes that
+    /// the bodies may [exceed](crate::Body::with_excess). With `None` the closest approach is measured. Other questions
+    /// use the margin.
     pub clearance: Option<f64>,
-    /// The treatment of a contact at the start.
+    /// What happens if the bodies are in contact at the start.
     pub start: StartPolicy,
-    /// The most [work](crate::Stats::work) before the query is left unresolved: iterations over
-    /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less,
-    /// and up to about 150 bytes.
+    /// The largest amount of [work](crate::Stats::work) before the query is left unresolved. It counts iterations over
+    /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less, and up to about 150
+    /// bytes.
     ///
     /// Along [trajectories](crate::Trajectory) it is for each part between two
     /// [corners](crate::Trajectory::corner), such as two poses of a path, and so grows with the path: a
@@ -48,11 +47,11 @@ pub struct Settings {
     /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached depends on the
     /// machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
-    /// The vector instructions to compute with. Answers are the same, to the last bit.
+    /// Which vector instructions are used. Answers are the same, to the last bit.
     pub instructions: Instructions,
-    /// The shortcuts to take. Answers have the same guarantee.
+    /// Which shortcuts of the search are used. Answers have the same guarantee.
     pub shortcuts: Shortcuts,
-    /// A flag by which other threads stop queries: soon after it is set, a query ends as
+    /// A flag by which other threads stop queries. Soon after it is set, a query ends as
     /// [`Limit::Stopped`](crate::Limit::Stopped), with a certified time. It is read as often as the clock is for a
     /// deadline.
     ///
@@ -66,7 +65,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The default: tolerance 0.001, no margin, contacts at the start reported, no deadline.
+    /// The default settings: tolerance 0.001, margin 0, contacts at the start reported, no deadline.
     pub const DEFAULT: Settings = Settings {
         tolerance: limits::DEFAULT_TOLERANCE,
         margin: 0.0,
@@ -79,7 +78,7 @@ impl Settings {
         stop: None,
     };
 
-    /// Returns the settings in the form that a query stores.
+    /// Converts the settings to the form that a query stores.
     pub(crate) fn terms(&self) -> Terms<'_> {
         Terms {
             tolerance: self.tolerance,
@@ -101,7 +100,7 @@ impl Default for Settings {
     }
 }
 
-/// The settings in the form that a query stores: the flag is borrowed, so that a query counts no references.
+/// The settings in the form that a query stores. The flag is borrowed, so that a query counts no references.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terms<'a> {
     pub(crate) tolerance: f64,
@@ -116,7 +115,7 @@ pub(crate) struct Terms<'a> {
 }
 
 impl Terms<'_> {
-    /// Returns an error for a duration, a tolerance, a margin or a clearance that is out of range.
+    /// Returns an error if a duration, tolerance, margin or clearance is out of range.
     pub(crate) fn check(&self, duration: f64) -> Result<(), InputError> {
         let finite = 0.0..=f64::MAX;
         check(
@@ -137,7 +136,7 @@ impl Terms<'_> {
     }
 }
 
-/// The vector instructions to compute with.
+/// Which vector instructions are used.
 ///
 /// On x86 these are AVX2 or SSE2. Other targets have one set each, NEON for instance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -145,11 +144,11 @@ pub enum Instructions {
     /// The best instructions of the machine, detected at run time.
     #[default]
     Best,
-    /// The instructions of the target that the program was built for, which every machine of that target has.
+    /// The instructions for which the program was built, which every machine of that target has.
     Baseline,
 }
 
-/// The treatment of a contact at the start.
+/// What happens if the bodies are in contact at the start.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
@@ -175,11 +174,11 @@ pub enum Instructions {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StartPolicy {
-    /// The answer is [`Touching`](crate::Outcome::Touching).
+    /// The query ends with the answer [`Touching`](crate::Outcome::Touching).
     #[default]
     Report,
-    /// Bodies that are within the tolerance at the start are let go as long as they do not approach. The answer is
-    /// the time at which they come within half the gap that they began with; that half is the tolerance from then on.
+    /// The contact at the start is ignored as long as the bodies do not approach. The answer is the time at which they
+    /// come within half the gap that they began with; that half is the tolerance from then on.
     ///
     /// If that gap is no more than rounding, or the bodies begin inside the margin, pieces that rest on each other
     /// are let go until they approach. This takes one visit for every pair of pieces that begins inside the margin: a

@@ -1,5 +1,5 @@
-//! Shortcuts: each proves at once what the search would prove in many steps, in the scenes that it is made for. No
-//! answer depends on them.
+//! Optional shortcuts of the search. Each proves at once what the search would prove in many steps, in a certain kind
+//! of scene. No answer depends on them.
 //!
 //! The README of this folder has the scene that needs each of them, and what it saves there.
 
@@ -14,27 +14,28 @@ pub(crate) mod screw;
 pub(crate) mod sweeping_node;
 pub(crate) mod sweeping_piece;
 
-/// A shortcut of the search, which can be left out for a measurement.
+/// A shortcut of the search, which can be turned off to measure its benefit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shortcut {
-    /// Two balls on straight paths prove bodies apart that are far from each other all the time.
+    /// Proves far bodies apart at once, by two balls on straight paths.
     Balls,
-    /// One fixed plane between the boxes of both bodies proves them apart for good.
+    /// Proves bodies apart at once, by one fixed plane between their bounding boxes.
     Boxes,
-    /// One period is searched for all periods of bodies that turn many times.
+    /// Searches one period instead of all periods of bodies that turn many times.
     Rounds,
-    /// Surfaces that a screw carries into themselves keep a bolt and its nut, or a shaft and its sleeve, apart for good.
+    /// Proves a bolt and its nut, or a shaft and its sleeve, apart at once, by surfaces that the screw motion maps to
+    /// themselves.
     Screw,
-    /// Flat nodes that approach face to face are followed in f64, where f32 is too coarse.
+    /// Bounds flat nodes that approach face to face in f64, where f32 is too coarse.
     FlatNodes,
-    /// Planes that turn with a large node are tried for small nodes beside it.
+    /// Tries planes that turn with a large node, for small nodes beside it.
     TurningNodes,
-    /// Planes that turn with a piece are tried for pieces beside it.
+    /// Tries planes that turn with a piece, for pieces beside it.
     TurningPieces,
 }
 
 impl Shortcut {
-    /// All shortcuts.
+    /// The list of all shortcuts.
     pub const ALL: [Shortcut; 7] = [
         Shortcut::Balls,
         Shortcut::Boxes,
@@ -46,7 +47,7 @@ impl Shortcut {
     ];
 }
 
-/// The shortcuts that a query takes: all of them, unless some are left out for a measurement.
+/// The set of shortcuts that a query uses.
 ///
 /// # Guarantee
 /// Any choice gives answers with the same guarantee. Without a shortcut, the scenes that it is made for take longer, and
@@ -61,16 +62,16 @@ impl Shortcut {
 pub struct Shortcuts(u8);
 
 impl Shortcuts {
-    /// All shortcuts, the default.
+    /// The set of all shortcuts, the default.
     pub const ALL: Shortcuts = Shortcuts(u8::MAX);
 
-    /// Returns these shortcuts except one.
+    /// Returns the set without one shortcut.
     #[must_use]
     pub const fn without(self, shortcut: Shortcut) -> Self {
         Shortcuts(self.0 & !(1 << shortcut as u8))
     }
 
-    /// Returns true if the shortcut is taken.
+    /// Returns whether the set contains a shortcut.
     #[inline]
     pub const fn has(self, shortcut: Shortcut) -> bool {
         self.0 >> shortcut as u8 & 1 == 1

@@ -1,4 +1,4 @@
-//! Boxes that contain moving bodies at all times, for a broad phase over many bodies.
+//! Bounding boxes of moving bodies over a duration, for a broad phase over many bodies.
 
 use crate::body::Body;
 use crate::error::InputError;
@@ -13,7 +13,7 @@ use crate::rounding::{STRETCH_F64, least_tolerance, share_of_rounding};
 use crate::settings::{Settings, Terms};
 use glam::DVec3;
 
-/// A box along the world's axes that contains a moving body at all times, grown by half the contact distance.
+/// An axis-aligned box in the world that contains a moving body at all times, grown by half the contact distance.
 ///
 /// # Guarantee
 /// Two bodies are free, over the same duration and with the same settings, if their boxes have no point in common.
@@ -32,21 +32,21 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweptBox {
-    /// The corner of least coordinates.
+    /// The corner with the least coordinates.
     pub min: DVec3,
-    /// The corner of greatest coordinates.
+    /// The corner with the greatest coordinates.
     pub max: DVec3,
 }
 
 impl SweptBox {
-    /// Returns whether two boxes have a point in common.
+    /// Returns whether two boxes overlap or touch.
     pub fn meets(&self, other: &SweptBox) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 }
 
 impl Moving<'_> {
-    /// Returns a box that contains the body from time 0 to `duration`.
+    /// Computes a box that contains the body from time 0 to `duration`.
     ///
     /// The box contains all poses. It is the box at the start, moved along the path and grown by the displacement due
     /// to turning. For a body that turns farther, it is the box of the ball that contains the turning body.
@@ -66,10 +66,10 @@ impl Moving<'_> {
     }
 }
 
-/// The number of parts of equal length into which a trajectory is cut, besides the cuts at its corners.
+/// The number of equal parts into which a trajectory is cut, besides the cuts at its corners.
 const PARTS: usize = 16;
 
-/// Returns the box about the boxes of all stretches.
+/// Computes the union of the boxes of all stretches of a trajectory.
 fn of_stretches(
     body: &Body,
     trajectory: &dyn Trajectory,
@@ -100,7 +100,7 @@ fn of_stretches(
     whole.map_or_else(|| of_motion(body, &Motion::STILL, duration, terms), Ok)
 }
 
-/// Returns a box about a body near a motion with an acceleration.
+/// Computes a box around a body in one stretch of a trajectory.
 fn of_stretch(
     body: &Body,
     stretch: &Stretch,
@@ -146,7 +146,7 @@ fn of_motion(
     })
 }
 
-/// Returns a box that contains the body in all orientations while its centre of rotation stays at the start.
+/// Returns a box that contains the body in all orientations, with its centre of rotation at the start.
 fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().whole();
@@ -168,7 +168,7 @@ fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     )
 }
 
-/// Returns a bound of half the contact distance and of the rounding of the box. The tolerance in that distance is the
+/// Returns a bound of half the contact distance plus the rounding of the box. The tolerance in that distance is the
 /// greater of the one in the settings and the least that can be certified.
 fn room(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
     let path = &side.path;

@@ -1,4 +1,4 @@
-//! Shared parts of the unit tests: exact references, a slow oracle, random scenes.
+//! Helpers of the unit tests: exact references, a slow oracle, random scenes.
 
 pub(crate) mod double;
 pub(crate) mod far_ends;

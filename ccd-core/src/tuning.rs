@@ -1,6 +1,5 @@
-//! Every number that is a choice: it costs time, memory or tightness, and never affects a proof. Answers are
-//! certified with any positive value; a bad one leaves queries unresolved. Allowances that proofs rely on are in
-//! `rounding.rs`.
+//! Tuning constants, which cost time, memory or tightness, and never affect a proof. Answers are certified with any
+//! positive value; a bad one leaves queries unresolved. Allowances that proofs rely on are in `rounding.rs`.
 
 /// The number of point evaluations that cost as much as an iteration over a pair of nodes. An evaluation projects a
 /// point of a piece onto an axis, or computes its track and rate.
@@ -10,89 +9,89 @@ pub const LOOKS_PER_VISIT: u64 = 128;
 /// Searches take 3 to 10 steps.
 pub const USUAL_STEPS: u64 = 8;
 
-/// The [work](crate::Stats::work) between two readings of the clock, if there is a deadline. A
-/// reading takes about 25 ns.
+/// The amount of [work](crate::Stats::work) between two readings of the clock, if there is a deadline. A reading takes
+/// about 25 ns.
 pub const WORK_BETWEEN_LOOKS: u64 = 256;
 
-/// The part of the tolerance by which distances may change, without a loss, from the first period of a turning body
-/// to the last one that the first is searched for: a contact of the first is one of the bodies. The rest of the
-/// tolerance suffices for the search. Twice as much is taken for rounding and for the change together.
+/// The share of the tolerance by which distances may differ between periods that are represented by one period, for
+/// bodies that turn many times. A contact in the searched period is then a contact of the bodies. The rest of the
+/// tolerance suffices for the search. Twice this share is reserved, for rounding and for the change together.
 pub const REPEATED: f64 = 0.25;
 
-/// The part of the duration up to which a search period by period is worth its overhead.
+/// The share of the duration below which the time to search has to be reduced for a search period by period.
 pub const LEAST_GAIN: f64 = 0.5;
 
-/// The share of a gap that the turning of a piece past a fixed plane has to use up before a plane that turns with the
-/// piece is tried. Measured: pieces as small as those of common meshes stay far below, large ones that turn past
-/// small ones are far above.
+/// The share of a gap that the rotation of a piece past a fixed plane has to use up before a plane that turns with the
+/// piece is tried. Measured: pieces as small as those of common meshes stay far below, large ones that turn past small
+/// ones are far above.
 pub const TURNED_SHARE: f64 = 0.5;
 
-/// The number of projections between the boxes of two bodies in the search for their nearest points. Any axis is
-/// sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections prove 19, 20, 22, 24 and 24 of them
+/// The number of alternating projections between the boxes of two bodies when their nearest points are sought. Any axis
+/// is sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections prove 19, 20, 22, 24 and 24 of them
 /// apart.
 pub const PROJECTIONS: usize = 3;
 
-/// The number of rounds in which an axis is followed along the exact path of the pieces before the oracle is called
-/// again. Each round is a Newton step that cannot overstep, so a few suffice.
+/// The largest number of Newton steps for the time at which a gap closes along one axis, before the oracle is called
+/// again. A step cannot overshoot, so a few suffice.
 pub const AXIS_ROUNDS: usize = 16;
 
-/// The free time of two pieces at their first visit above which no better plane is sought, in units of the duration.
+/// The free time at the first visit of two pieces above which no better plane is tried, in units of the duration.
 /// Measured: pairs of knots are visited 2 % more often, and a first visit takes half of the time.
 pub const A_WHILE: f64 = 1.0 / 65536.0;
 
-/// The most measurements of two pieces in the search for the time at which they are nearest: before that time is
-/// known to be between two clocks, and again after that. Each measurement may halve the interval; a few suffice for
-/// smooth distances. No answer depends on it.
+/// The largest number of distance measurements when the time of closest approach of two pieces is sought. It applies to
+/// each of two phases: before that time is between two clocks, and after. Each measurement may halve the interval; a
+/// few suffice for smooth distances. No answer depends on it.
 pub const FOLLOWING_LOOKS: usize = 16;
 
-/// The part of the tolerance by which bodies may deviate from their motions at a contact. Four times that part is
-/// lost. Half of the tolerance is for the gap that the motions keep, and the other half for the contact that they
-/// show; each half loses the deviations twice.
+/// The share of the tolerance by which bodies may deviate from the motions that approximate their trajectories, at a
+/// contact. Four times that share is lost. Half of the tolerance is for the gap that the motions keep, and the other
+/// half for the contact that they show; each half loses the deviations twice.
 pub const STRAY_SHARE: f64 = 0.125;
 
-/// The tolerance of the distances of motions, in units of the deviations that blur them.
+/// The tolerance for distances of approximate motions, in units of their deviations from the trajectories.
 pub const BLURRED: f64 = 1.0 / 16.0;
 
-/// The ratio of deviations above which a stretch beside a proven one is cut before it is searched: the bodies are
-/// measured at the common end, which costs less than a failure. Twice the length has at most 8 times the deviation.
+/// The ratio of deviations above which a stretch of time next to a proven one is cut before it is searched. The bodies
+/// are measured at the common end, which costs less than a failure. Twice the length has at most 8 times the deviation.
 pub const MUCH_LONGER: f64 = 16.0;
 
-/// The part of the duration above which stretches are halved, without a measurement of the distance. Measured: over
-/// 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves alone. With measurements in
-/// long stretches as well it takes 1.02 of them, and in the worst scene 51 times as many.
+/// The share of the duration above which stretches of time are halved, without a measurement of the distance. Measured:
+/// over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves alone. With measurements
+/// in long stretches as well it takes 1.02 of them, and in the worst scene 51 times as many.
 pub const COARSE: f64 = 0.125;
 
-/// The part of a stretch below which an estimated length is worth a cut before the stretch is searched.
+/// The share of a stretch of time below which an estimated length is worth a cut, before the stretch is searched.
 pub const WORTH_A_CUT: f64 = 0.75;
 
-/// The least part of a stretch that is cut off. This takes fewer cuts than many halves, but the length is an
+/// The least share of a stretch of time that is cut off. This takes fewer cuts than many halves, but the length is an
 /// estimate.
 pub const LEAST_CUT: f64 = 1.0 / 1024.0;
 
-/// The most parts of a query, cut at corners of its trajectories, that have a budget of their own. If there are more,
-/// some share one: a trajectory of a user may have any number of corners.
+/// The largest number of parts of a query that have a budget of their own. The parts are between the corners of its
+/// trajectories. If there are more, some share one: a trajectory of a user may have any number of corners.
 pub const MOST_PARTS: usize = 1 << 16;
 
-/// The part of the width of a measured distance by which the distance may grow in a stretch that is not cut further
-/// in the search for the greatest distance: the bounds would hardly be closer.
+/// The growth of the distance in a stretch of time up to which the stretch is not cut further in the search for the
+/// greatest distance. It is in units of the width of a measured distance: the bounds would hardly be closer.
 pub const SETTLED: f64 = 0.25;
 
-/// The longest step when tracking the distance of two pieces, in radians of both bodies' turns together. The distance
-/// usually has at most one minimum within it.
+/// The longest step when tracking the distance of two pieces, in radians of both bodies' rotations together. The
+/// distance usually has at most one minimum within it.
 pub const FOLLOWED_TURN: f64 = 0.25;
 
-/// The most times at which the bodies are measured for a first guess of their closest approach.
+/// The largest number of times at which the bodies are measured to estimate their closest approach.
 pub const GUESSES: usize = 4;
 
-/// The accuracy to which the least distance of two pieces is sought, as a part of the tolerance.
+/// The accuracy of the least distance of two pieces that are followed over time, in units of the tolerance.
 pub const FOLLOWED: f64 = 1.0 / 8.0;
 
-/// The least relative growth of a free time that is worth another Newton step.
+/// The least relative growth of a free time for which another Newton step is made.
 pub const WORTHWHILE: f64 = 1.0 / 64.0;
 
-/// The part of [`RESTING`](crate::rounding::RESTING) that must be left for a resting pair to be followed further, in
-/// units of the distance's rounding. Below it is the rounding of heights: each visit would find some of it again, and
-/// a slowly approaching pair would be visited a million times before it is in contact.
+/// The slack that a pair in contact at the start must have to be advanced further, in units of the distance's rounding.
+/// It is a part of [`RESTING`](crate::rounding::RESTING). Below it is the rounding of heights: each visit would find
+/// some of it again, and a slowly approaching pair would be visited a million times before it is in contact.
 pub const RESTED: f64 = 1.0 / 16.0;
 
 /// The distance of two nodes, in units of their radii, beyond which a second visit is worth more than a split.
@@ -100,106 +99,107 @@ pub const RESTED: f64 = 1.0 / 16.0;
 /// past each other, a larger one splits nodes that only pass.
 pub const LOOK_AGAIN: f32 = 0.5;
 
-/// The share of a node's radius that counts as thickness along any axis when the thicker of two
-/// nodes is chosen to be split. It lets flat nodes that are seen edge-on be split as well.
+/// The share of a node's radius that is added to its thickness along any axis when the thicker of two nodes is chosen
+/// for a split. It lets flat nodes that are seen edge-on be split as well.
 pub const THICKNESS: f32 = 0.1;
 
-/// The longest step for which a plane that turns with a body is followed, in units of the duration. The bound has to
-/// cover the motion of the bodies in that time.
+/// The longest time for which a bound along a plane that turns with a body is used, in units of the duration. The bound
+/// has to cover the motion of the bodies in that time.
 pub const ATTACHED_TIME: f32 = 1.0 / 16.0;
 
-/// The ratio of the nodes' radii above which a plane that turns with the larger node is tried.
+/// The ratio of two nodes' radii above which a plane that turns with the larger node is tried.
 pub const MUCH_LARGER: f32 = 3.0;
 
-/// The part of a large turning node, in units of its radius, that must sweep past a small one during its certified
-/// time for a second visit to be worth more than a split. The children of the large node would be swept past all the
-/// same. Measured on discs and on soups of large triangles.
+/// The distance that a large turning node must sweep past a small one for a second visit to be worth more than a split,
+/// in units of its radius. It is the distance during the certified time. The children of the large node would be swept
+/// past all the same. Measured on discs and on soups of large triangles.
 pub const SWEPT: f32 = 1.0 / 128.0;
 
-/// The number of rays that are tried to count how often a surface winds about a point. A ray fails if it passes an
-/// edge by less than rounding: one in 10⁸ does, even of a million triangles.
+/// The number of rays that are tried to compute the winding number of a surface about a point. A ray fails if it passes
+/// an edge by less than rounding: one in 10⁸ does, even of a million triangles.
 pub const RAYS: u32 = 32;
 
-/// The excess over the gap to keep up to which a gap of nodes counts as closed, in units of the tolerance. The rest
+/// The excess over the required gap up to which a gap of nodes counts as closed, in units of the tolerance. The rest
 /// that rounding leaves of a gap at the end of a clock is not worth another clock, and a pair that inherits its
 /// parent's clock is examined before all others.
 pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 
-/// The most corners that are added to a polytope within the difference of two pieces before the search for the origin
-/// in it is abandoned. Each corner improves the least depth found. A few tens were enough for pieces of a thousand
+/// The largest number of corners of the polytope inside the difference of two pieces, which is grown to decide whether
+/// the pieces intersect. Each corner improves the least depth found. A few tens were enough for pieces of a thousand
 /// corners that begin to overlap.
 pub const MAX_CORNERS: usize = 256;
 
-/// The depths below a flat piece at which a point of its solid is sought, in this order, in units of the piece's
+/// The depths below a flat piece at which a point inside its solid is sought, in this order, in units of the piece's
 /// size. The first is far above the distance at which a point counts as off the surface; the others reach inside
 /// thinner walls.
 pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 
-/// The factor by which the distance of two pairs of a front must exceed that of the bodies before a descent tries to
+/// The ratio to the bodies' distance that the distances of two pairs of a front must exceed before a descent tries to
 /// join them. It tries again once the bodies' distance has shrunk by the same factor. Joining saves measuring both
 /// pairs, and costs measuring one more.
 pub const JOIN_BEYOND: f64 = 2.0;
 
-/// The depth of two hulls along the axis between their middles, in units of the smaller one's radius, beyond which
-/// `Fast` splits them unmeasured. No answer depends on it. A smaller value splits hulls that have a distance, a
-/// larger one searches for common points in vain. Measured on rings and bunnies that fall: a half takes two thirds of
-/// the time on rings, where hulls overlap, and costs nothing on bunnies; a quarter measures a seventh more pairs of
-/// bunnies.
+/// The depth of overlap of two hulls beyond which the schedule `Fast` splits them without a measurement. It is along
+/// the axis between their middles, in units of the smaller one's radius. No answer depends on it. A smaller value
+/// splits hulls that have a distance, a larger one searches for common points in vain. Measured on rings and bunnies
+/// that fall: a half takes two thirds of the time on rings, where hulls overlap, and costs nothing on bunnies; a
+/// quarter measures a seventh more pairs of bunnies.
 pub const OVERLAPPING: f64 = 0.5;
 
-/// The most points of a piece that are scanned for the farthest one; for more points, edges are climbed. Measured on
-/// hulls of random points of a sphere, in random directions, by `cargo bench -p ccd-bench --bench support`: 46 ns
-/// against 40 ns for 16 corners, 56 against 48 for 32, 90 against 51 for 64, 255 against 50 for 256, 4,400 against
-/// 116 for 4,096. Climbing from the last corner takes 30 to 47 ns throughout. Up to 32 a table is not worth its
+/// The largest number of points of a piece that are scanned for an extremal point; for more points, edges are climbed.
+/// Measured on hulls of random points of a sphere, in random directions, by `cargo bench -p ccd-bench --bench support`:
+/// 46 ns against 40 ns for 16 corners, 56 against 48 for 32, 90 against 51 for 64, 255 against 50 for 256, 4,400
+/// against 116 for 4,096. Climbing from the last corner takes 30 to 47 ns throughout. Up to 32 a table is not worth its
 /// memory.
 pub const CLIMBED_POINTS: usize = 32;
 
-/// The share of its box that a convex body has to fill to count as one piece. Measured: a board of
-/// 8 corners under 38,000 triangles takes 29 visits as one box and 41 as twelve triangles; a
-/// tetrahedron, a third of its box, against 26,000 triangles takes 7,500 as one piece and 130 as
+/// The share of its bounding box that a convex body has to fill for it to be searched as one piece, rather than as the
+/// triangles of its surface. Measured: a board of 8 corners under 38,000 triangles takes 29 visits as one box and 41 as
+/// twelve triangles; a tetrahedron, a third of its box, against 26,000 triangles takes 7,500 as one piece and 130 as
 /// four triangles.
 pub const BOX_SHARE: f64 = 0.9;
 
-/// The number of corners, level up to rounding, that are visited one by one before all corners of the piece are
+/// The number of corners of equal height, up to rounding, that a climb visits before all corners of the piece are
 /// scanned.
 pub const PLATEAU_POINTS: usize = 32;
 
-/// The distance from a facet, in units of its piece's size, within which a witness counts as on it. It only decides
-/// which feature a contact names. Witnesses are combinations of corners, off by a few [`U64`](crate::rounding::U64)
-/// of that size, which a flat piece magnifies.
+/// The distance from a facet up to which a nearest point counts as on it, in units of the piece's size. It only decides
+/// which feature a contact names. Nearest points are combinations of corners, off by a few
+/// [`U64`](crate::rounding::U64) of that size, which a flat piece magnifies.
 pub const ON_FACET: f64 = 1e-9;
 
-/// The angle below which a rotation towards principal axes is left out.
+/// The angle below which a Jacobi rotation is skipped when principal axes are computed, in radians.
 ///
 /// Unit: radians. Axes are rounded to f32, which turns them by up to 6e-8.
 pub const LEAST_TURN: f64 = 1e-7;
 
-/// The thickness of a flat node, relative to its size: coordinates of a plane are rounded by about
-/// `u` of their own, which is larger far from the origin. A larger value adds slabs that prove
-/// little; a smaller one leaves flat contact to f32.
+/// The largest thickness of a flat node, in units of its size. Coordinates of a plane are rounded by about `u` of their
+/// own, which is larger far from the origin. A larger value adds slabs that prove little; a smaller one leaves flat
+/// contact to f32.
 pub const FLAT: f64 = 1e-9;
 
-/// The least rounding of the gap of nodes in f32 that is worth a computation in f64, in units of the gap at which
-/// clocks of nodes stop. Below it f32 proves as much as f64.
+/// The rounding of the gap of nodes in f32 above which the gap is computed in f64, in units of the gap at which clocks
+/// of nodes stop. Below it f32 proves as much as f64.
 pub const COARSE_F32: f64 = 1.0;
 
-/// The largest speed at which the axis of a screw may move sideways, per unit of the duration and of
-/// the smaller body's radius. Surfaces that turn with the screw prove nothing for long beyond it.
+/// The largest sideways speed of the axis of a screw at which nodes are compared along it, per unit of the duration and
+/// of the smaller body's radius. Surfaces that turn with the screw prove nothing for long beyond it.
 pub const SCREW_DRIFT: f64 = 1.0 / 256.0;
 
-/// The advance of a screw during the query, relative to the smaller body's radius, up to which it counts as sideways.
+/// The advance of a screw during the query up to which it counts as no advance, in units of the smaller body's radius.
 /// With a smaller pitch, nodes would span many pitches.
 pub const LEAST_ADVANCE: f64 = 1.0 / 65536.0;
 
-/// The least distance from the axis of a plane that has a node beyond it, in units of the distance of the node's
-/// centre. Nodes that extend nearer have profiles too wide to prove anything.
+/// The least distance of a node from the axis of a screw for which a profile is computed, in units of the distance of
+/// the node's centre. Nodes that extend nearer have profiles too wide to prove anything.
 pub const LEAST_INNER: f64 = 0.25;
 
-/// The number of splits after which nodes are compared along a screw: profiles of nodes are worth
-/// their cost to long queries only.
+/// The number of splits after which nodes are compared along a screw: profiles of nodes are worth their cost to long
+/// queries only.
 pub const SCREW_AFTER: u64 = 512;
 
-/// The most triangles of a node that choose the frame of its box; the box then contains all of them.
+/// The largest number of triangles of a node from which the frame of its box is chosen; the box then contains all of
+/// them.
 ///
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
 /// to build, boxes hardly shrink.

@@ -1,4 +1,4 @@
-//! Closed form for points, segments and triangles.
+//! Distances of points, segments and triangles in closed form.
 
 mod axis;
 pub(crate) mod nearest;
@@ -15,7 +15,7 @@ use ccd_core::{
 };
 use nearest::{Corners, Nearest, nearest};
 
-/// The distance of two points, segments or triangles in closed form, degenerate ones included.
+/// An oracle for the distance of two points, segments or triangles in closed form, degenerate ones included.
 ///
 /// Compares edges with edges and corners with faces, all at once. Intersection is tested only if the axis found does
 /// not separate the pieces. Nothing is stored between calls.
@@ -51,7 +51,7 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Computes with these instructions; the claims are the same, to the last bit.
+    /// Creates the oracle for a choice of vector instructions; the claims are the same, to the last bit.
     pub fn new(instructions: Instructions) -> Self {
         ClosedForm {
             level: instructions.level(),
@@ -60,7 +60,7 @@ impl ClosedForm {
 }
 
 impl Default for ClosedForm {
-    /// Computes with the best instructions of the machine.
+    /// Creates the oracle with the best vector instructions of the machine.
     fn default() -> Self {
         ClosedForm::new(Instructions::Best)
     }
@@ -88,7 +88,7 @@ impl DistanceOracle for ClosedForm {
     }
 }
 
-/// Returns the best axis for pieces that nearly touch or intersect, and a common point if there is one.
+/// Returns the best separating axis for pieces that nearly touch or intersect, and a common point if there is one.
 #[cold]
 #[inline(never)]
 fn examine(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
@@ -100,8 +100,8 @@ fn examine(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nea
     (best.direction, pierce::common_point(p, q, near))
 }
 
-/// Moves both pieces to A's axes, with the origin in A's first point: rounding is then that of the
-/// pieces' size, not of their position.
+/// Transforms both pieces to A's axes, with the origin in A's first point: rounding is then that of the pieces' size,
+/// not of their position.
 #[inline]
 fn local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);

@@ -1,4 +1,4 @@
-//! GJK: descends the Minkowski difference of two hulls towards the origin `[GJK88]`.
+//! GJK: a descent in the Minkowski difference of two hulls towards the origin `[GJK88]`.
 
 mod fan;
 mod foot;

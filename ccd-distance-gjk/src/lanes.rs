@@ -1,9 +1,9 @@
-//! Four vectors in SIMD lanes.
+//! Four vectors in the lanes of SIMD registers.
 
 use ccd_core::fearless_simd::{ExtractToken, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 
-/// Four vectors.
+/// Four vectors in f64, coordinate by coordinate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes3<L: Simd> {
     pub(crate) x: f64x4<L>,
@@ -12,7 +12,7 @@ pub(crate) struct Lanes3<L: Simd> {
 }
 
 impl<L: Simd> Lanes3<L> {
-    /// The same vector four times.
+    /// Creates four copies of a vector.
     #[inline(always)]
     pub(crate) fn splat(level: L, v: DVec3) -> Self {
         Lanes3 {
@@ -22,7 +22,7 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Four vectors side by side.
+    /// Creates the lanes from four vectors.
     #[inline(always)]
     pub(crate) fn new(level: L, [a, b, c, d]: [DVec3; 4]) -> Self {
         Lanes3 {
@@ -42,7 +42,7 @@ impl<L: Simd> Lanes3<L> {
         DVec3::new(self.x[k], self.y[k], self.z[k])
     }
 
-    /// Returns `self − other`.
+    /// Returns the differences `self − other`.
     #[inline(always)]
     pub(crate) fn minus(self, other: Self) -> Self {
         Lanes3 {
@@ -52,7 +52,7 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Returns `self + t · direction`.
+    /// Returns the sums `self + t · direction`.
     #[inline(always)]
     pub(crate) fn along(self, t: f64x4<L>, direction: Self) -> Self {
         Lanes3 {
@@ -62,7 +62,7 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Returns `self − t · direction`.
+    /// Returns the differences `self − t · direction`.
     #[inline(always)]
     pub(crate) fn back(self, t: f64x4<L>, direction: Self) -> Self {
         Lanes3 {
@@ -88,8 +88,7 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Returns the part of each vector that is perpendicular to `direction`; the vector itself if
-    /// that is zero.
+    /// Returns the component of each vector that is perpendicular to `direction`; the vector itself if that is zero.
     #[inline(always)]
     pub(crate) fn perpendicular_to(self, direction: Self) -> Self {
         let t = self.dot(direction) * reciprocal(direction.dot(direction));
@@ -110,7 +109,7 @@ pub(crate) fn reciprocal<L: Simd>(x: f64x4<L>) -> f64x4<L> {
         .select(splat(level, 1.0) / x, splat(level, 0.0))
 }
 
-/// Clamps to [0, 1].
+/// Clamps four numbers to [0, 1].
 #[inline(always)]
 pub(crate) fn clamp_unit<L: Simd>(x: f64x4<L>) -> f64x4<L> {
     x.max(0.0).min(1.0)

@@ -1,4 +1,4 @@
-//! Distances of two convex pieces for [`ccd_core`]: closed forms for the smallest, GJK for all others.
+//! Distances of two convex pieces for [`ccd_core`]: closed forms for up to three points, GJK for all others.
 //!
 //! Each backend is a [`DistanceOracle`](ccd_core::DistanceOracle). It names a pair of nearest points, and
 //! an axis that proves how far apart the pieces are. The engine checks both.
@@ -85,10 +85,10 @@ mod worst;
 pub use closed_form::ClosedForm;
 pub use gjk::{Cache, Gjk};
 
-/// The closed form for up to three points, GJK otherwise.
+/// The recommended oracle: the closed form for up to three points, GJK otherwise.
 pub type Direct = ccd_core::OrElse<ClosedForm, Gjk>;
 
-/// The code in the README.
+/// Compiles the code in the README as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! The laws of [`laws`] over every backend and every family of [`scene`].
+//! Runs the laws of [`laws`] over every backend and every family of [`scene`].
 
 mod laws;
 pub(crate) mod scene;
@@ -10,13 +10,13 @@ use ccd_core::{DistanceOracle, Frame, Piece, PiecePair};
 use rstest::rstest;
 use scene::{Meeting, Pcg64, Scene, SeedableRng};
 
-/// The number of scenes per law; the environment variable `CCD_CASES` overrides it.
+/// Returns the number of scenes per law; the environment variable `CCD_CASES` overrides it.
 fn cases() -> u64 {
     let given = std::env::var("CCD_CASES").ok();
     given.and_then(|text| text.parse().ok()).unwrap_or(2000)
 }
 
-/// Runs a law over scenes drawn from seeds 0, 1, …
+/// Checks a law for scenes drawn from seeds 0, 1, …
 fn over(draw: impl Fn(&mut Pcg64) -> Scene, law: impl Fn(&Scene)) {
     for seed in 0..cases() {
         law(&draw(&mut Pcg64::seed_from_u64(seed)));
@@ -103,7 +103,7 @@ fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     });
 }
 
-/// A common point of flat pieces has fewer correct digits: the worst error of these was 1.7e-7.
+/// Tests flat pieces, whose common point has fewer correct digits: the worst error of these was 1.7e-7.
 #[rstest]
 fn pressed_flat(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::pressed(rng, a, b);
@@ -129,8 +129,8 @@ fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] ga
     history::<Gjk>(count);
 }
 
-/// Random hulls: separate hulls are certified, agree with brute force and do not depend on the
-/// order; both outcomes occur often enough.
+/// Tests random hulls. Separate hulls are certified, agree with brute force and do not depend on the order. Both
+/// outcomes occur often enough.
 fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
     let apart = std::cell::Cell::new(0);
     let law = |scene: &Scene| {
@@ -163,7 +163,7 @@ fn near_contact<O: DistanceOracle + Default>(meeting: Meeting, gap: f64) {
     over(|rng| scene::near_contact(rng, meeting, gap), law);
 }
 
-/// Certified, at the distance of `gap` or by up to `slack` more.
+/// Checks that pieces are certified apart at the distance `gap`, or up to `slack` more.
 fn is_apart_by<O: DistanceOracle + Default>(scene: &Scene, gap: f64, slack: f64) {
     let checked = laws::certifies_separation::<O>(scene);
     let range = gap - 1e-13..=gap + slack + 1e-13;
@@ -185,7 +185,7 @@ fn degenerate<O: DistanceOracle + Default>() {
     over(scene::degenerate, law);
 }
 
-/// Coordinates of 1e6 cost the rounding of the pieces' positions, not of their shapes.
+/// Tests that coordinates of 1e6 cost the rounding of the pieces' positions, not of their shapes.
 fn far_from_the_origin<O: DistanceOracle + Default>() {
     let draw =
         |rng: &mut Pcg64| scene::near_contact(rng, Meeting::CornerFace, 1e-6).reframed(rng, 1e6);
@@ -241,7 +241,7 @@ fn history<O: DistanceOracle + Default>(count: usize) {
     laws::ignores_history::<O>(&scenes);
 }
 
-/// Whatever ends names points of the pieces.
+/// Checks that claims name points of the pieces.
 fn ends<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
     let (mut oracle, mut cache) = (O::default(), O::Cache::default());
     for _ in 0..3 {
@@ -284,7 +284,7 @@ fn odd_coordinates_end() {
     }
 }
 
-/// Degenerate and infinite frames, and pieces without points, end like all others.
+/// Tests that degenerate and infinite frames, and pieces without points, do not make a search hang or fail.
 #[test]
 fn nonsense_ends() {
     let mut rng = Pcg64::seed_from_u64(3);

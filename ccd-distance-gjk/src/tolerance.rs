@@ -1,6 +1,6 @@
-//! Every numeric tolerance of this crate, with unit, derivation, and purpose.
+//! All numeric tolerances of this crate, each with its unit, derivation, and purpose.
 
-/// The share of the witnesses' distance that an axis must certify to be claimed without further search.
+/// The share of the nearest points' distance that an axis must certify for a search to end.
 ///
 /// Witnesses of pieces of size s carry rounding of about u·s. Their difference, of length d, is
 /// therefore tilted by u·s/d, and loses u·s²/d of the support gap: a share u·(s/d)² of d. Above d =
@@ -9,29 +9,27 @@
 /// than 1e-8 s appear to intersect.
 pub(crate) const KEEP: f64 = 63.0 / 64.0;
 
-/// The share of the witnesses' distance below which an axis suggests that the pieces intersect. The
-/// nearest features' own axes keep [`KEEP`]; a half is far from it and from 0.
+/// The share of the nearest points' distance below which an axis suggests that the pieces intersect. The nearest
+/// features' own axes keep [`KEEP`]; a half is far from it and from 0.
 pub(crate) const SUSPECT: f64 = 0.5;
 
-/// The maximum number of steps of a GJK search.
+/// The largest number of steps of a GJK search.
 ///
 /// Hulls take 3 to 10 steps, finely tessellated spheres up to about 30; beyond, steps only change rounding. The claim
 /// at the cap is valid, but less tight.
 pub(crate) const STEP_CAP: u32 = 64;
 
-/// The number of times that a GJK search continues from the axes of features if its own axis is too poor.
+/// The largest number of times that a GJK search continues from the axes of features, if its own axis is too poor.
 pub(crate) const ROUND_CAP: u32 = 4;
 
-/// The difference of support gap and distance at which GJK stops, in units in the last place of the
-/// distance.
+/// The difference of support gap and distance at which GJK has converged, in units in the last place of the distance.
 pub(crate) const CONVERGED_ULPS: f64 = 16.0;
 
-/// The difference of support gap and distance above which a stalled GJK search continues, in units
-/// in the last place of the distance (1e-12 of it). A smaller value would spend steps on irrelevant
-/// digits.
+/// The difference of support gap and distance above which a stalled GJK search continues, in units in the last place of
+/// the distance (1e-12 of it). A smaller value would spend steps on irrelevant digits.
 pub(crate) const CERTIFIED_ULPS: f64 = 4096.0;
 
-/// The distance below which pieces count as touching, in units in the last place of the coordinates' difference: a
+/// The distance below which pieces count as touching, in units in the last place of the coordinates' difference. A
 /// vertex b − a and a combination of four are rounded by about 2 units each.
 pub(crate) const TOUCHING_ULPS: f64 = 4.0;
 
@@ -41,8 +39,8 @@ pub(crate) const TOUCHING_ULPS: f64 = 4.0;
 /// around it.
 pub(crate) const VOLUME_ULPS: f64 = 8.0;
 
-/// The number of vertices of the difference that are combined when an axis is computed from features. Three contain the
-/// nearest point; the others were support vertices of earlier axes. Corners of meshes join 3 to 10 edges.
+/// The largest number of vertices of the difference that are combined when an axis is computed from features. Three
+/// contain the nearest point; the others were support vertices of earlier axes. Corners of meshes join 3 to 10 edges.
 pub(crate) const SHARPEN_CAP: usize = 12;
 
 /// The number of times that the weights of a point inside a tetrahedron are corrected by their
@@ -50,6 +48,6 @@ pub(crate) const SHARPEN_CAP: usize = 12;
 /// 1e10.
 pub(crate) const INSIDE_ROUNDS: u32 = 2;
 
-/// The maximum number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal`] is used,
+/// The largest number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal`] is used,
 /// which need not scan all.
 pub(crate) const SCANNED_POINTS: usize = ccd_core::tuning::CLIMBED_POINTS;

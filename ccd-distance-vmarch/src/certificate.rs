@@ -1,4 +1,4 @@
-//! Axes that certify a tied stop by their support gap.
+//! Finds axes whose support gap certifies that two features are nearest, if the march alone leaves a tie.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
@@ -8,7 +8,7 @@ use crate::witness::{Witness, across};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// A unit vector and the support gap along it.
+/// A unit vector, and the support gap along it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axis {
     pub(crate) direction: DVec3,
@@ -16,7 +16,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Measures the gap along a direction of any length; a zero direction separates nothing.
+    /// Computes the gap along a direction of any length; for a zero direction the gap is −∞.
     pub(crate) fn along(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
         let known = direction != DVec3::ZERO;
@@ -30,7 +30,7 @@ impl Axis {
         }
     }
 
-    /// Returns whether the axis certifies the distance, up to rounding.
+    /// Returns whether the gap along the axis certifies the distance, up to rounding.
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
@@ -48,8 +48,8 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// Returns an upper bound of the gap along a direction: the gap between two corners, found by hill climbing if there
-/// are many.
+/// Returns an upper bound of the gap along a direction, from two corners that are found by hill climbing if there are
+/// many.
 fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
@@ -65,7 +65,7 @@ fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     }
 }
 
-/// Returns the best axis for nearest features with a tied or tiny difference.
+/// Returns the best axis for nearest features if their difference vector is a tie or tiny.
 ///
 /// The directions along which features are extremal form a cone; a rounded vector may fall out of it. Its borders are
 /// also tried: the normals of adjacent faces, cross products of edges, the vector across each edge; and for coplanar or
@@ -110,7 +110,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
 struct Around {
     edges: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// The directions across an edge, in the plane of a face.
+    /// The directions perpendicular to an edge, in the plane of each face.
     within: Vec<DVec3>,
 }
 

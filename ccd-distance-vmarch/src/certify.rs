@@ -1,4 +1,4 @@
-//! Certifies the end of a march: ties, cycles, restarts.
+//! Certifies the result of a march, also after ties, cycles and restarts.
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
@@ -15,7 +15,7 @@ use crate::witness::Witness;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUp};
 
-/// A claim, and the pair from which the next call starts.
+/// A claim, with the pair of features from which the next call starts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Certified {
     pub(crate) pair: Pair,
@@ -58,12 +58,12 @@ pub(crate) fn certify(
     found.ok_or(why)
 }
 
-/// The assessment of an end.
+/// What a check of a march's end found out.
 enum Finding {
     Certified(Certified),
-    /// A neighbouring pair is nearer.
+    /// A neighbouring pair of features is nearer.
     Nearer(Pair),
-    /// The end is not certified; with the best axis so far.
+    /// The end is not certified; with the best axis found.
     Doubtful(DVec3),
 }
 
@@ -83,7 +83,7 @@ fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Findin
     }
 }
 
-/// Certifies a stop if necessary.
+/// Certifies a pair at which a march stopped, if that is not certain already.
 fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
     let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
@@ -92,7 +92,7 @@ fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Fi
     certify_tie(placed, pair)
 }
 
-/// Certifies the best pair of a cycle.
+/// Certifies the nearest pair of a cycle.
 fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let (mut pair, mut nearest) = (start, start);
     let mut least = Witness::new(placed, start).distance();
@@ -112,7 +112,7 @@ fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     certify_tie(placed, nearest)
 }
 
-/// Certifies a pair or a nearer neighbouring one, because a new march might end at the same tie.
+/// Certifies a pair, or a nearer neighbouring pair, because a new march might end at the same tie.
 fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let mut pair = start;
     for _ in 0..ROUNDS {
@@ -142,7 +142,7 @@ fn certified(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3
     Finding::Certified(Certified { pair, claim })
 }
 
-/// Searches all edges and faces for a common point.
+/// Searches all edges and faces for a common point of the polytopes.
 fn search_common_point(
     placed: &PlacedPair<'_>,
     pair: Pair,

@@ -1,4 +1,4 @@
-//! Clips edges by the planes of another feature `[VCLIP98 §3.2]`.
+//! Clips edges by the Voronoi planes of another feature `[VCLIP98 §3.2]`.
 
 use crate::placed::{Line, Placed, clamped};
 use ccd_core::glam::DVec3;
@@ -10,11 +10,11 @@ pub(crate) struct Clipped {
     pub(crate) to: Cut,
 }
 
-/// An end of a clipped edge.
+/// One end of a clipped edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
     pub(crate) parameter: f64,
-    /// The edge of the face whose plane made the cut; `None` at the edge's own end.
+    /// The edge of the face whose plane made the cut; `None` if the clipped edge ends there itself.
     pub(crate) by: Option<u32>,
 }
 
@@ -56,7 +56,8 @@ pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> 
     (out.from.parameter <= out.to.parameter).then_some(out)
 }
 
-/// Returns the middle of a segment's overlap with a parallel one, or the end that is nearest to it.
+/// Returns the middle of the overlap of two parallel segments, or the end of `one` that is nearest to `other`, as a
+/// parameter of `one`.
 #[inline]
 pub(crate) fn beside(one: &Line, other: &Line) -> f64 {
     let start = one.nearest(other.start);

@@ -1,18 +1,18 @@
 //! Counters of an oracle's work.
 
-/// The work of an oracle over all calls.
+/// Counters of an oracle's work, over all calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Calls.
+    /// The number of calls of the oracle.
     pub calls: u64,
-    /// Pairs of features that were tested.
+    /// The number of tested pairs of features.
     pub steps: u64,
-    /// Cycles that were detected.
+    /// The number of detected cycles.
     pub cycles: u64,
-    /// Features found behind a face, for which all faces were examined.
+    /// The number of local minima: a feature was found behind a face, and all faces were examined.
     pub local_minima: u64,
-    /// Marches restarted from other features.
+    /// The number of marches that were restarted from other features.
     pub restarts: u64,
-    /// Common points, each proven by exact signs.
+    /// The number of common points that were found, each proven by exact signs.
     pub penetrations: u64,
 }

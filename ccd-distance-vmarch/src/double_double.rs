@@ -7,7 +7,7 @@
 use ccd_core::glam::DVec3;
 use std::ops::{Add, Mul, Sub};
 
-/// A number, as the unevaluated sum of two.
+/// A number with twice the digits of f64, as the unevaluated sum of two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DoubleDouble {
     high: f64,
@@ -15,7 +15,7 @@ pub(crate) struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// `a − b`, without rounding.
+    /// Returns `a − b` without rounding.
     pub(crate) fn difference(a: f64, b: f64) -> Self {
         let high = a - b;
         let back = high - a;
@@ -23,12 +23,12 @@ impl DoubleDouble {
         DoubleDouble { high, low }
     }
 
-    /// Rounds to f64.
+    /// Rounds the number to f64.
     pub(crate) fn value(self) -> f64 {
         self.high + self.low
     }
 
-    /// Returns the sum of two numbers, the larger one first.
+    /// Returns the sum of two numbers in normal form; the first must be the larger one.
     fn renormalised(high: f64, low: f64) -> Self {
         let sum = high + low;
         DoubleDouble {
@@ -69,12 +69,12 @@ impl Mul for DoubleDouble {
     }
 }
 
-/// A vector in double-double.
+/// A vector of three double-double numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DoubleDoubleVector([DoubleDouble; 3]);
 
 impl DoubleDoubleVector {
-    /// `a − b`, without rounding.
+    /// Returns `a − b` without rounding.
     pub(crate) fn difference(a: DVec3, b: DVec3) -> Self {
         DoubleDoubleVector([0, 1, 2].map(|k| DoubleDouble::difference(a[k], b[k])))
     }
@@ -89,7 +89,7 @@ impl DoubleDoubleVector {
         a * d + b * e + c * f
     }
 
-    /// Rounds to f64.
+    /// Rounds the vector to f64.
     pub(crate) fn value(self) -> DVec3 {
         DVec3::from_array(self.0.map(DoubleDouble::value))
     }
@@ -103,8 +103,7 @@ impl Add for DoubleDoubleVector {
     }
 }
 
-/// Returns six times the volume of a tetrahedron, positive where `d` sees the triangle
-/// counterclockwise.
+/// Returns six times the volume of a tetrahedron, positive if the triangle is counterclockwise as seen from `d`.
 pub(crate) fn volume([a, b, c]: [DVec3; 3], d: DVec3) -> f64 {
     let from = |p: DVec3| DoubleDoubleVector::difference(p, a);
     from(b).cross(from(c)).dot(from(d)).value()

@@ -1,4 +1,4 @@
-//! An edge against an edge `[VCLIP98 §3.2]`.
+//! The transition of the march from an edge against an edge `[VCLIP98 §3.2]`.
 
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
@@ -9,7 +9,7 @@ use crate::tolerance::{LEVEL, PARALLEL};
 use crate::vertex_edge::side_faced;
 use ccd_core::glam::DVec3;
 
-/// Tests the nearest points of both edges against the other edge's planes, vertex-edge planes first.
+/// Tests the nearest points of both edges against the Voronoi planes of the other edge, vertex-edge planes first.
 ///
 /// The march goes on to a corner if a nearest point is an end, or to a face if the other edge's
 /// point is on its side.
@@ -47,18 +47,18 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     Next::Stop(if clear { Sure } else { Tied })
 }
 
-/// The nearest points of two segments.
+/// The nearest points of two segments, and the axis between them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near {
-    /// The parameters along both segments.
+    /// The parameters of the nearest points along both segments.
     pub(crate) parameters: [f64; 2],
     /// The cross product of the directions; its length is the sine of their angle.
     pub(crate) across: DVec3,
 }
 
 impl Near {
-    /// Returns the cross product, towards `offset`, if rounding turns it less than `offset`: by its own rounding over the
-    /// sine, against that of the positions over the distance.
+    /// Returns the cross product, oriented along `offset`, if rounding turns it less than it turns `offset`; `None`
+    /// otherwise. The former is its own rounding over the sine, the latter that of the positions over the distance.
     #[inline(always)]
     pub(crate) fn axis(&self, offset: DVec3, scale: Scale) -> Option<DVec3> {
         // Written so that NaN does not turn it.
@@ -71,7 +71,7 @@ impl Near {
     }
 }
 
-/// Returns the nearest points of two segments. An end that is nearest is returned exactly.
+/// Returns the nearest points of two segments. If one is an end, its parameter is exact.
 ///
 /// If the segments are nearly parallel, the first parameter is off by rounding over the sine. The
 /// second one is computed from it, so the distance of the points is off by rounding only.
@@ -99,7 +99,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     }
 }
 
-/// Returns the end of an edge at a parameter; `None` between the ends.
+/// Returns the vertex of an edge at a parameter; `None` between the ends.
 #[inline(always)]
 pub(crate) fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
     if !(parameter > 0.0) {
@@ -111,13 +111,14 @@ pub(crate) fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
     }
 }
 
-/// The vector from one edge's nearest point to the other's, and the axis between the edges.
+/// The vector between the nearest points of two edges, and the axis between the edges.
 #[derive(Clone, Copy)]
 struct Facing {
     offset: DVec3,
-    /// That vector, or the direction across both edges: whichever rounding tilts less.
+    /// The vector between the nearest points, or the direction perpendicular to both edges: whichever rounding tilts
+    /// less.
     axis: DVec3,
-    /// The rounding of a product with the axis.
+    /// The rounding of a scalar product with the axis.
     slack: f64,
 }
 
@@ -141,7 +142,7 @@ impl Facing {
         }
     }
 
-    /// Returns the face of an edge on the side of the other point; of two, the face with the larger height of the
+    /// Returns the face of an edge on whose side the other point is; of two, the face with the larger height of the
     /// point.
     #[inline(always)]
     fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
@@ -157,16 +158,16 @@ impl Facing {
     }
 }
 
-/// The side of an edge with a point outside its region.
+/// On which side of an edge a point outside its Voronoi region is.
 enum Side {
-    /// On the side of this face.
+    /// The point is on the side of this face.
     Before(u32),
-    /// Behind both faces that meet in the edge, less far behind this one.
+    /// The point is behind both faces of the edge, less far behind this one.
     Behind(u32),
 }
 
 impl Side {
-    /// Returns the next pair: X's face, and Y's feature with the point.
+    /// Returns the next pair: the face of X, and the feature of Y that contains the point.
     fn reached_by(&self, feature: Feature, point: DVec3) -> Next {
         match *self {
             Side::Before(face) => Next::To(Feature::Face(face), feature),

@@ -1,4 +1,4 @@
-//! An edge against a face `[VCLIP98 §3.2]`: never a stop.
+//! The transition of the march from an edge against a face, which is never an end `[VCLIP98 §3.2]`.
 
 use crate::clip::{self, Clipped};
 use crate::edge_edge;
@@ -6,9 +6,8 @@ use crate::feature::{Behind, Feature, Next, Which};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
-/// Continues from the lowest point of the edge above the face, within its prism: to the edge's end,
-/// or to the side of the face that bounds it there. An edge outside the prism leads to the nearest
-/// side.
+/// Continues from the lowest point of the edge above the face, within its prism: to the edge's end, or to the side of
+/// the face that bounds it there. An edge outside the prism leads to the nearest side.
 ///
 /// An edge that has points on both sides of the plane goes through the face if exact signs say so
 /// ([`penetration`]); otherwise it passes by the nearest side, however close.
@@ -55,7 +54,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     }
 }
 
-/// Continues to the side of the face that is nearest to the edge.
+/// Continues to the edge of the face that is nearest to the given edge.
 fn to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
     let sides = y.shape().sides_of(f);
     let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));

@@ -1,14 +1,14 @@
-//! Escape from local minima: features behind one face, but not behind all `[VCLIP98 §3.3]`.
+//! Escapes from local minima: features behind one face, but not behind all `[VCLIP98 §3.3]`.
 
 use crate::feature::{Behind, Crossing, Feature};
 use crate::penetration;
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// The continuation from a local minimum.
+/// How the march continues from a local minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Escape {
-    /// The feature is in front of this face, farther than of any other.
+    /// The feature is in front of this face, and farther in front of it than of any other face.
     Face(Feature, u32),
     /// The feature is behind all faces, and contains a point of the other polytope.
     Inside(Crossing),
@@ -37,7 +37,7 @@ pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: 
     inside.map_or(Escape::Unclear, Escape::Inside)
 }
 
-/// Returns the face with the largest height of a point.
+/// Returns the face with the largest height of a point above it, and that height.
 fn farthest<Y: Placed>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
     let faces = 0..y.shape().faces.len() as u32;
     let heights = faces.filter_map(|f| {

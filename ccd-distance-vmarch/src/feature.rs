@@ -1,8 +1,8 @@
-//! Features of polytopes: vertices, edges and faces, by number, and pairs of them.
+//! Vertices, edges and faces of polytopes, by number, and pairs of them.
 
 use ccd_core::glam::DVec3;
 
-/// One feature of a polytope.
+/// A vertex, edge or face of a polytope, by its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Feature {
     Vertex(u32),
@@ -10,7 +10,7 @@ pub(crate) enum Feature {
     Face(u32),
 }
 
-/// A feature of each polytope, which is the state of a march.
+/// A feature of A and a feature of B, which are the state of a march.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Pair {
     pub(crate) a: Feature,
@@ -20,12 +20,12 @@ pub(crate) struct Pair {
 /// The result of testing a pair of features of polytopes X and Y, in that order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
-    /// A nearer pair, or one as near and of lower dimension.
+    /// The march continues with a pair that is nearer, or equally near and of lower dimension.
     To(Feature, Feature),
-    /// Each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
+    /// The march stops: each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
     Stop(Certainty),
-    /// A feature of one polytope is behind a face of the other: a local minimum, which needs an
-    /// [escape](crate::escape) over all faces.
+    /// The march is in a local minimum, and needs an [escape](crate::escape): a feature of one polytope is behind a
+    /// face of the other.
     Behind(Which, Behind),
     /// An edge of one polytope goes through a face of the other.
     Pierced(Which, Crossing),
@@ -61,7 +61,7 @@ impl Which {
     }
 }
 
-/// The certainty of a stop.
+/// How certain it is that a stop is at the nearest pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Certainty {
     /// The point is on the inner side of every Voronoi plane, by more than rounding.
@@ -71,25 +71,25 @@ pub(crate) enum Certainty {
     Tied,
 }
 
-/// A feature behind a face of the other polytope, in the part within that face's prism.
+/// A corner or edge behind a face of the other polytope, in the part within that face's prism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Behind {
-    /// A corner or an edge.
+    /// The corner or edge that is behind the face.
     pub(crate) feature: Feature,
-    /// Its point that is least deep behind.
+    /// The point of the feature that is least deep behind the face.
     pub(crate) point: DVec3,
-    /// The face that it is behind.
+    /// The index of the face.
     pub(crate) face: u32,
 }
 
-/// A common point of the other polytope and an edge or a corner of one, proven by exact signs.
+/// A common point of two polytopes, on an edge or a corner of one of them, proven by exact signs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
-    /// The edge's two ends; a corner has no other end.
+    /// The ends of the edge, or twice the corner, with their weights.
     pub(crate) on_edge: Corners<2>,
-    /// Three corners of the face, and a fourth corner if the point is inside.
+    /// Three corners of the face with their weights, and a fourth corner if the point is inside.
     pub(crate) on_face: Corners<4>,
-    /// The face that is crossed, or one with the point behind it.
+    /// The face that is crossed, or a face with the point behind it.
     pub(crate) face: u32,
 }
 

@@ -1,5 +1,5 @@
-//! Voronoi marching for [`ccd_core`]: distances of convex polytopes, from the features that were nearest
-//! last `[LINCANNY91, VCLIP98, SWIFT01]`.
+//! Voronoi marching for [`ccd_core`]. It computes distances of convex polytopes from the features that were nearest
+//! last time `[LINCANNY91, VCLIP98, SWIFT01]`.
 //!
 //! [`Vmarch`] is a [`DistanceOracle`](ccd_core::DistanceOracle) for pieces whose facets are known.
 //! Two features, one of either piece, are the nearest ones if the nearest point of each is in the
@@ -140,7 +140,7 @@ pub use counters::Counters;
 pub use oracle::Vmarch;
 pub use start::Cache;
 
-/// The code in the README.
+/// Compiles the code in the README as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

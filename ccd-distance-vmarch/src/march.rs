@@ -1,4 +1,4 @@
-//! The march from a pair of features to a nearer one, until none is nearer `[VCLIP98 §3]`.
+//! The march from pair to nearer pair of features, until none is nearer `[VCLIP98 §3]`.
 
 use crate::counters::Counters;
 use crate::escape::{self, Escape};
@@ -8,7 +8,7 @@ use crate::termination::{Brent, End};
 use crate::tolerance::STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
-/// Marches from a pair of features to the nearest one.
+/// Marches from a pair of features to the nearest pair.
 ///
 /// In exact arithmetic every step leads to features that are nearer, or as near and of a lower dimension, so that no
 /// pair occurs twice. In floating point one may, which [`Brent`] detects.
@@ -48,7 +48,8 @@ fn escape_from(placed: &PlacedPair<'_>, which: Which, behind: Behind) -> Escape 
     }
 }
 
-/// Tests one pair, in the order A, B. Two faces are never tested: an edge of one replaces it.
+/// Tests one pair of features of A and B, and returns the next one. Two faces are never tested: an edge of one replaces
+/// it.
 #[inline]
 pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
     let PlacedPair { a, b, scale } = placed;

@@ -1,4 +1,4 @@
-//! Compares all pairs of features near a tie: rounding may have hidden a nearer pair from the march.
+//! Compares all pairs of features near a tie, in which rounding may have hidden a nearer pair from the march.
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
@@ -6,8 +6,8 @@ use crate::placed::{Placed, PlacedPair};
 use crate::tolerance::AROUND;
 use ccd_core::glam::DVec3;
 
-/// Returns the nearest pair of features of the faces around a pair, if it is nearer than that by
-/// more than `rounding`.
+/// Returns the nearest pair of features of the faces around a pair, if it is nearer than `distance` by more than
+/// rounding.
 ///
 /// Every local minimum of the distance of convex sets is global: if no neighbouring pair is nearer, no pair is. Unlike
 /// a march, this does not compare directions of decreasing distance, which are rounding at a tie, but distances, which
@@ -73,7 +73,7 @@ impl Best {
     }
 }
 
-/// The features of all faces that meet in a feature.
+/// The features of all faces that meet in a given feature.
 struct Star {
     vertices: Vec<u32>,
     edges: Vec<u32>,
@@ -103,13 +103,13 @@ impl Star {
     }
 }
 
-/// Returns the end of an edge at a parameter, or the edge.
+/// Returns the vertex of an edge at a parameter, or the edge itself between the ends.
 fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     let end = edge_edge::end_of(polytope.shape().edge(e), parameter);
     end.map_or(Feature::Edge(e), Feature::Vertex)
 }
 
-/// Returns the height of a point above a face, infinite outside of its prism and behind its plane.
+/// Returns the height of a point above a face; infinite outside of its prism and behind its plane.
 fn height<P: Placed>(point: DVec3, polytope: &P, f: u32) -> f64 {
     let mut height = f64::INFINITY;
     let normal = polytope.vector(polytope.shape().face(f).normal);

@@ -1,4 +1,4 @@
-//! Voronoi marching as a backend.
+//! Voronoi marching as a distance oracle.
 
 use crate::certify::certify;
 use crate::counters::Counters;
@@ -11,8 +11,7 @@ use crate::termination::End;
 use crate::witness::Witness;
 use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
 
-/// The distance of two convex polytopes with known facets, by Voronoi marching
-/// `[LINCANNY91, VCLIP98]`.
+/// An oracle for the distance of convex polytopes with known facets, by Voronoi marching `[LINCANNY91, VCLIP98]`.
 ///
 /// A piece of a list ([`ccd_core::Pieces`]) is prepared at its first query, and stored with the list;
 /// [`Vmarch::prepare`](DistanceOracle::prepare) prepares all pieces of a body ahead. A piece outside a list
@@ -60,7 +59,7 @@ pub struct Vmarch {
 }
 
 impl Vmarch {
-    /// Returns the work so far.
+    /// Returns the counters of the work so far.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -87,8 +86,8 @@ impl DistanceOracle for Vmarch {
         Ok(certified.claim)
     }
 
-    /// Prepares in advance what the first query of each piece would prepare: the pieces of a body, the hulls of its
-    /// hull tree and the triangles of its surface, on all cores.
+    /// Prepares all pieces of a body in advance, on all cores: those of the body, the hulls of its hull tree and the
+    /// triangles of its surface. Otherwise the first query of each piece would prepare it.
     ///
     /// # Guarantee
     /// Answers are the same bits with and without it. A piece that cannot be prepared is given up at each query, as
@@ -128,14 +127,14 @@ impl DistanceOracle for Vmarch {
     }
 }
 
-/// A prepared piece, or the reason why preparation failed.
+/// A prepared piece, or the reason why its preparation failed.
 type Prepared = Box<Result<Polytope, GiveUp>>;
 
 fn prepare(piece: &Piece<'_>) -> Prepared {
     Box::new(Polytope::new(piece))
 }
 
-/// Returns the prepared piece. A piece outside a list is prepared now, and stored in `own`.
+/// Returns the prepared form of a piece. A piece that belongs to no list is prepared now, and stored in `own`.
 #[inline]
 fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
     let prepared = match piece.kept(prepare) {

@@ -1,4 +1,4 @@
-//! Common points, proven by exact signs `[SHE97]`.
+//! Finds common points of two polytopes, and proves them by exact signs `[SHE97]`.
 
 use crate::double_double::volume;
 use crate::feature::{Corners, Crossing};
@@ -8,7 +8,7 @@ use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Returns the point where an edge passes through a face, or ends on it.
+/// Returns the point at which an edge passes through a face, or ends on it.
 ///
 /// # Guarantee
 /// Signs are exact for the placed points, which are rounded. A crossing is returned only if the edge and one of the
@@ -38,8 +38,8 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
     None
 }
 
-/// Tests whether a corner is inside the other polytope, in a tetrahedron of one of its corners and a triangle of a
-/// face.
+/// Returns the point of a corner inside the other polytope, as a point of a tetrahedron of one of its corners and a
+/// triangle of a face.
 ///
 /// # Guarantee
 /// Like [`pierced`].
@@ -88,7 +88,7 @@ pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Opti
     through.or_else(|| contained(x, 0, y))
 }
 
-/// Like [`pierced`], but skips edges that are clearly on one side of the face's plane.
+/// Like [`pierced`], but returns `None` early for edges that are clearly on one side of the face's plane.
 fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Option<Crossing> {
     let base = y.point(y.shape().sides_of(f).first()?.start);
     let normal = y.vector(y.shape().face(f).normal);
@@ -113,7 +113,7 @@ fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     turns.iter().all(|&turn| turn.is_ge()) || turns.iter().all(|&turn| turn.is_le())
 }
 
-/// Returns the weights of a segment's ends and of a triangle's corners at their intersection.
+/// Returns the intersection of a segment and a triangle, by the weights of the ends and of the corners.
 fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 3]) {
     let (first, last) = (volume([a, b, c], start).abs(), volume([a, b, c], end).abs());
     let parts = [[b, c], [c, a], [a, b]].map(|[p, q]| volume([start, p, q], end).abs());

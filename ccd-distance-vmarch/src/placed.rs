@@ -1,4 +1,4 @@
-//! Two polytopes in A's frame: A unchanged, B transformed on demand.
+//! Two polytopes in A's frame: A as it is stored, B transformed when needed.
 
 use crate::polytope::{Edge, Polytope};
 use crate::tolerance::PLACING;
@@ -6,23 +6,23 @@ use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::{greater, lesser};
 
-/// A polytope placed in A's frame.
+/// A polytope in A's frame.
 ///
 /// Tests of features are generic, to serve both orders of the polytopes.
 pub(crate) trait Placed {
     fn shape(&self) -> &Polytope;
-    /// Transforms a point.
+    /// Transforms a point from the polytope's frame to A's.
     fn point(&self, local: DVec3) -> DVec3;
-    /// Rotates a direction.
+    /// Rotates a direction from the polytope's frame to A's.
     fn vector(&self, local: DVec3) -> DVec3;
 
-    /// Returns a vertex.
+    /// Returns the position of a vertex.
     #[inline(always)]
     fn vertex(&self, v: u32) -> DVec3 {
         self.point(self.shape().vertex(v).point)
     }
 
-    /// Returns an edge.
+    /// Returns the start, direction and length of an edge.
     #[inline(always)]
     fn line(&self, e: u32) -> Line {
         let edge = self.shape().edge(e);
@@ -33,18 +33,18 @@ pub(crate) trait Placed {
         }
     }
 
-    /// Returns the components of a vector into either of the faces that meet in an edge.
+    /// Returns the components of a vector along the directions from an edge into both of its faces.
     #[inline(always)]
     fn inward(&self, edge: &Edge, offset: DVec3) -> [f64; 2] {
         edge.inward.map(|inward| self.vector(inward).dot(offset))
     }
 }
 
-/// Polytope A.
+/// Polytope A, which needs no transform.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedA<'a>(pub(crate) &'a Polytope);
 
-/// Polytope B.
+/// Polytope B, with its transform to A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedB<'a> {
     shape: &'a Polytope,
@@ -52,7 +52,7 @@ pub(crate) struct PlacedB<'a> {
     translation: DVec3,
 }
 
-/// Both polytopes, and the rounding of their positions.
+/// Both polytopes in A's frame, and the scale of their rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedPair<'a> {
     pub(crate) a: PlacedA<'a>,
@@ -63,11 +63,11 @@ pub(crate) struct PlacedPair<'a> {
 /// The size of a pair of polytopes, which determines rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    /// The sum of both reaches and of the distance of the origins.
+    /// The sum of both polytopes' reaches and of the distance of their origins.
     pub(crate) size: f64,
 }
 
-/// A placed edge.
+/// An edge in A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     pub(crate) start: DVec3,
@@ -93,7 +93,7 @@ impl<'a> PlacedPair<'a> {
 }
 
 impl PlacedB<'_> {
-    /// Returns the position of the origin.
+    /// Returns the position of the polytope's origin in A's frame.
     pub(crate) fn origin(&self) -> DVec3 {
         self.translation
     }
@@ -109,7 +109,7 @@ impl PlacedB<'_> {
 }
 
 impl Scale {
-    /// Returns the largest error of a difference of two placed points.
+    /// Returns the largest rounding error of a difference of two transformed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
         PLACING * self.size
@@ -122,14 +122,14 @@ impl Line {
         self.start + self.along * parameter
     }
 
-    /// Returns the parameter of the nearest point to a given point.
+    /// Returns the parameter of the edge's point that is nearest to a given point.
     #[inline(always)]
     pub(crate) fn nearest(&self, point: DVec3) -> f64 {
         clamped((point - self.start).dot(self.along), self.length)
     }
 }
 
-/// Clamps between 0 and `length`; NaN becomes 0.
+/// Clamps a parameter to [0, length]; NaN becomes 0.
 #[inline(always)]
 pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)

@@ -1,5 +1,4 @@
-//! A convex polytope laid out for marching: corners, edges, faces, and the Voronoi planes between
-//! them `[VCLIP98 §3.1]`.
+//! Convex polytopes prepared for marching: corners, edges, faces, and the Voronoi planes between them `[VCLIP98 §3.1]`.
 
 mod assemble;
 mod build;
@@ -16,7 +15,7 @@ use support::DirectionTable;
 
 use ccd_core::glam::DVec3;
 
-/// A piece with the planes that bound the Voronoi regions of its features.
+/// A convex piece with the planes that bound the Voronoi regions of its features.
 ///
 /// Coordinates are relative to [`Polytope::origin`], so that their rounding depends on the piece's
 /// size, not its position. Every list is flat, and features are numbers.
@@ -31,7 +30,7 @@ use ccd_core::glam::DVec3;
 /// About 700 bytes for each corner of a polytope of triangles.
 #[derive(Clone, Debug)]
 pub(crate) struct Polytope {
-    /// The position of the origin in the piece's own coordinates.
+    /// The position of the polytope's origin in the piece's coordinates.
     pub(crate) origin: DVec3,
     /// The distance of the farthest corner from the origin.
     pub(crate) reach: f64,
@@ -40,27 +39,27 @@ pub(crate) struct Polytope {
     pub(crate) edges: Vec<Edge>,
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
-    /// The corners to climb from, in polytopes of many corners.
+    /// The corners from which a climb starts, for polytopes of many corners.
     directions: Option<Box<DirectionTable>>,
 }
 
-/// A corner.
+/// A corner of the polytope.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) point: DVec3,
-    /// Its number among the piece's points.
+    /// The index of the corner in the piece's points.
     pub(crate) number: u32,
     first_spoke: u32,
     end_spoke: u32,
 }
 
-/// An edge at one of its vertices: the normal of a vertex-edge plane.
+/// An edge at one of its vertices. Its direction is the normal of a vertex-edge plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spoke {
-    /// The direction away from the corner, of length one.
+    /// The unit vector away from the vertex along the edge.
     pub(crate) along: DVec3,
     pub(crate) edge: u32,
-    /// The corner at the other end.
+    /// The vertex at the other end.
     pub(crate) to: u32,
 }
 
@@ -68,43 +67,44 @@ pub(crate) struct Spoke {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     pub(crate) start: DVec3,
-    /// The direction towards the end, of length one.
+    /// The unit vector from the start to the end.
     pub(crate) along: DVec3,
     pub(crate) length: f64,
-    /// The direction from the edge into either face that meets here, of length one: the normal of
-    /// the face-edge plane. Zero for a missing face.
+    /// The unit vectors from the edge into the two faces that meet here, which are the normals of the face-edge planes.
+    /// Zero for a missing face.
     pub(crate) inward: [DVec3; 2],
     pub(crate) ends: [u32; 2],
-    /// [`NO_FACE`] for a missing face.
+    /// The indices of the two faces that meet here; [`NO_FACE`] for a missing one.
     pub(crate) faces: [u32; 2],
 }
 
-/// The face number of a missing face.
+/// The index that stands for a missing face.
 pub(crate) const NO_FACE: u32 = u32::MAX;
 
-/// A convex polygon.
+/// A face of the polytope: a convex polygon.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Face {
-    /// The outward normal, of length one.
+    /// The outward unit normal.
     pub(crate) normal: DVec3,
     first_side: u32,
     end_side: u32,
 }
 
-/// A side of a face, in the face's order, counterclockwise seen from outside.
+/// A side of a face; the sides of a face are ordered counterclockwise as seen from outside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
-    /// The same as [`Edge::inward`] for this face.
+    /// The unit vector into the face, the same as in [`Edge::inward`].
     pub(crate) inward: DVec3,
-    /// The same as [`Edge::start`], so that edge and face compute a point's side of the plane with the same bits.
+    /// The start of the edge, as in [`Edge::start`], so that edge and face compute a point's side of the plane with the
+    /// same bits.
     pub(crate) start: DVec3,
     pub(crate) edge: u32,
-    /// The corner that the side starts from in the face's order.
+    /// The corner at which the side starts in the face's order.
     pub(crate) vertex: u32,
 }
 
 impl Edge {
-    /// Returns whether a point with these components into the faces is certainly in the edge's Voronoi region.
+    /// Returns whether a point is certainly in the edge's Voronoi region, given its components into both faces.
     #[inline(always)]
     pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];
@@ -128,7 +128,7 @@ impl Polytope {
         &self.faces[f as usize]
     }
 
-    /// Returns the edges at a vertex.
+    /// Returns the edges at a vertex, each directed away from it.
     #[inline]
     pub(crate) fn spokes_of(&self, v: u32) -> &[Spoke] {
         let vertex = self.vertex(v);
@@ -142,7 +142,7 @@ impl Polytope {
         &self.sides[face.first_side as usize..face.end_side as usize]
     }
 
-    /// Returns the edges that end in a vertex, or the edge; none for a face.
+    /// Returns the edges at a vertex, or the edge itself; an empty list for a face.
     pub(crate) fn edges_at(&self, feature: Feature) -> Vec<u32> {
         match feature {
             Feature::Vertex(v) => self.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
@@ -151,7 +151,7 @@ impl Polytope {
         }
     }
 
-    /// Returns the face, or the faces of some edges, in ascending order.
+    /// Returns the face itself, or the faces that meet in some edges, in ascending order.
     pub(crate) fn faces_at(&self, feature: Feature, edges: &[u32]) -> Vec<u32> {
         let mut faces: Vec<u32> = match feature {
             Feature::Face(f) => vec![f],
@@ -163,7 +163,7 @@ impl Polytope {
         faces
     }
 
-    /// Returns whether the polytope has such a feature.
+    /// Returns whether the polytope has a feature with this number.
     #[inline]
     pub(crate) fn has(&self, feature: Feature) -> bool {
         let (number, count) = match feature {
@@ -174,7 +174,7 @@ impl Polytope {
         (number as usize) < count
     }
 
-    /// Returns the number of features.
+    /// Returns the number of vertices, edges and faces together.
     pub(crate) fn features(&self) -> usize {
         self.vertices.len() + self.edges.len() + self.faces.len()
     }

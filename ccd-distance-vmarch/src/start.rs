@@ -1,28 +1,28 @@
-//! The start of a march: the last pair of features, or extremal vertices `[SWIFT01]`.
+//! Chooses the pair from which a march starts: the last pair of features, or extremal vertices `[SWIFT01]`.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 
-/// The nearest features and their axis, as a warm start for the next call.
+/// The nearest features of the last call and their axis, from which the next call starts.
 ///
 /// Features are valid for their own polytope only. For any other one, such as a part of it, the
 /// axis determines the start. A cache only affects the start of a march.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cache(Option<Last>);
 
-/// The end of the last march.
+/// The end of the last march on the same pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Last {
     pair: Pair,
-    /// Fingerprints of both polytopes.
+    /// Fingerprints that identify both polytopes.
     fingerprints: [u64; 2],
     axis: DVec3,
 }
 
 impl Cache {
-    /// Stores a pair, with the axis from A to B.
+    /// Stores the nearest pair, with the axis from A to B.
     #[inline]
     pub(crate) fn keep(&mut self, placed: &PlacedPair<'_>, pair: Pair, axis: DVec3) {
         self.0 = Some(Last {
@@ -32,8 +32,8 @@ impl Cache {
         });
     }
 
-    /// Returns the start pair: the last one, or vertices that are extremal along the last axis or, without one, along
-    /// the vector between the origins.
+    /// Returns the pair to start from: the last one, or else vertices that are extremal along the last axis. Without an
+    /// axis, the vector between the origins replaces it.
     #[inline]
     pub(crate) fn start(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {
@@ -65,7 +65,7 @@ impl Cache {
     }
 }
 
-/// Returns fingerprints of both polytopes.
+/// Computes fingerprints that identify both polytopes.
 #[inline]
 fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
     let fingerprint = |polytope: &Polytope| {
@@ -78,14 +78,14 @@ fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
     [fingerprint(placed.a.shape()), fingerprint(placed.b.shape())]
 }
 
-/// Returns whether a march can begin at a pair: never at two faces.
+/// Returns whether a march can start at a pair; it never can at two faces.
 #[inline]
 fn is_state(placed: &PlacedPair<'_>, pair: Pair) -> bool {
     let two_faces = matches!((pair.a, pair.b), (Feature::Face(_), Feature::Face(_)));
     !two_faces && placed.a.shape().has(pair.a) && placed.b.shape().has(pair.b)
 }
 
-/// Returns the extremal vertices along an axis from A to B.
+/// Returns the vertices that are extremal along an axis from A to B.
 pub(crate) fn extremal(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
     let a = placed.a.shape().extremal(axis);
     let b = placed.b.shape().extremal(-placed.b.own_vector(axis));

@@ -1,24 +1,24 @@
-//! Termination of a march, and cycle detection.
+//! The ends of a march, and the detection of cycles.
 
 use crate::feature::{Certainty, Crossing, Pair, Which};
 
-/// The end of a march.
+/// Why and where a march ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum End {
-    /// Nearest features.
+    /// The march reached the nearest features.
     Nearest(Pair, Certainty),
-    /// A common point of A's and B's features, with the polytope of the edge.
+    /// The march found a common point of A's and B's features; `Which` is the polytope of the edge.
     Common(Pair, Which, Crossing),
-    /// A pair that occurred before.
+    /// The march returned to this pair.
     Cycle(Pair),
-    /// A pair behind all faces, without a proven common point.
+    /// This pair is behind all faces, but no common point could be proven.
     Unclear(Pair),
-    /// The pair at the cap of steps.
+    /// The march reached its limit of steps at this pair.
     Cap(Pair),
 }
 
-/// Brent's detection of cycles. Each state is compared with a remembered one, which is replaced after 1, 2, 4, … steps.
-/// A cycle is detected within three times the sum of its length and of the steps before it.
+/// Brent's algorithm for the detection of cycles. Each state is compared with a remembered one, which is replaced after
+/// 1, 2, 4, … steps. A cycle is detected within three times the sum of its length and of the steps before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Brent {
     left: Pair,
@@ -35,7 +35,7 @@ impl Brent {
         }
     }
 
-    /// Returns whether the march has returned to the remembered state.
+    /// Records a state, and returns whether it is the remembered one.
     #[inline]
     pub(crate) fn returned(&mut self, pair: Pair) -> bool {
         if pair == self.left {

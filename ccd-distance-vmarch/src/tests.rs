@@ -1,4 +1,4 @@
-//! Pairs of every kind against brute force: cold, warm, and with caches of other pairs.
+//! Compares pairs of every kind with brute force, with empty caches, with warm ones, and with caches of other pairs.
 //!
 //! To print the results: `CCD_TEST_SLOW=1 cargo test --release -p ccd-distance-vmarch agrees --
 //! --nocapture`.
@@ -19,8 +19,8 @@ use scene::{Kind, Scene};
 use shape::{Pcg64, SeedableRng, direction, magnitude};
 use twin::Bare;
 
-/// The number of scenes drawn of each kind; `CCD_TEST_CASES` in the environment multiplies it,
-/// `CCD_TEST_SLOW` makes it a million claims over all kinds.
+/// Returns the number of scenes of each kind. `CCD_TEST_CASES` in the environment multiplies it, `CCD_TEST_SLOW` makes
+/// it a million claims over all kinds.
 fn cases() -> u64 {
     let given = std::env::var("CCD_TEST_CASES").ok();
     let times: u64 = given.and_then(|text| text.parse().ok()).unwrap_or(1);
@@ -30,24 +30,23 @@ fn cases() -> u64 {
     }
 }
 
-/// The claims about one kind, summed up.
+/// A summary of the claims about one kind of pair.
 #[derive(Debug, Default)]
 struct Tally {
     claims: u64,
     meeting: u64,
     give_ups: u64,
-    /// The largest error of a distance, relative to it, where it is not less than a thousandth of the
-    /// coordinates.
+    /// The largest relative error of a distance, for distances of at least a thousandth of the coordinates.
     relative: f64,
-    /// The largest error in units of the coordinates' rounding.
+    /// The largest error of a distance, in units of the coordinates' rounding.
     rounding: f64,
-    /// The same for the largest difference of the distance and the axis' gap.
+    /// The largest difference of the distance and the gap along the axis, in the same units.
     short: f64,
     /// The largest distance claimed for intersecting pieces, in the same units.
     meeting_distance: f64,
 }
 
-/// Relative rounding of one operation.
+/// The relative rounding error of one operation in f64.
 const U: f64 = f64::EPSILON / 2.0;
 
 impl Tally {
@@ -108,7 +107,7 @@ fn described(scene: &Scene<'_>, claim: &Claim) -> String {
     format!("{claim:?} of {a:?}, {b:?}, {frame:?}")
 }
 
-/// The next pose of a coherent sequence.
+/// Moves the scene to the next pose of a coherent sequence.
 fn moved(scene: &mut Scene<'_>, rng: &mut Pcg64) {
     let step = lesser(magnitude(rng, -16.0, -2.0), 0.01 * scene.gap);
     scene.gap -= 8.0 * step;

@@ -1,4 +1,4 @@
-//! Axes for pieces with a common point, which may only touch.
+//! Finds axes for pieces with a common point, which may only touch.
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, Which};
@@ -7,7 +7,7 @@ use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
 use ccd_core::Claim;
 
-/// Returns the claim of a proven common point.
+/// Returns the claim about pieces with a proven common point.
 ///
 /// Its axis is the normal of the crossed face or, if the point is on the border of its features, the best separating
 /// axis nearby: the pieces may only touch.
@@ -28,8 +28,8 @@ pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing)
     claim
 }
 
-/// Returns the features that contain a common point; `None` if the interiors certainly meet: an edge passes through the
-/// interior of a face, or a point is inside a polytope.
+/// Returns the features that contain a common point; `None` if the interiors certainly meet. They meet if an edge
+/// passes through the interior of a face, or a point is inside a polytope.
 fn border(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match which {
@@ -76,7 +76,7 @@ fn features<X: Placed, Y: Placed>(
     Some((of_x, of_y))
 }
 
-/// Returns the edge between two vertices.
+/// Returns the edge between two vertices, if there is one.
 fn joining(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
     let mut spokes = shape.spokes_of(v).iter();
     let spoke = spokes.find(|spoke| spoke.to == w)?;

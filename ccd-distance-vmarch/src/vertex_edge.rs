@@ -1,4 +1,4 @@
-//! A corner against an edge `[VCLIP98 §3.2]`.
+//! The transition of the march from a corner against an edge `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
@@ -6,8 +6,8 @@ use crate::placed::{Line, Placed, Scale};
 use crate::tolerance::LEVEL;
 use ccd_core::glam::DVec3;
 
-/// Tests the corner against the edge's two vertex-edge planes and two face-edge planes, then the edge
-/// against the corner's vertex-edge planes.
+/// Tests the corner against the edge's two vertex-edge planes and two face-edge planes, then the edge against the
+/// corner's vertex-edge planes.
 ///
 /// V-Clip cuts the edge with those planes and computes the direction of decreasing distance at both
 /// ends of the rest. The distance decreases towards the corner's foot on the edge. The foot is
@@ -44,7 +44,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     Next::Stop(if clear { Sure } else { Tied })
 }
 
-/// Returns the face of an edge on the side of a point, if any; of two, the face with the larger height of the point.
+/// Returns the face of an edge on whose side a point is; of two, the face with the larger height of the point.
 #[inline(always)]
 pub(crate) fn side_faced<Y: Placed>(
     y: &Y,
@@ -63,16 +63,16 @@ pub(crate) fn side_faced<Y: Placed>(
     }
 }
 
-/// The edge of a corner that leads nearest to another edge's line.
+/// The edge at a corner that comes nearest to the line of another edge.
 struct Approach {
     edge: u32,
-    /// The gain in distance, beyond rounding.
+    /// The decrease in distance along the edge, beyond rounding.
     gain: f64,
-    /// Whether rounding hides the sign for some edge.
+    /// True if rounding hides for some edge whether it comes nearer.
     tied: bool,
 }
 
-/// Finds the corner's edge that leads nearest to the line; `offset` leads to the line.
+/// Finds the edge at a corner that comes nearest to a line; `offset` leads from the corner to the line.
 ///
 /// A step along the corner's edge is matched by one along the line, so only the edge's part across
 /// the line counts. It is small for nearly parallel edges, and the allowance for rounding has to be

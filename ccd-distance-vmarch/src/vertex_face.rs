@@ -1,13 +1,12 @@
-//! A corner against a face `[VCLIP98 §3.2]`.
+//! The transition of the march from a corner against a face `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Which};
 use crate::placed::{Placed, Scale};
 use crate::tolerance::LEVEL;
 
-/// Tests the corner against all face-edge planes; the march goes on to the edge of the most
-/// violated one. Above the face, it goes on to the corner's edge that falls towards the face most
-/// steeply.
+/// Tests the corner against all face-edge planes, and continues with the edge of the most violated one. Above the face,
+/// it continues with the corner's edge that falls towards the face most steeply.
 ///
 /// The nearest violated plane would be wrong: its edge need not be nearer.
 #[inline]

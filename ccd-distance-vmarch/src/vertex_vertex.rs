@@ -1,12 +1,12 @@
-//! A corner against a corner `[VCLIP98 §3.2]`.
+//! The transition of the march from a corner against a corner `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// Tests each corner against the other's vertex-edge planes; the march goes on to the edge that leads
-/// nearest to the other corner.
+/// Tests each corner against the other's vertex-edge planes, and continues with the edge that leads nearest to the
+/// other corner.
 ///
 /// No slack is needed: [`vertex_edge`](crate::vertex_edge) tests the same plane by the same product
 /// of the same numbers, so that no pair returns from there.
@@ -34,7 +34,7 @@ struct Steepest {
     slope: f64,
 }
 
-/// Returns the edge of a corner that leads farthest along a vector, for the same length of edge.
+/// Returns the edge at a corner that leads farthest along a vector, per unit of its length.
 #[inline(always)]
 fn steepest<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> Steepest {
     let mut best = Steepest {

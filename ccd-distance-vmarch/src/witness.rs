@@ -7,13 +7,13 @@ use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination};
 
-/// Nearest points of both polytopes, and the axis of their features.
+/// The nearest points of two features, and the axis between the features.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
-    /// The points as combinations of vertices.
+    /// The nearest points as combinations of vertices.
     spots: [Corners<3>; 2],
-    /// The direction from A to B, of any length.
+    /// The direction from A to B along which they are apart, of any length.
     pub(crate) axis: DVec3,
 }
 
@@ -62,7 +62,7 @@ impl Witness {
     }
 }
 
-/// Returns the claim of a proven common point, along the normal of the crossed face.
+/// Returns the claim about a proven common point, along the normal of the crossed face.
 pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
     let on_edge = |shape| named(shape, &crossing.on_edge);
@@ -177,7 +177,7 @@ fn on_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Corners<3> {
     }
 }
 
-/// Returns the foot of a point on a face, clamped to a triangle of the fan about its first corner.
+/// Projects a point onto a face, clamped to a triangle of the fan about its first corner.
 #[inline]
 fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Corners<3>) {
     let sides = y.shape().sides_of(f);
@@ -202,7 +202,7 @@ fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Cor
     )
 }
 
-/// Returns the weights of a triangle's corners for the foot of a point above it.
+/// Returns the weights of a triangle's corners for the projection of a point onto it.
 ///
 /// The weights are computed across the longest side first, then along it with the residual
 /// corrected. For a needle, the first is as accurate as rounding permits, and the second as the

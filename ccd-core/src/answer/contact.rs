@@ -5,7 +5,7 @@ use crate::body::feature::Feature;
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// A checked pair of nearest points, with the features that contain them.
+/// Two nearest pieces with bounds of their distance, their nearest points, and the features that contain these points.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
@@ -30,32 +30,32 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// The separation in world coordinates at the time reported.
+    /// The distance bounds, the normal and the nearest points, in world coordinates at the reported time.
     pub separation: Separation,
-    /// The feature of body A at its witness point.
+    /// The vertex, edge or face of body A that contains its nearest point.
     pub feature_a: Feature,
-    /// The feature of body B at its witness point.
+    /// The vertex, edge or face of body B that contains its nearest point.
     pub feature_b: Feature,
     /// The index of the piece of body A in [`Body::pieces`](crate::Body::pieces).
     pub piece_a: u32,
-    /// The index of the piece of body B.
+    /// The index of the piece of body B in [`Body::pieces`](crate::Body::pieces).
     pub piece_b: u32,
 }
 
 impl Contact {
-    /// Returns a contact of the bodies with an upper bound that holds for their shapes.
-    pub(crate) fn of_shapes(self, excess: Excess) -> Self {
+    /// Adds the excess of the bodies to the upper bound, so that it holds for the shapes within them.
+    pub(crate) fn to_shapes(self, excess: Excess) -> Self {
         Contact {
             separation: Separation {
-                upper: excess.above(self.separation.upper),
+                upper: excess.upper_bound_of_shapes(self.separation.upper),
                 ..self.separation
             },
             ..self
         }
     }
 
-    /// Returns the contact with its lower bound lowered to at most `least`, a bound for a part of the bodies.
-    pub(crate) fn no_nearer_than(self, least: f64) -> Self {
+    /// Lowers the contact's lower bound to at most `least`.
+    pub(crate) fn cap_lower_bound(self, least: f64) -> Self {
         Contact {
             separation: Separation {
                 lower: lesser(self.separation.lower, least),
@@ -66,33 +66,32 @@ impl Contact {
     }
 }
 
-/// A checked claim: two pieces are at least `lower` and at most `upper` apart.
+/// Proven bounds of the distance of two pieces: at least `lower`, at most `upper`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separation {
     /// A lower bound of the distance: the support gap along `normal`, minus rounding. Negative if
     /// no separating axis was found.
     pub lower: f64,
-    /// An upper bound of the distance: that of the witnesses, plus rounding. In an answer about the
+    /// An upper bound of the distance: the distance of the witnesses, plus rounding. Answers about the
     /// [least](crate::schedule::DepthFirst::closest_approach) or the
-    /// [greatest](crate::schedule::DepthFirst::greatest_distance)
-    /// distance, plus the excess of both bodies.
+    /// [greatest](crate::schedule::DepthFirst::greatest_distance) distance add the excess of both bodies.
     pub upper: f64,
-    /// The unit vector from A to B along which `lower` was checked.
+    /// The unit vector from A to B along which the gap `lower` was computed.
     pub normal: DVec3,
-    /// The witness point on A.
+    /// The point of A that is nearest to B.
     pub witness_a: DVec3,
-    /// The witness point on B.
+    /// The point of B that is nearest to A.
     pub witness_b: DVec3,
 }
 
 /// The proof of an overlap at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Overlap {
-    /// Two pieces intersect, and no axis separates them; the contact's witnesses are in both.
+    /// Two pieces intersect: no axis separates them, and the contact's nearest points are in both.
     Pieces(Contact),
-    /// This point of body A, in world coordinates, is inside the solid body B.
+    /// A point of body A, in world coordinates, that is inside the solid body B.
     AInsideB(DVec3),
-    /// This point of body B, in world coordinates, is inside the solid body A.
+    /// A point of body B, in world coordinates, that is inside the solid body A.
     BInsideA(DVec3),
 }
 

@@ -1,26 +1,25 @@
-//! The cost of an answer.
+//! Counters for the work that a query took.
 
 use crate::distance::oracle::Effort;
 use crate::tuning::LOOKS_PER_VISIT;
 
-/// The cost of an answer.
+/// Counters for the work that a query took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
     /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
     pub iterations: u64,
-    /// The approximate number of evaluations of points of pieces: in each step of an oracle's search, and each time a
-    /// gap is followed.
+    /// The approximate number of evaluations of piece points, in the oracle's searches and in bounds of future gaps.
     pub point_looks: u64,
     /// The number of calls of the oracle.
     pub oracle_calls: u64,
-    /// The number of times that the oracle gave up.
+    /// The number of oracle calls that returned no result.
     pub give_ups: u64,
-    /// The largest number of pairs that waited at one time.
+    /// The largest number of pairs that waited in the queue at one time.
     pub peak_front: u64,
-    /// The number of times that all pairs were advanced together: the steps of conservative
-    /// advancement, the first distance included. 0 for schedules with a clock for every pair.
+    /// The number of steps in which all pairs advanced together, the first distance included. These are the steps of
+    /// conservative advancement. It is 0 for schedules with a clock for every pair.
     pub advancements: u64,
-    /// The effort of the oracle.
+    /// The work of the oracle, in its own steps.
     pub effort: Effort,
 }
 
@@ -32,7 +31,7 @@ impl Stats {
         self.iterations + self.point_looks / LOOKS_PER_VISIT
     }
 
-    /// Adds the cost of another answer.
+    /// Adds the counters of another answer.
     pub(crate) fn add(&mut self, other: &Stats) {
         self.iterations += other.iterations;
         self.point_looks += other.point_looks;

@@ -3,28 +3,28 @@
 use super::Contact;
 use std::fmt;
 
-/// The bounds that are proven for a query that a limit ended.
+/// The bounds that were proven before a limit ended a query.
 ///
 /// The type is also an error, for callers that need an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unresolved {
-    /// The limit.
+    /// The limit that ended the query.
     pub limit: Limit,
-    /// The time before which the bodies do not touch, certified; 0 for queries about a distance.
+    /// A certified time before which the bodies do not touch; 0 for queries about a distance.
     pub safe_until: f64,
-    /// The time after which the bodies do not touch, certified; infinite unless the query is about the last contact.
+    /// A certified time after which the bodies do not touch; infinite unless the query is about the last contact.
     pub safe_from: f64,
     /// A lower bound of the requested distance; 0 if none is proven.
     pub lower: f64,
     /// An upper bound of the requested distance; infinite if none is known.
     pub upper: f64,
-    /// The time of the least or greatest distance that was measured, and the nearest pieces at that time. `None` if
+    /// The time at which the least or greatest distance was measured, and the nearest pieces at that time. `None` if
     /// none was measured.
     pub at: Option<(f64, Contact)>,
 }
 
 impl Unresolved {
-    /// Returns the value for a query about contacts.
+    /// Creates the bounds of a query about contacts: the bodies do not touch before `safe_until`.
     pub fn until(safe_until: f64, limit: Limit) -> Self {
         Unresolved {
             limit,
@@ -36,18 +36,19 @@ impl Unresolved {
         }
     }
 
-    /// Returns the value for the least distance: a lower bound, and the nearest pieces that were measured.
+    /// Creates the bounds of a query about the least distance: a lower bound, and the nearest pieces that were
+    /// measured.
     pub(crate) fn least(lower: f64, at: Option<(f64, Contact)>, limit: Limit) -> Self {
         Unresolved {
             lower,
             at,
             ..Unresolved::until(0.0, limit)
         }
-        .with_upper_of_contact()
+        .with_measured_upper_bound()
     }
 
-    /// Returns the value with the upper bound of the least distance that was measured.
-    pub(super) fn with_upper_of_contact(self) -> Self {
+    /// Sets the upper bound to that of the measured contact.
+    pub(super) fn with_measured_upper_bound(self) -> Self {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
         Unresolved {
             upper: self.at.map_or(f64::INFINITY, upper),
@@ -71,7 +72,7 @@ impl fmt::Display for Unresolved {
 
 impl std::error::Error for Unresolved {}
 
-/// The limit that ended a query early.
+/// The reason why a query ended before its answer was known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Limit {
@@ -81,12 +82,12 @@ pub enum Limit {
     Deadline,
     /// The caller [stopped](crate::Settings::stop) the query.
     Stopped,
-    /// A pair's proof could not be prolonged: the next step is below the time's resolution.
+    /// A pair's clock cannot advance any more: the next step is smaller than the resolution of time.
     Stalled,
     /// The oracle gave up on a pair, and no other oracle was available.
     OracleGaveUp,
-    /// Bodies that touch at the start, or one of which may be inside the other, are too near to
-    /// each other to decide whether they overlap.
+    /// The start is undecided: bodies that touch, or may be inside each other, are too near to decide whether they
+    /// overlap.
     Undecided,
 }
 
@@ -104,7 +105,7 @@ impl fmt::Display for Limit {
 }
 
 impl Limit {
-    /// Returns the reason why a query ended, and what to do about it.
+    /// Describes why a query ended, and what to do about it.
     ///
     /// ```
     /// assert!(ccd_core::Limit::Budget.advice().starts_with("the budget is spent"));

@@ -1,4 +1,4 @@
-//! A point of a piece, as a combination of the piece's points.
+//! Points of a piece as convex combinations of the piece's points.
 
 use crate::rounding::WEIGHTS;
 use glam::DVec3;
@@ -12,21 +12,22 @@ pub struct Combination {
 }
 
 impl Combination {
-    /// The combination of no points. Terms can be [pushed](Combination::push).
+    /// The empty combination, to which terms can be [added](Combination::push). Terms can be
+    /// [pushed](Combination::push).
     pub const EMPTY: Combination = Combination {
         indices: [0; 4],
         weights: [0.0; 4],
         len: 0,
     };
 
-    /// Creates a combination of one point.
+    /// Creates the combination that is a single point.
     pub fn point(index: u32) -> Self {
         let mut out = Self::EMPTY;
         out.push(index, 1.0);
         out
     }
 
-    /// Creates `(1 − t)` of one point plus `t` of another.
+    /// Creates the combination `(1 − t) p + t q` of two points.
     pub fn segment(indices: [u32; 2], t: f64) -> Self {
         let mut out = Self::EMPTY;
         out.push(indices[0], 1.0 - t);
@@ -34,8 +35,8 @@ impl Combination {
         out
     }
 
-    /// Adds a term. Weights that are not positive, or outside of [`WEIGHTS`], are dropped. Equal
-    /// indices are merged. Terms beyond four distinct indices are dropped.
+    /// Adds a point with a weight. Weights that are not positive, or outside of [`WEIGHTS`], are dropped. Equal indices
+    /// are merged. Terms beyond four distinct indices are dropped.
     pub fn push(&mut self, index: u32, weight: f64) {
         // A NaN is in no range.
         if !WEIGHTS.contains(&weight) {
@@ -51,12 +52,12 @@ impl Combination {
         }
     }
 
-    /// Returns the indices of the points with a positive weight.
+    /// Returns the indices of the points in the combination.
     pub fn support(&self) -> &[u32] {
         &self.indices[..self.len as usize]
     }
 
-    /// Returns the point; `None` when the combination is empty or has an index that `points` lacks.
+    /// Returns the position of the combination; `None` if it is empty, or has an index that `points` lacks.
     ///
     /// Weights are divided by their sum, so that the result is in the hull up to rounding.
     pub fn of(&self, points: &[DVec3]) -> Option<DVec3> {

@@ -4,7 +4,7 @@ use super::Body;
 use crate::error::{InputError, check_length};
 
 impl Body {
-    /// Returns the body as an enclosure of a shape, which it may exceed by a length.
+    /// Declares the body an enclosure of a shape, which it exceeds by at most `excess`.
     ///
     /// The body of an [`Enclosure`](crate::Enclosure) states its own excess; that of all others is 0.
     ///
@@ -31,7 +31,7 @@ impl Body {
         Ok(Body { excess, ..self })
     }
 
-    /// Returns the distance by which the body may exceed its shape, in its own unit of length; 0 for exact bodies.
+    /// Returns the distance by which the body may exceed its shape, in the body's unit of length; 0 for exact bodies.
     pub fn excess(&self) -> f64 {
         self.excess
     }
@@ -49,13 +49,13 @@ impl Excess {
         })
     }
 
-    /// Returns the largest distance of shapes whose bodies have a common point.
-    pub(crate) fn of_overlap(self) -> f64 {
+    /// Returns the largest possible distance of two shapes whose enclosing bodies overlap.
+    pub(crate) fn distance_of_overlap(self) -> f64 {
         self.0
     }
 
-    /// Returns an upper bound of the shapes' distance, given one of the bodies'.
-    pub(crate) fn above(self, upper: f64) -> f64 {
+    /// Converts an upper bound of the distance of two bodies to one of their shapes' distance.
+    pub(crate) fn upper_bound_of_shapes(self, upper: f64) -> f64 {
         if self.0 > 0.0 {
             (upper + self.0).next_up()
         } else {
@@ -63,9 +63,9 @@ impl Excess {
         }
     }
 
-    /// Returns the distance below which bodies have shapes that are certainly nearer than `distance`; not above 0 if
+    /// Returns the distance of bodies below which their shapes are certainly nearer than `distance`. It is 0 or less if
     /// there is none.
-    pub(crate) fn below(self, distance: f64) -> f64 {
+    pub(crate) fn certainly_nearer_below(self, distance: f64) -> f64 {
         if self.0 > 0.0 {
             (distance - self.0).next_down()
         } else {

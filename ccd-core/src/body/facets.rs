@@ -2,12 +2,12 @@
 
 use super::polytope::{Face, Origin};
 
-/// The facets of a piece: convex polygons, each a loop of indices into the piece's points, counterclockwise seen from
-/// outside. The mesh's faces on them are included.
+/// The facets of a piece as convex polygons. Each is a loop of indices into the piece's points, counterclockwise seen
+/// from outside. The mesh's faces on them are included.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
     pub(crate) origins: &'a [Origin],
-    /// The end of each facet's corners in `corners`, counted from `base`.
+    /// The end of each facet's corners in `corners`, plus `base`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
     pub(crate) base: u32,
@@ -15,7 +15,7 @@ pub struct Facets<'a> {
 }
 
 impl<'a> Facets<'a> {
-    /// The empty list of facets.
+    /// An empty list of facets.
     pub const NONE: Facets<'static> = Facets {
         origins: &[],
         ends: &[],
@@ -34,25 +34,25 @@ impl<'a> Facets<'a> {
         self.ends.is_empty()
     }
 
-    /// Returns the corner loops, facet by facet.
+    /// Returns the corner indices of each facet.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &'a [u32]> + Clone + use<'a> {
         let facets = *self;
         (0..facets.ends.len()).map(move |k| facets.get(k))
     }
 
-    /// Returns one corner loop.
+    /// Returns the corner indices of facet `k`.
     pub(crate) fn get(&self, k: usize) -> &'a [u32] {
         let start = if k == 0 { self.base } else { self.ends[k - 1] };
         &self.corners[start as usize..self.ends[k] as usize]
     }
 
-    /// Returns the origin of each facet in the mesh.
+    /// Returns for each facet which part of the mesh it came from.
     pub fn origins(&self) -> &'a [Origin] {
         self.origins
     }
 }
 
-/// Returns the `k`-th range of a list given by the ends of its ranges.
+/// Returns the `k`-th range of a list that is stored by the ends of its ranges.
 #[inline]
 pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
     let start = if k == 0 { 0 } else { ends[k - 1] };

@@ -1,4 +1,4 @@
-//! The side of a flat piece on which the solid is.
+//! The outward side of a flat piece.
 
 use super::tree::ray::crossings;
 use super::{Body, Volume};
@@ -7,26 +7,26 @@ use crate::rounding::U64;
 use crate::tuning::BELOW_SURFACE;
 use glam::DVec3;
 
-/// The side of a flat piece on which the solid is that the body's faces bound.
+/// The side of a flat piece on which the solid bounded by the body's faces lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Facing {
     /// The solid is on one side only; the unit normal points out of it.
     Out(DVec3),
-    /// The solid is on neither side, or its side is unknown: a piece of a surface, a piece with a volume or without
-    /// an area, two faces back to back.
+    /// The outward side does not exist or is unknown. Examples are a piece of a surface, a piece with a volume or
+    /// without an area, and two faces back to back.
     Neither,
     /// The solid is on different sides at different points, or other faces are too near to decide.
     Unclear,
 }
 
-/// The facts that are stored about a piece.
+/// The cached results for a flat piece of a solid.
 struct Kept {
     facing: Facing,
     inside: Option<DVec3>,
 }
 
 impl Body {
-    /// Returns the side of a piece on which the solid is.
+    /// Returns on which side of a piece the solid is.
     ///
     /// # Guarantee
     /// [`Facing::Out`] and [`Facing::Neither`] of a solid's flat piece hold, exactly, at the four
@@ -36,8 +36,7 @@ impl Body {
         self.kept(piece).map_or(Facing::Neither, |kept| kept.facing)
     }
 
-    /// Returns the unit normal of a flat piece that points out of the solid bounded by the body's faces; `None` if
-    /// the piece has none.
+    /// Returns the unit normal of a flat piece that points out of the solid; `None` if there is no such normal.
     pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
         match self.facing(piece) {
             Facing::Out(normal) => Some(normal),
@@ -45,7 +44,7 @@ impl Body {
         }
     }
 
-    /// Returns a point of the solid next to the middle of a piece, or within the piece; `None` if there is none.
+    /// Returns a point inside the solid, near the middle of a piece; `None` if there is none.
     pub(crate) fn point_inside(&self, piece: u32) -> Option<DVec3> {
         if !self.pieces().get(piece as usize).is_flat() {
             return Some(self.middle(piece));
@@ -59,7 +58,7 @@ impl Body {
         points.iter().sum::<DVec3>() / points.len() as f64
     }
 
-    /// Returns the facts about a solid's flat piece, which are computed at the first request.
+    /// Returns the cached results for a flat piece of a solid, and computes them at the first call.
     fn kept(&self, piece: u32) -> Option<&Kept> {
         let of = self.pieces().get(piece as usize);
         if self.volume() == Volume::Surface || !of.is_flat() {
@@ -98,7 +97,7 @@ impl Body {
         Kept { facing, inside }
     }
 
-    /// Returns the side of a face with this normal on which the surface winds about a point of the face.
+    /// Returns on which side of a face with this normal the surface has a nonzero winding number, near the point `at`.
     fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
         // A mean is rounded in units of the coordinates.
         let slack = 4.0 * U64 * at.abs().element_sum();
@@ -107,7 +106,7 @@ impl Body {
         };
         let (ahead, behind) = (found.beyond, found.beyond + found.at_start);
         let ahead_is_out = match ahead.abs().cmp(&behind.abs()) {
-            _ if found.on == 0 => return Facing::Unclear,
+            _ if found.triangles_at_start == 0 => return Facing::Unclear,
             std::cmp::Ordering::Equal => return Facing::Neither,
             std::cmp::Ordering::Less => true,
             std::cmp::Ordering::Greater => false,
@@ -119,10 +118,10 @@ impl Body {
         }
     }
 
-    /// Returns whether the body's surface certainly winds about a point.
+    /// Returns whether the winding number of the body's surface about a point is certainly not 0.
     fn winds_about(&self, point: DVec3) -> bool {
         crossings(self.tree(), self.pieces(), point, 0.0)
-            .is_some_and(|found| found.on == 0 && found.beyond != 0)
+            .is_some_and(|found| found.triangles_at_start == 0 && found.beyond != 0)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Features in contact: vertices, edges and faces, numbered as in the mesh.
+//! Vertices, edges and faces of a body, numbered as in its mesh.
 
 use std::fmt;
 
@@ -7,13 +7,13 @@ use std::fmt;
 /// A feature prints as `v7`, `e3-7`, `f12` or `p0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Feature {
-    /// A vertex.
+    /// A vertex, by its number.
     Vertex(u32),
     /// The edge between two vertices, the smaller number first.
     Edge(u32, u32),
-    /// A face.
+    /// A face, by its number.
     Face(u32),
-    /// The inside of a piece, or a piece without known facets.
+    /// A piece as a whole: the point is inside it, or its facets are unknown.
     Piece(u32),
 }
 

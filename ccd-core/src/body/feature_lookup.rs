@@ -1,4 +1,4 @@
-//! The lookup of the mesh's feature that contains a point of a polytope.
+//! Finds the mesh's vertex, edge or face that contains a point of a polytope.
 
 use super::combination::Combination;
 use super::facets::range;
@@ -9,7 +9,7 @@ use crate::math::vector::{normal, unit};
 use crate::tuning::{CLIMBED_POINTS, ON_FACET};
 use glam::DVec3;
 
-/// The feature at a point of a polytope, by the polytope's corners and the mesh's faces.
+/// The mesh's feature at a point of a polytope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MeshFeature {
     Vertex(u32),
@@ -18,7 +18,7 @@ pub(crate) enum MeshFeature {
     Nothing,
 }
 
-/// Returns the feature of a combination of corners.
+/// Finds the mesh's feature that contains a combination of corners.
 ///
 /// Even if no facet of the mesh contains all of the corners, the point may be on the mesh: a
 /// virtual facet may be within the surface, and so may a chord of two coplanar faces.
@@ -57,12 +57,12 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
         Some((face, _)) => MeshFeature::Face(face),
         None => point
             .of(piece.points)
-            .and_then(|at| face_under(piece, at))
+            .and_then(|at| face_at(piece, at))
             .map_or(MeshFeature::Nothing, MeshFeature::Face),
     }
 }
 
-/// Returns whether any part of the mesh is on the piece.
+/// Returns whether the piece has any faces of the mesh.
 fn is_on_mesh(piece: &Piece<'_>) -> bool {
     match FacetsByCorner::of(piece) {
         Some(by_corner) => by_corner.is_on_mesh,
@@ -70,17 +70,17 @@ fn is_on_mesh(piece: &Piece<'_>) -> bool {
     }
 }
 
-/// The facets of a piece that meet in each of its corners.
+/// For each corner of a piece, the facets that meet in it.
 struct FacetsByCorner {
     is_on_mesh: bool,
     facets: Vec<u32>,
-    /// The end of each corner's facets.
+    /// The end of each corner's facets in the list of facets.
     ends: Vec<u32>,
 }
 
 impl FacetsByCorner {
-    /// Returns the table of a piece of many facets, created once and stored; `None` for a piece of few facets, or
-    /// outside of a list.
+    /// Returns the table of a piece of many facets, created once and stored. Returns `None` for a piece of few facets,
+    /// or one that belongs to no list.
     fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > CLIMBED_POINTS;
         let kept = many.then(|| piece.kept(|piece| Box::new(FacetsByCorner::new(piece))))?;
@@ -101,19 +101,19 @@ impl FacetsByCorner {
         }
     }
 
-    /// Returns the facets of a corner in ascending order.
+    /// Returns the facets that meet in a corner, in ascending order.
     fn at(&self, corner: u32) -> &[u32] {
         &self.facets[range(&self.ends, corner as usize)]
     }
 }
 
-/// Prepares the lookup for points of a piece, so that no query waits for it.
+/// Builds the table of a piece in advance, so that no query waits for it.
 pub(crate) fn prepare(piece: &Piece<'_>) {
     FacetsByCorner::of(piece);
 }
 
 /// Returns the face of the mesh that contains a point, up to rounding.
-pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
+pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     if !is_on_mesh(piece) {
         return None;
     }
@@ -126,13 +126,14 @@ pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     let off = piece
         .mesh_triangles()
         .filter(|&(_, triangle)| near(triangle))
-        .map(|(id, triangle)| (distance_off(triangle, point), id));
+        .map(|(id, triangle)| (distance_from_triangle(triangle, point), id));
     let (off, face) = off.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (off <= reach).then_some(face)
 }
 
-/// Returns the greater of two distances of a point: from a triangle's plane, and beyond the triangle's edges.
-fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+/// Returns how far a point is off a triangle: the greater of its distance from the plane, and of how far it is beyond
+/// the edges.
+fn distance_from_triangle([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;
     };

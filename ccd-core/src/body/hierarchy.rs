@@ -1,4 +1,4 @@
-//! A binary hierarchy over pieces, as any BVH builder returns it.
+//! Binary hierarchies over pieces, in the form in which BVH builders return them.
 
 use super::pieces::Pieces;
 use crate::error::InputError;
@@ -22,9 +22,9 @@ pub struct Hierarchy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HierarchyNode {
-    /// One piece, by its index.
+    /// A leaf with one piece, by its index.
     Leaf(u32),
-    /// Two nodes, by their indices.
+    /// An inner node with two children, by their indices.
     Inner(u32, u32),
 }
 
@@ -58,7 +58,7 @@ impl Hierarchy {
         }
     }
 
-    /// Splits the pieces recursively, at the median of their centres along the longest side.
+    /// Builds a hierarchy by recursive splits at the median of the pieces' centres, along the longest side.
     pub fn median_split(pieces: &Pieces) -> Self {
         let centres: Vec<DVec3> = pieces
             .iter()
@@ -115,7 +115,7 @@ impl From<Hierarchy> for Vec<HierarchyNode> {
     }
 }
 
-/// Returns the corners of the smallest axis-aligned box that contains all points.
+/// Returns the lowest and the highest corner of the bounding box of some points.
 pub(crate) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
         (lo.min(p), hi.max(p))

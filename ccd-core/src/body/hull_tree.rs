@@ -1,4 +1,4 @@
-//! The convex hull tree: a hull at every node, the pieces at the leaves `[FAST06 §3.3]`.
+//! The convex hull tree: every node has the hull of the pieces below it `[FAST06 §3.3]`.
 
 mod assemble;
 mod bottom_up;
@@ -27,8 +27,8 @@ use super::pieces::Pieces;
 use convex::support_of;
 use std::sync::Arc;
 
-/// A binary tree over the pieces of a body. Every node has the convex hull of all pieces below
-/// `[SWIFT01]`.
+/// A binary tree over the pieces of a body in which every node has the convex hull of all pieces below it `[SWIFT01]`.
+/// Every node has the convex hull of all pieces below `[SWIFT01]`.
 ///
 /// # Guarantee
 /// - A leaf's hull is its piece.
@@ -47,7 +47,7 @@ use std::sync::Arc;
 )]
 pub struct HullTree {
     hierarchy: Hierarchy,
-    /// Clones share the hulls, even if their leaves number the pieces differently.
+    /// The hulls, which clones share even if their leaves number the pieces differently.
     hulls: Arc<Hulls>,
 }
 
@@ -55,27 +55,27 @@ pub struct HullTree {
 #[derive(Debug)]
 struct Hulls {
     pieces: Pieces,
-    /// The classes of the facets of all hulls, in order.
+    /// The classes of the facets of all hulls, hull by hull.
     classes: Vec<FacetClass>,
-    /// The end of each hull's facets.
+    /// The end of each hull's facets in `classes`.
     class_ends: Vec<u32>,
-    /// True if all pieces below a node have the node's rounding radius.
-    evenly_rounded: Vec<bool>,
-    /// Half the diagonal of each hull's box, rounding included.
+    /// For each node, whether all pieces below it have the same rounding radius.
+    has_uniform_radius: Vec<bool>,
+    /// Half the diagonal of each hull's bounding box, rounding included.
     sizes: Vec<f64>,
-    /// The facets that meet in each point of all hulls, by their indices within the hull, in order.
-    meeting: Vec<u32>,
-    /// The end of each point's facets.
-    meeting_ends: Vec<u32>,
+    /// The facets that meet in each point, for all points of all hulls, by their indices within the hull.
+    facets_by_point: Vec<u32>,
+    /// The end of each point's facets in `facets_by_point`.
+    facets_by_point_ends: Vec<u32>,
 }
 
 impl HullTree {
-    /// Returns the nodes, the root first; leaves name pieces.
+    /// Returns the nodes, the root first; leaves have the indices of pieces.
     pub fn hierarchy(&self) -> &Hierarchy {
         &self.hierarchy
     }
 
-    /// Returns the hulls of all nodes, in the order of the nodes, usable like pieces. Features of an inner hull have
+    /// Returns the hulls of all nodes, in the order of the nodes, in the form of pieces. Features of an inner hull have
     /// their names in the mesh if they are part of it.
     pub fn hulls(&self) -> &Pieces {
         &self.hulls.pieces
@@ -89,8 +89,8 @@ impl HullTree {
         &self.hulls.classes[range(&self.hulls.class_ends, node as usize)]
     }
 
-    /// Returns the class of the feature that contains a combination of a node's points: the best of
-    /// the facets that meet there `[SWIFT01]`.
+    /// Returns the class of the feature that contains a combination of a node's points: the best class among the facets
+    /// that meet there `[SWIFT01]`.
     ///
     /// # Guarantee
     /// Unless the class is [`FacetClass::Free`], the combination is on or in a piece below the
@@ -101,7 +101,7 @@ impl HullTree {
     pub fn class_of(&self, node: u32, point: &Combination) -> FacetClass {
         let at = node as usize;
         let support = point.support();
-        if support.is_empty() || !self.hulls.evenly_rounded[at] {
+        if support.is_empty() || !self.hulls.has_uniform_radius[at] {
             return FacetClass::Free;
         }
         if support.len() == 1 {
@@ -112,9 +112,9 @@ impl HullTree {
             HierarchyNode::Leaf(_) => FacetClass::Contained,
             HierarchyNode::Inner(..) => FacetClass::Free,
         };
-        let (first, others) = (self.hulls.meeting(at, support[0]), &support[1..]);
+        let (first, others) = (self.hulls.facets_by_point(at, support[0]), &support[1..]);
         let holding = first.iter().filter(|facet| {
-            let holds = |&v| self.hulls.meeting(at, v).contains(facet);
+            let holds = |&v| self.hulls.facets_by_point(at, v).contains(facet);
             others.iter().all(holds)
         });
         let classes = self.facet_classes(node);
@@ -122,13 +122,16 @@ impl HullTree {
         holding.map(class).min().unwrap_or(inside)
     }
 
-    /// Returns a node's hull. In a hull of many points, extremal ones are found by climbing edges if these are proven
-    /// to be those of the hull, and otherwise by searching a tree.
+    /// Returns the hull of a node, with a search structure for extremal points. Edges are climbed if they are proven to
+    /// be those of the hull. Otherwise a tree is searched.
     pub(crate) fn hull(&self, node: u32) -> Piece<'_> {
-        self.hulls.pieces.get(node as usize).supported(support_of)
+        self.hulls
+            .pieces
+            .get(node as usize)
+            .with_support(support_of)
     }
 
-    /// Returns nodes from which the tree can be [built](HullTree::new) again.
+    /// Returns the input nodes from which the tree can be [built](HullTree::new) again.
     pub fn to_nodes(&self) -> Vec<HullNode> {
         let inner = |at: usize, children: [u32; 2]| {
             let hull = self.hulls.pieces.get(at);
@@ -145,33 +148,32 @@ impl HullTree {
             .collect()
     }
 
-    /// Returns half the diagonal of a node's box, rounding included.
+    /// Returns half the diagonal of a node's bounding box, rounding included.
     #[inline]
     pub(crate) fn size(&self, node: u32) -> f64 {
         self.hulls.sizes[node as usize]
     }
 
-    /// Returns the approximate number of bytes held.
+    /// Returns the approximate memory use in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.hulls.bytes()
     }
 }
 
 impl Hulls {
-    /// Returns the facets of a node's hull that meet in one of its points; empty when there is no
-    /// such point.
-    fn meeting(&self, node: usize, point: u32) -> &[u32] {
+    /// Returns the facets of a node's hull that meet in one of its points; empty if there is no such point.
+    fn facets_by_point(&self, node: usize, point: u32) -> &[u32] {
         let points = self.pieces.point_range(node);
         let at = points.start + point as usize;
         if !points.contains(&at) {
             return &[];
         }
-        &self.meeting[range(&self.meeting_ends, at)]
+        &self.facets_by_point[range(&self.facets_by_point_ends, at)]
     }
 
     fn bytes(&self) -> usize {
-        let meeting = 4 * (self.meeting.len() + self.meeting_ends.len());
-        self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + meeting
+        let facets_by_point = 4 * (self.facets_by_point.len() + self.facets_by_point_ends.len());
+        self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + facets_by_point
     }
 }
 

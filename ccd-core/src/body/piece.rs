@@ -1,4 +1,4 @@
-//! Convex pieces: the parts of bodies, and the operands of oracles.
+//! Convex pieces, of which bodies consist and whose distances oracles compute.
 
 use super::facets::Facets;
 use super::polytope::Origin;
@@ -16,19 +16,19 @@ use std::any::Any;
 /// A ball is one point and a radius, a capsule two points and a radius, a triangle three points.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<'a> {
-    /// The points: at least one, all finite; not necessarily all extreme, or distinct.
+    /// The points whose hull is the piece: at least one, all finite. They need not be extreme or distinct.
     pub points: &'a [DVec3],
-    /// The rounding radius, ≥ 0.
+    /// The radius of the ball by which the hull is grown, ≥ 0.
     pub radius: f64,
     /// The facets of the hull, if known; empty for up to three points.
     pub facets: Facets<'a>,
-    /// A search for extremal points, if one is prepared and proven correct.
+    /// A search structure for extremal points, if one was prepared.
     pub(crate) support: Option<&'a Support>,
-    /// The place for the values that backends store with the piece.
+    /// The entry in which backends store values with the piece.
     pub(crate) slot: Option<Slot<'a>>,
 }
 
-/// The entry of a side table that belongs to a piece.
+/// The entry of a piece in a side table.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slot<'a> {
     pub(crate) side_table: &'a SideTable,
@@ -37,7 +37,7 @@ pub(crate) struct Slot<'a> {
 }
 
 impl<'a> Piece<'a> {
-    /// Creates a piece without known facets, e.g. to try an oracle.
+    /// Creates a piece without known facets, for example to try an oracle.
     pub fn from_points(points: &'a [DVec3]) -> Self {
         Piece {
             points,
@@ -48,8 +48,8 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns a value that a backend derives from the piece. The value is computed at the first request and stored
-    /// as long as the list of the piece exists. Returns `None` for a piece that belongs to no list.
+    /// Returns a value that a backend derives from the piece. It is computed when first requested, and stored as long
+    /// as the list of the piece exists. Returns `None` for a piece that belongs to no list.
     ///
     /// The value belongs to the piece as stored in the list, regardless of later changes of the public fields. The
     /// function `make` must not request the same type of the same piece: it would wait for itself.
@@ -75,10 +75,10 @@ impl<'a> Piece<'a> {
         Some(entry.get_or_init(|| make(self)))
     }
 
-    /// Returns the piece with a search for extremal points if it has many points. The search is created once and
+    /// Adds a search structure for extremal points if the piece has many points. The structure is created once and
     /// stored.
     #[inline]
-    pub(crate) fn supported(self, make: impl FnOnce(&Self) -> Support) -> Self {
+    pub(crate) fn with_support(self, make: impl FnOnce(&Self) -> Support) -> Self {
         if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
             return self;
         }
@@ -89,8 +89,8 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns the mesh's triangles that are on the piece, with the numbers of their faces. Polygons become fans
-    /// about their first corner.
+    /// Returns the mesh's triangles on the piece, each with the number of its face. Polygons become fans about their
+    /// first corner.
     pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
         let facets = self.facets.origins.iter().zip(self.facets.iter());
         let fans = facets.flat_map(|(origin, corners)| {
@@ -127,19 +127,20 @@ impl<'a> Piece<'a> {
         found
     }
 
-    /// Returns a point that is farthest along a direction.
+    /// Returns the position of a point that is farthest along a direction.
     pub(crate) fn farthest(&self, direction: DVec3) -> DVec3 {
         self.points[self.extremal(direction) as usize]
     }
 
-    /// Returns a ball about the points, if there are many and [`Piece::extremal`] is fast.
+    /// Returns the centre and radius of a ball around the points; `None` if there are few points, or no search
+    /// structure.
     #[inline]
     pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
         self.support.and_then(Support::ball)
     }
 
-    /// Returns an upper bound of the points' distances from a point, as tight as rounding allows.
-    pub(crate) fn farthest_from(&self, from: DVec3) -> f64 {
+    /// Returns an upper bound of the distances of the piece's points from `from`, as tight as rounding allows.
+    pub(crate) fn max_distance_from(&self, from: DVec3) -> f64 {
         if let Some((middle, radius)) = self.ball() {
             return (distance(middle, from) + radius) * (1.0 + RATE_F64);
         }
@@ -147,7 +148,7 @@ impl<'a> Piece<'a> {
         squares.fold(0.0, greater).sqrt()
     }
 
-    /// Returns the approximate number of points tested to find an extremal one.
+    /// Returns the approximate number of points that a search for an extremal point evaluates.
     pub(crate) fn looks(&self) -> u64 {
         let few = self.points.len().min(CLIMBED_POINTS);
         match self.support {
@@ -156,7 +157,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns whether the piece is in a plane: a polytope with volume has more than two facets.
+    /// Returns whether all points of the piece are in one plane, judged by the number of facets.
     pub(crate) fn is_flat(&self) -> bool {
         self.points.len() <= 3 || self.facets.len() == 2
     }

@@ -1,4 +1,4 @@
-//! The pieces of one body, flat in memory.
+//! The list of a body's convex pieces, stored contiguously.
 
 pub(crate) mod builder;
 #[cfg(feature = "serde")]
@@ -16,7 +16,7 @@ use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
 use glam::DVec3;
 
-/// The pieces of one body, flat in memory, with the numbers of the mesh that they came from.
+/// The convex pieces of one body, with the numbers of the mesh from which they came.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -26,7 +26,8 @@ use glam::DVec3;
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    /// The end of each piece's points. The list is empty for triangles, which have three each.
+    /// The end of each piece's points; empty if all pieces are triangles. The list is empty for triangles, which have
+    /// three each.
     point_ends: Vec<u32>,
     radii: Radii,
     shape: Shape,
@@ -34,7 +35,8 @@ pub struct Pieces {
     side_table: SideTable,
 }
 
-/// The most points. Indices have 32 bits: a quarter of their range is for points, the rest leaves room for nodes.
+/// The largest number of points of all pieces together. Indices have 32 bits: a quarter of their range is for points,
+/// the rest leaves room for nodes.
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
@@ -45,7 +47,7 @@ enum Radii {
 
 #[derive(Clone, Debug)]
 enum Shape {
-    /// Every piece is a triangle, and has its number in the mesh.
+    /// Every piece is a triangle, and is one face of the mesh.
     Triangles {
         face_ids: Vec<u32>,
     },
@@ -58,10 +60,10 @@ struct Surfaces {
     /// The end of each piece's facets in `corner_ends` and `origins`.
     facet_ends: Vec<u32>,
     origins: Vec<Origin>,
-    /// The end of each facet's corners.
+    /// The end of each facet's corners in the list of corners.
     corner_ends: Vec<u32>,
     corners: Vec<u32>,
-    /// The end of each piece's faces.
+    /// The end of each piece's mesh faces.
     face_ends: Vec<u32>,
     faces: Vec<Face>,
 }
@@ -136,7 +138,7 @@ impl Pieces {
         Ok(self)
     }
 
-    /// Returns the number of pieces, which is at least one.
+    /// Returns the number of pieces, at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         match &self.shape {
@@ -145,12 +147,12 @@ impl Pieces {
         }
     }
 
-    /// Returns whether every piece is a triangle without rounding.
+    /// Returns whether every piece is a triangle with radius 0.
     pub fn all_triangles(&self) -> bool {
         matches!(self.shape, Shape::Triangles { .. })
     }
 
-    /// Returns one piece.
+    /// Returns the piece with this index.
     ///
     /// # Panics
     /// When `index` is not below [`Pieces::len`].
@@ -179,7 +181,7 @@ impl Pieces {
         &self.points
     }
 
-    /// Returns the approximate number of bytes held.
+    /// Returns the approximate memory use in bytes.
     pub(crate) fn bytes(&self) -> usize {
         let numbers = self.vertex_ids.len() + self.point_ends.len();
         let others = match &self.shape {
@@ -189,14 +191,14 @@ impl Pieces {
         size_of_val(self.points.as_slice()) + 4 * numbers + others
     }
 
-    /// Returns the three corners of a piece, if [`Pieces::all_triangles`] holds.
+    /// Returns the three corners of a piece. All pieces must be triangles.
     #[inline]
     pub(crate) fn triangle(&self, index: usize) -> [DVec3; 3] {
         let corners = &self.points[3 * index..3 * index + 3];
         [corners[0], corners[1], corners[2]]
     }
 
-    /// Returns the corners of a piece that is a triangle, or of the first of the mesh's triangles on the piece.
+    /// Returns the corners of the first mesh triangle on a piece, or of the piece if it is a triangle.
     pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
         if self.all_triangles() {
             Some(self.triangle(index))
@@ -205,13 +207,13 @@ impl Pieces {
         }
     }
 
-    /// Returns all points of consecutive pieces.
+    /// Returns the points of a range of pieces.
     pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
         let start = self.point_range(pieces.start).start;
         &self.points[start..self.point_range(pieces.end - 1).end]
     }
 
-    /// Returns the pieces in another order: piece `k` of the result is piece `order[k]` of this.
+    /// Returns the pieces in a new order: piece `k` of the result is piece `order[k]` of `self`.
     pub(crate) fn reordered(&self, order: &[u32]) -> Pieces {
         let mut out = Pieces {
             points: Vec::with_capacity(self.points.len()),
@@ -237,9 +239,9 @@ impl Pieces {
         out
     }
 
-    /// Returns the mesh's feature at a point of a piece. This is the vertex, edge or face that contains the corners
-    /// that the point combines, or else the face that contains the point; [`Feature::Piece`] inside, and on a
-    /// polytope whose facets are all virtual.
+    /// Returns the mesh's feature at a point of a piece. This is the vertex, edge or face that has the combined
+    /// corners, or else the face that contains the point. It is [`Feature::Piece`] for points inside, and if all facets
+    /// of the piece are virtual.
     pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
         match (&self.shape, point.support()) {

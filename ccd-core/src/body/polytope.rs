@@ -1,4 +1,4 @@
-//! The input format of a piece.
+//! The input format of convex pieces.
 
 use glam::DVec3;
 
@@ -6,15 +6,15 @@ use glam::DVec3;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Polytope {
-    /// The points; the polytope is their hull.
+    /// The points whose hull is the polytope.
     pub points: Vec<DVec3>,
-    /// The number of each point in its mesh. An empty list numbers them from 0.
+    /// The mesh's vertex number of each point. An empty list numbers them from 0.
     pub vertex_ids: Vec<u32>,
     /// The hull's facets, if known: they tile the boundary of the hull. A flat polygon has two.
     pub facets: Vec<Facet>,
     /// The mesh's faces that are on the hull's boundary and are not a facet by themselves.
     pub faces: Vec<Face>,
-    /// The rounding radius, ≥ 0.
+    /// The radius of the ball by which the hull is grown, ≥ 0.
     pub radius: f64,
 }
 
@@ -22,21 +22,21 @@ pub struct Polytope {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
-    /// The origin of the facet in the mesh.
+    /// Which part of the mesh the facet came from.
     pub origin: Origin,
     /// The corners as indices into the polytope's points, counterclockwise seen from outside.
     pub corners: Vec<u32>,
 }
 
-/// The origin of a polytope's facet in the mesh.
+/// Which part of the mesh a polytope's facet came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Origin {
-    /// The face with this number.
+    /// The facet is the mesh's face with this number.
     Face(u32),
-    /// Several coplanar faces, listed in [`Polytope::faces`].
+    /// The facet consists of several coplanar faces, listed in [`Polytope::faces`].
     Faces,
-    /// The facet is no part of the mesh, or only partly: it closes the polytope.
+    /// The facet closes the polytope, and is not part of the mesh, or only partly.
     Virtual,
 }
 
@@ -46,7 +46,7 @@ pub enum Origin {
 pub struct Face {
     /// The number of the face in the mesh.
     pub id: u32,
-    /// The numbers of the face's corners in the mesh.
+    /// The mesh's numbers of the triangle's vertices.
     pub vertices: [u32; 3],
     /// The corners, counterclockwise seen from outside; not necessarily points of the polytope.
     pub corners: [DVec3; 3],

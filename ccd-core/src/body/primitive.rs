@@ -1,4 +1,4 @@
-//! Bodies of a single piece: ball, capsule, box.
+//! Bodies of a single piece: balls, capsules and boxes.
 
 use super::pieces::Pieces;
 use super::polytope::{Facet, Origin, Polytope};
@@ -36,7 +36,7 @@ impl Body {
         })
     }
 
-    /// Creates a box about the origin, given by half of each side.
+    /// Creates a box with its centre at the origin, given by half of each side.
     ///
     /// Corner `k` has a positive x, y, z if bit 0, 1, 2 of `k` is set. Faces 0 to 5 have the
     /// outward normals −x, +x, −y, +y, −z, +z.

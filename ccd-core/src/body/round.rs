@@ -1,4 +1,4 @@
-//! Cylinders and cones, enclosed by convex polytopes.
+//! Cylinders and cones, enclosed in convex polytopes.
 
 use super::pieces::Pieces;
 use super::polytope::{Facet, Origin, Polytope};
@@ -10,7 +10,7 @@ use crate::rounding::{ABOUT, LEAST_F64};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// A cylinder or a cone about the origin, along z.
+/// A cylinder or a cone along z, with its centre at the origin.
 ///
 /// A circle is not the hull of finitely many points. The body is therefore a polytope about the shape, an
 /// [`Enclosure`].
@@ -37,7 +37,7 @@ enum Kind {
     Cone,
 }
 
-/// A convex polytope about a [`Round`] shape.
+/// A convex polytope that encloses a [`Round`] shape.
 ///
 /// # Guarantee
 /// The polytope contains the shape, in exact arithmetic on the stored numbers. None of its points is farther from the
@@ -87,23 +87,24 @@ impl Round {
         })
     }
 
-    /// Returns the excess of [`Body::cylinder`] and [`Body::cone`]: [`EXCESS_SHARE`] of the radius.
+    /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] have: [`EXCESS_SHARE`] of the radius.
     pub fn usual_excess(&self) -> f64 {
         EXCESS_SHARE * self.radius
     }
 
-    /// Returns an excess that is accepted, with [`MOST_CORNERS`]: a little less than 1.9e-8 of the radius.
+    /// Returns the smallest excess that is accepted, which gives [`MOST_CORNERS`] corners: a little less than 1.9e-8 of
+    /// the radius.
     pub fn least_excess(&self) -> f64 {
         1.01 * self.radius * (1.0 / (PI / MOST_CORNERS).cos() - 1.0)
     }
 
-    /// Returns a polytope that contains the shape, and exceeds it by at most a length.
+    /// Returns a convex polytope that contains the shape, and exceeds it by at most `excess`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for an excess less than the [least](Round::least_excess), or a radius whose polytope
     /// reaches beyond [`MAX_COORDINATE`].
     pub fn enclosed(&self, excess: f64) -> Result<Enclosure, InputError> {
-        let ring = Ring::about(self.radius, excess)?;
+        let ring = Ring::circumscribed(self.radius, excess)?;
         let z = self.half_height;
         let count = ring.corners.len() as u32;
         let level = |z: f64| ring.corners.iter().map(move |[x, y]| DVec3::new(*x, *y, z));
@@ -139,21 +140,21 @@ impl Round {
 }
 
 impl Enclosure {
-    /// Returns the polytope. Its facets are its exact boundary, and plane: facets that are not triangles have all
-    /// corners at one height, or in pairs above each other.
+    /// Returns the enclosing polytope. Its facets are its exact boundary, and plane: facets that are not triangles have
+    /// all corners at one height, or in pairs above each other.
     ///
     /// Facet 0 is the base, and facet 1 the other end of a cylinder. The sides follow, counterclockwise about z.
     pub fn polytope(&self) -> &Polytope {
         &self.polytope
     }
 
-    /// Returns the largest distance of the polytope's points from the shape.
+    /// Returns the largest distance of the polytope's points from the enclosed shape.
     pub fn excess(&self) -> f64 {
         self.excess
     }
 
-    /// Returns the solid body with its [excess](Body::excess). A body that is not flat has
-    /// [triangles](Body::with_surface), too.
+    /// Returns the polytope as a solid body with its [excess](Body::excess). A body that is not flat also has
+    /// [triangles](Body::with_surface).
     ///
     /// # Errors
     /// The errors of [`Body::polytope`].
@@ -183,25 +184,25 @@ impl Enclosure {
     }
 }
 
-/// The corners of a regular polygon about a circle, counterclockwise.
+/// The corners of a regular polygon that encloses a circle, counterclockwise.
 ///
 /// The number of corners is a multiple of four. The middles of edges are on the axes, where the polygon touches the
 /// circle.
 struct Ring {
     corners: Vec<[f64; 2]>,
-    /// The largest distance of the polygon's points from the disc.
+    /// The largest distance of the polygon's points from the enclosed disc.
     excess: f64,
 }
 
 impl Ring {
-    fn about(radius: f64, excess: f64) -> Result<Self, InputError> {
+    fn circumscribed(radius: f64, excess: f64) -> Result<Self, InputError> {
         if radius == 0.0 {
             return Ok(Ring {
                 corners: vec![[0.0; 2]; 4],
                 excess: 0.0,
             });
         }
-        let count = corners(radius, excess)?;
+        let count = corner_count(radius, excess)?;
         let step = TAU / count;
         // This is the distance of the corners from the middle; the edges are at distance `radius`.
         let reach = radius / (0.5 * step).cos() * ABOUT + 4.0 * LEAST_F64;
@@ -223,8 +224,8 @@ impl Ring {
     }
 }
 
-/// Returns the number of corners of a polygon that exceeds a circle by at most `asked`.
-fn corners(radius: f64, asked: f64) -> Result<f64, InputError> {
+/// Returns the number of corners with which a regular polygon exceeds the enclosed circle by at most `asked`.
+fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
     // A corner is at `radius / cos(π/n)`. The share of the excess is clamped to a range in which angles lose no
     // digits. The rounding of the corners is subtracted.
     let share = lesser(asked / radius - 4.0 * (ABOUT - 1.0), 1.0);
@@ -260,7 +261,7 @@ impl Body {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::cylinder(radius, half_height)?.usual_body()
+        Round::cylinder(radius, half_height)?.default_enclosure()
     }
 
     /// Creates a cone about the origin, with the base at `−half_height` along z, and the apex at `half_height`. The
@@ -269,12 +270,12 @@ impl Body {
     /// # Errors
     /// [`InputError::OutOfRange`].
     pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::cone(radius, half_height)?.usual_body()
+        Round::cone(radius, half_height)?.default_enclosure()
     }
 }
 
 impl Round {
-    fn usual_body(&self) -> Result<Body, InputError> {
+    fn default_enclosure(&self) -> Result<Body, InputError> {
         self.enclosed(self.usual_excess())?.body()
     }
 }

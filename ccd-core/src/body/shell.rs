@@ -1,4 +1,4 @@
-//! The connected parts of a body.
+//! The connected parts of a body's surface.
 
 use super::pieces::Pieces;
 use glam::DVec3;
@@ -14,7 +14,7 @@ pub(crate) type Shell = [DVec3; 6];
 /// Approximately linear in the number of points.
 pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
-    let (mut parts, distinct) = by_number(pieces);
+    let (mut parts, distinct) = join_by_number(pieces);
     let mut count = distinct.len();
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
@@ -45,11 +45,11 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     shells
 }
 
-/// Joins points with the same number at the same place. Returns the sets, and the first point of each.
+/// Joins points with equal number and equal position. Returns the sets, and the first point of each.
 ///
 /// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
 /// numbers: points count as equal by their coordinates.
-fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
+fn join_by_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
     let range = numbers
@@ -76,11 +76,11 @@ fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
             distinct.push(k);
         }
     }
-    (Parts(parts), distinct)
+    (DisjointSets(parts), distinct)
 }
 
-/// Joins equal points.
-fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
+/// Joins points at the same position.
+fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut DisjointSets) {
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
         // The numbers 0 and −0 are equal.
@@ -98,10 +98,10 @@ fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
     }
 }
 
-/// Disjoint sets: every element stores another one of its set, and a root stores itself.
-struct Parts(Vec<u32>);
+/// A union-find forest: every element stores another one of its set, and a root stores itself.
+struct DisjointSets(Vec<u32>);
 
-impl Parts {
+impl DisjointSets {
     fn root(&mut self, mut k: usize) -> usize {
         while self.0[k] as usize != k {
             // Path halving shortens later searches.
@@ -111,7 +111,8 @@ impl Parts {
         k
     }
 
-    /// Joins the sets of two elements. Returns whether the sets were different.
+    /// Joins the sets of two elements, and returns whether they were different. Returns whether the sets were
+    /// different.
     fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;

@@ -1,11 +1,11 @@
-//! Values that backends store with the pieces.
+//! A table for values that backends store with each piece.
 
 use std::any::Any;
 use std::fmt;
 use std::sync::OnceLock;
 
-/// A table of values: one list for every requested type. Each list has an entry for each piece, computed at its first
-/// request.
+/// A linked list of columns, one for each type of value. A column has an entry for each piece, computed when first
+/// requested.
 ///
 /// The table lives as long as the pieces, and is shared by all threads that share them. A copy of the pieces starts
 /// with an empty table.
@@ -13,14 +13,14 @@ use std::sync::OnceLock;
 pub(crate) struct SideTable(OnceLock<Box<Column>>);
 
 struct Column {
-    /// A `Vec<OnceLock<T>>` of some type `T`.
+    /// The column's entries: a `Vec<OnceLock<T>>` for some type `T`.
     entries: Box<dyn Any + Send + Sync>,
-    /// The columns of other types.
+    /// The columns for other types.
     next: SideTable,
 }
 
 impl SideTable {
-    /// Returns the entry of one of `len` pieces.
+    /// Returns the entry of the piece `index`, for values of type `T`; `len` is the number of pieces.
     #[inline]
     pub(crate) fn entry<T: Any + Send + Sync>(&self, len: usize, index: usize) -> &OnceLock<T> {
         let mut side_table = self;

@@ -1,4 +1,4 @@
-//! The corner of a piece that is farthest along a direction `[FAST06 §4.2]`.
+//! Searches for the point of a piece that is farthest along a direction `[FAST06 §4.2]`.
 
 mod directions;
 mod scan;
@@ -14,7 +14,7 @@ use super::facets::Facets;
 use crate::tuning::CLIMBED_POINTS;
 use glam::DVec3;
 
-/// A search for extremal corners of one piece. If there are few corners, all are scanned, eight at once. For many
+/// A search structure for extremal points of one piece. If there are few, all are scanned, eight at once. For many
 /// corners, a tree over them is searched, or edges are climbed from a start in a table of directions.
 ///
 /// A [`Body`](crate::Body) stores trees for its pieces of many points; trees suit any points. Climbing takes half the
@@ -28,17 +28,17 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Debug)]
 pub enum Support {
-    /// Tests every corner.
+    /// Evaluates every point.
     Scan(SupportScan),
-    /// Climbs along edges.
+    /// Climbs along the edges of the hull.
     Climb(Box<SupportTable>),
-    /// Searches a tree.
+    /// Searches a tree over the points.
     Tree(Box<SupportTree>),
 }
 
 impl Support {
-    /// Prepares a piece of these points. If there are more than [`CLIMBED_POINTS`] of them, the facets must be those
-    /// of their hull. Without facets, every point is scanned.
+    /// Builds the search structure for points. If there are more than [`CLIMBED_POINTS`] of them, the facets must be
+    /// those of their hull. Without facets, every point is scanned.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
         let climbed = points.len() > CLIMBED_POINTS;
         match climbed.then(|| SupportTable::new(points, facets)).flatten() {
@@ -47,7 +47,7 @@ impl Support {
         }
     }
 
-    /// Prepares a piece without its facets.
+    /// Builds the search structure for points whose facets are unknown.
     pub(crate) fn of_points(points: &[DVec3]) -> Self {
         Support::Tree(Box::new(SupportTree::new(points)))
     }
@@ -67,7 +67,7 @@ impl Support {
         }
     }
 
-    /// Like `Support::extremal`, for a direction along which a corner may be known to be nearly extreme.
+    /// Like `Support::extremal`, for a direction along which `corner` may be known to be nearly extremal.
     #[inline]
     pub(crate) fn extremal_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {
@@ -76,7 +76,7 @@ impl Support {
         }
     }
 
-    /// Returns a ball about the points, if one is known.
+    /// Returns the centre and radius of a ball around the points, if one is stored.
     #[inline]
     pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
         match self {

@@ -1,26 +1,26 @@
-//! The surface of a body around one of its points.
+//! The shape of a body's surface around one of its points.
 
 use super::Body;
 use super::piece::Piece;
-use super::tree::point_query::{is_past, pieces_near};
+use super::tree::point_query::{is_beyond, pieces_near};
 use glam::DVec3;
 
 impl Body {
-    /// Calls `add` with the offsets of the surface around a point of it, in the body's frame. They are vectors from
-    /// the point: to the corners of all faces nearer than about `reach`, to the points of pieces without known faces,
-    /// and into the solid.
+    /// Calls `add` with vectors from a surface point that describe the surface around it, in the body's frame. They
+    /// lead to the corners of all faces nearer than about `reach`, to the points of pieces without known faces, and
+    /// into the solid.
     ///
     /// # Complexity
     /// Linear in the number of faces of the pieces within that distance.
-    pub(crate) fn ways_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+    pub(crate) fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for k in pieces_near(self.tree(), at, reach) {
             let piece = self.pieces().get(k as usize);
             let mut is_near = false;
             for_each_face(&piece, |face| {
                 let near = match *face {
-                    [a] => !is_past([a; 3], at, reach),
-                    [a, b] => !is_past([a, b, b], at, reach),
-                    [a, b, c] => !is_past([a, b, c], at, reach),
+                    [a] => !is_beyond([a; 3], at, reach),
+                    [a, b] => !is_beyond([a, b, b], at, reach),
+                    [a, b, c] => !is_beyond([a, b, c], at, reach),
                     // The box of the piece is near.
                     _ => true,
                 };
@@ -36,8 +36,8 @@ impl Body {
     }
 }
 
-/// Calls `look` with the mesh's triangles on a piece. If there are none, calls it with those of the piece's facets,
-/// or with all points of the piece.
+/// Calls `look` with each face of a piece: the mesh's triangles, or else the facets' triangles, or else all points at
+/// once. If there are none, calls it with those of the piece's facets, or with all points of the piece.
 fn for_each_face(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
     let mut is_on_mesh = false;
     for (_, triangle) in piece.mesh_triangles() {

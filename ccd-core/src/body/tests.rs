@@ -2,7 +2,7 @@ use super::polytope::{Facet, Origin, Polytope};
 use super::*;
 use glam::DVec3;
 
-/// A box on a square, where the square of another piece under it is twice as large.
+/// Creates a box on a square, above a second piece with a square twice as large.
 fn box_on_a_square() -> Body {
     let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let facet = |origin, corners: &[u32]| Facet {
@@ -56,7 +56,7 @@ fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
     assert_eq!(name(&[0, 7]), Feature::Piece(boxed as u32));
 }
 
-/// A tetrahedron in one piece, and its triangles.
+/// Creates a tetrahedron as one piece, and as triangles.
 fn tetrahedron() -> [Body; 2] {
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
@@ -80,12 +80,17 @@ fn tetrahedron() -> [Body; 2] {
 fn a_surface_is_taken_against_many_triangles_only() {
     let [one, triangles] = tetrahedron();
     let both = one.clone().with_surface(triangles.clone()).unwrap();
-    assert_eq!(both.against(&triangles).pieces().len(), 4);
-    assert_eq!(both.against(&one).pieces().len(), 1);
-    assert_eq!(both.against(&both).pieces().len(), 1);
-    assert_eq!(both.against(&Body::ball(1.0).unwrap()).pieces().len(), 1);
-    assert_eq!(one.against(&triangles).pieces().len(), 1);
-    assert_eq!(triangles.against(&triangles).pieces().len(), 4);
+    assert_eq!(both.query_body_against(&triangles).pieces().len(), 4);
+    assert_eq!(both.query_body_against(&one).pieces().len(), 1);
+    assert_eq!(both.query_body_against(&both).pieces().len(), 1);
+    assert_eq!(
+        both.query_body_against(&Body::ball(1.0).unwrap())
+            .pieces()
+            .len(),
+        1
+    );
+    assert_eq!(one.query_body_against(&triangles).pieces().len(), 1);
+    assert_eq!(triangles.query_body_against(&triangles).pieces().len(), 4);
     assert!(both.bytes() > one.bytes());
 }
 

@@ -1,27 +1,27 @@
-//! Parallel work on all cores, with a result that does not depend on their number.
+//! Parallel loops over all cores, whose results do not depend on the number of threads.
 
 use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// The least number of elements of a list, and of nodes of a subtree, that are worth a thread.
-pub(super) const WORTHWHILE: usize = 1024;
+/// The least number of list elements or subtree nodes for which a second thread is started.
+pub(super) const MIN_PARALLEL_WORK: usize = 1024;
 
 /// The number of consecutive elements that one thread takes at a time.
-const SHARE: usize = 64;
+const CHUNK_LENGTH: usize = 64;
 
-/// Calls a function with every element and its index. Each thread has its own workspace.
+/// Calls a function with every element and its index, in parallel. Each thread has its own workspace.
 pub(super) fn for_each<T: Send, W: Clone + Send>(
     list: &mut [T],
     workspace: &W,
     work: impl Fn(&mut W, usize, &mut T) + Sync,
 ) {
-    let threads = if list.len() < WORTHWHILE {
+    let threads = if list.len() < MIN_PARALLEL_WORK {
         1
     } else {
         available_parallelism()
             .map_or(1, NonZero::get)
-            .min(list.len() / WORTHWHILE + 1)
+            .min(list.len() / MIN_PARALLEL_WORK + 1)
     };
     for_each_in(threads, list, workspace, work);
 }
@@ -32,7 +32,7 @@ fn for_each_in<T: Send, W: Clone + Send>(
     workspace: &W,
     work: impl Fn(&mut W, usize, &mut T) + Sync,
 ) {
-    let shares = Mutex::new(list.chunks_mut(SHARE).enumerate());
+    let shares = Mutex::new(list.chunks_mut(CHUNK_LENGTH).enumerate());
     let next = || {
         let mut shares = shares.lock().unwrap_or_else(PoisonError::into_inner);
         shares.next()
@@ -40,7 +40,7 @@ fn for_each_in<T: Send, W: Clone + Send>(
     let take_shares = |mut workspace: W| {
         while let Some((share, elements)) = next() {
             for (k, element) in elements.iter_mut().enumerate() {
-                work(&mut workspace, share * SHARE + k, element);
+                work(&mut workspace, share * CHUNK_LENGTH + k, element);
             }
         }
     };
@@ -57,31 +57,34 @@ fn for_each_in<T: Send, W: Clone + Send>(
     });
 }
 
-/// Calls two functions, in parallel if the work is worth a thread and there is one.
+/// Calls two functions, in parallel if there is enough work and a free thread.
 pub(super) fn join<A: Send, B>(
     size: usize,
-    aside: impl FnOnce() -> A + Send,
-    here: impl FnOnce() -> B,
+    in_other_thread: impl FnOnce() -> A + Send,
+    in_this_thread: impl FnOnce() -> B,
 ) -> (A, B) {
-    if size < WORTHWHILE || available_parallelism().is_ok_and(|cores| cores.get() == 1) {
-        return (aside(), here());
+    if size < MIN_PARALLEL_WORK || available_parallelism().is_ok_and(|cores| cores.get() == 1) {
+        return (in_other_thread(), in_this_thread());
     }
-    let aside = Mutex::new(Some(aside));
+    let in_other_thread = Mutex::new(Some(in_other_thread));
     let take = || {
-        let taken = aside.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let taken = in_other_thread
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
         taken.map(|work| work())
     };
     scope(|threads| {
         let thread = Builder::new().spawn_scoped(threads, take);
-        let here = here();
-        let aside = match thread {
+        let in_this_thread = in_this_thread();
+        let in_other_thread = match thread {
             Ok(thread) => thread
                 .join()
                 .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
             Err(_) => take(),
         };
-        match aside {
-            Some(aside) => (aside, here),
+        match in_other_thread {
+            Some(in_other_thread) => (in_other_thread, in_this_thread),
             None => unreachable!("taken once"),
         }
     })

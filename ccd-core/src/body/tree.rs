@@ -1,5 +1,4 @@
-//! The wide tree over a body's pieces: nodes with tight oriented boxes, children in groups of eight
-//! laid out for the vector units.
+//! The bounding volume tree over a body's pieces: oriented boxes, with children in groups of eight.
 
 mod build;
 mod fit;
@@ -15,12 +14,13 @@ pub(crate) use build::Layout;
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, TriangleRow, unit_normal, up};
 pub(crate) use node::{Below, Node};
 pub(crate) use slab::Slab;
-pub(crate) use whole::Whole;
+pub(crate) use whole::BodyBox;
 
 use super::pieces::Pieces;
 use glam::DVec3;
 
-/// An immutable tree in the body's frame. Node 0 is the root. Ids after those of the nodes are triangles.
+/// A bounding volume tree in the body's frame, with up to eight children per node. Node 0 is the root. Ids after those
+/// of the nodes are triangles.
 ///
 /// # Invariants
 /// A node's box and ball contain all its pieces, rounding radii included, in exact arithmetic on
@@ -31,19 +31,19 @@ pub(crate) struct Tree {
     nodes: Vec<Node>,
     boxes: Vec<BoxGroup>,
     triangles: Vec<TriangleRow>,
-    /// The slabs about flat nodes, by the nodes' numbers.
+    /// The slabs around flat nodes, sorted by node.
     slabs: Vec<(NodeId, Slab)>,
-    whole: Whole,
-    /// The largest distance of a point from the body's origin, rounding radii included.
+    whole: BodyBox,
+    /// The largest distance of any point from the body's origin, rounding radii included.
     span: f64,
 }
 
-/// The id of a node, or of a triangle after the nodes.
+/// The id of a node; ids after the last node are triangles.
 pub(crate) type NodeId = u32;
 
-/// The node or triangle of a [`NodeId`].
+/// The node or triangle that a [`NodeId`] refers to.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Named<'a> {
+pub(crate) enum NodeOrTriangle<'a> {
     Node(&'a Node),
     /// A triangle, by the index of its piece.
     Triangle(u32),
@@ -51,10 +51,10 @@ pub(crate) enum Named<'a> {
 
 impl Tree {
     #[inline(always)]
-    pub(crate) fn get(&self, id: NodeId) -> Named<'_> {
+    pub(crate) fn get(&self, id: NodeId) -> NodeOrTriangle<'_> {
         match self.nodes.get(id as usize) {
-            Some(node) => Named::Node(node),
-            None => Named::Triangle(id - self.nodes.len() as u32),
+            Some(node) => NodeOrTriangle::Node(node),
+            None => NodeOrTriangle::Triangle(id - self.nodes.len() as u32),
         }
     }
 
@@ -63,12 +63,12 @@ impl Tree {
         self.nodes.len()
     }
 
-    /// Returns the piece of an id, if it is that of a single piece.
+    /// Returns the piece of a node that contains a single piece; `None` for other nodes.
     #[inline]
     pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
         match self.get(id) {
-            Named::Triangle(piece) => Some(piece),
-            Named::Node(node) => match node.below {
+            NodeOrTriangle::Triangle(piece) => Some(piece),
+            NodeOrTriangle::Node(node) => match node.below {
                 Below::Piece(piece) => Some(piece),
                 _ => None,
             },
@@ -79,13 +79,13 @@ impl Tree {
         &self.boxes[index as usize]
     }
 
-    /// Returns the slab about a flat node.
+    /// Returns the slab around a flat node; `None` for other nodes.
     pub(crate) fn slab(&self, id: NodeId) -> Option<&Slab> {
         let place = self.slabs.binary_search_by_key(&id, |&(id, _)| id).ok()?;
         Some(&self.slabs[place].1)
     }
 
-    /// Returns the layout of a group of triangles, which are pieces of the tree.
+    /// Returns a group of triangles in the layout for vector instructions.
     #[inline(always)]
     pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
         let row = &self.triangles[index as usize];
@@ -94,39 +94,39 @@ impl Tree {
         TriangleGroup::new(row, triangles.as_chunks().0)
     }
 
-    /// Returns the members of a group of triangles.
+    /// Returns the common fields of a group of triangles.
     pub(crate) fn triangle_members(&self, index: u32) -> &Members {
         &self.triangles[index as usize].members
     }
 
-    /// Returns the largest distance of a point from the body's origin.
+    /// Returns the largest distance of any point from the body's origin.
     pub(crate) fn span(&self) -> f64 {
         self.span
     }
 
-    /// Returns a ball around all pieces: its centre and its radius.
+    /// Returns the centre and radius of a ball around all pieces.
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         (self.nodes[0].centre, f64::from(self.nodes[0].radius))
     }
 
-    /// Returns the radius of the root's ball.
+    /// Returns the radius of the ball around the root.
     pub(crate) fn radius(&self) -> f32 {
         self.nodes[0].radius
     }
 
-    /// Returns the box about all pieces.
-    pub(crate) fn whole(&self) -> &Whole {
+    /// Returns the bounding box of the whole body.
+    pub(crate) fn whole(&self) -> &BodyBox {
         &self.whole
     }
 
-    /// Returns the half sizes of the root's box.
+    /// Returns the half extents of the root's box.
     pub(crate) fn half(&self) -> [f32; 3] {
         self.nodes[0].half
     }
 
-    /// Returns whether a point is within the root's box, or near it.
+    /// Returns whether a point is in the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
-        self.nodes[0].holds(point, 0.0)
+        self.nodes[0].is_near(point, 0.0)
     }
 
     pub(crate) fn bytes(&self) -> usize {

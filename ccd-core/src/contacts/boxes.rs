@@ -1,19 +1,19 @@
-//! Binary trees of boxes over the faces of each piece, to find the near faces of two pieces.
+//! Trees of boxes over the faces of pieces, to find the near faces of two pieces.
 
 use super::skin::Skin;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// The trees over the faces of one body's pieces. Each tree is built at the first request for its piece: a piece of
+/// The box trees over the faces of one body's pieces. Each tree is built when its piece is first requested: a piece of
 /// many faces may be near many others, and is sorted only once.
 pub(super) struct FaceTrees {
-    nodes: Vec<Boxed>,
+    nodes: Vec<FaceBox>,
     roots: HashMap<u32, u32>,
 }
 
-/// Some faces in one box along the axes of A's frame, rounding radius included.
+/// An axis-aligned box in A's frame that contains faces, rounding radius included.
 #[derive(Clone, Copy)]
-struct Boxed {
+struct FaceBox {
     low: DVec3,
     high: DVec3,
     below: Below,
@@ -22,12 +22,11 @@ struct Boxed {
 #[derive(Clone, Copy)]
 enum Below {
     Face(u32),
-    /// An inner node with two children: the next node in the list, and the node with this index.
+    /// An inner node: its first child is the next node in the list, its second child has this index.
     Halves(u32),
 }
 
-/// The pairs of faces whose boxes are nearer than `reach`, and the number of pairs of boxes that may be visited to
-/// find them.
+/// The pairs of near faces that a search finds, and its remaining budget.
 pub(super) struct NearFaces {
     pub(super) pairs: Vec<[u32; 2]>,
     pub(super) budget: u64,
@@ -35,12 +34,17 @@ pub(super) struct NearFaces {
 }
 
 impl NearFaces {
-    /// Adds the pairs below two roots. Returns `None` when the budget is spent.
-    pub(super) fn among(&mut self, trees: &[FaceTrees; 2], roots: [u32; 2]) -> Option<()> {
+    /// Adds the pairs of faces below two roots whose boxes are nearer than `reach`. Returns `None` if the budget is
+    /// spent.
+    pub(super) fn add_pairs_below(
+        &mut self,
+        trees: &[FaceTrees; 2],
+        roots: [u32; 2],
+    ) -> Option<()> {
         let mut stack = vec![roots];
         while let Some([at_a, at_b]) = stack.pop() {
             let (a, b) = (trees[0].get(at_a), trees[1].get(at_b));
-            if a.apart(b, self.reach) {
+            if a.is_farther_apart(b, self.reach) {
                 continue;
             }
             self.budget = self.budget.checked_sub(1)?;
@@ -59,23 +63,23 @@ impl NearFaces {
     }
 }
 
-/// A tree over all faces of a skin.
+/// A tree of boxes over all faces of a skin.
 pub(super) struct FaceTree(FaceTrees);
 
 impl FaceTree {
-    pub(super) fn over(skin: &Skin<'_>) -> Self {
-        let mut faces: Vec<Boxed> = skin
+    pub(super) fn build(skin: &Skin<'_>) -> Self {
+        let mut faces: Vec<FaceBox> = skin
             .all_faces()
-            .map(|face| Boxed::new(skin, face))
+            .map(|face| FaceBox::new(skin, face))
             .collect();
         let mut tree = FaceTrees::new();
         tree.add(&mut faces);
         FaceTree(tree)
     }
 
-    /// Returns the faces with boxes within `reach` of a point.
+    /// Returns the faces whose boxes are within `reach` of a point.
     pub(super) fn near(&self, at: DVec3, reach: f64) -> Vec<u32> {
-        let point = Boxed {
+        let point = FaceBox {
             low: at,
             high: at,
             below: Below::Face(0),
@@ -88,7 +92,7 @@ impl FaceTree {
         while let Some(id) = stack.pop() {
             let node = self.0.get(id);
             match node.below {
-                _ if node.apart(&point, reach) => {}
+                _ if node.is_farther_apart(&point, reach) => {}
                 Below::Face(face) => near.push(face),
                 Below::Halves(right) => stack.extend([right, id + 1]),
             }
@@ -105,30 +109,30 @@ impl FaceTrees {
         }
     }
 
-    /// Returns the root over a piece's faces; `None` for a piece without faces.
+    /// Returns the root of the tree over a piece's faces; `None` if the piece has none.
     pub(super) fn root(&mut self, skin: &mut Skin<'_>, piece: u32) -> Option<u32> {
         if let Some(&root) = self.roots.get(&piece) {
             return Some(root);
         }
-        let faces = skin.of_piece(piece);
-        let mut boxes: Vec<Boxed> = faces.map(|face| Boxed::new(skin, face)).collect();
+        let faces = skin.add_piece(piece);
+        let mut boxes: Vec<FaceBox> = faces.map(|face| FaceBox::new(skin, face)).collect();
         let root = self.add(&mut boxes)?;
         self.roots.insert(piece, root);
         Some(root)
     }
 
-    fn get(&self, at: u32) -> &Boxed {
+    fn get(&self, at: u32) -> &FaceBox {
         &self.nodes[at as usize]
     }
 
-    /// Adds a node around some faces, and the nodes below it, by halving. The depth is the logarithm of the number of
+    /// Adds a node for some faces, and recursively the nodes below it. The depth is the logarithm of the number of
     /// faces.
-    fn add(&mut self, faces: &mut [Boxed]) -> Option<u32> {
-        let around = faces.iter().copied().reduce(Boxed::around)?;
+    fn add(&mut self, faces: &mut [FaceBox]) -> Option<u32> {
+        let around = faces.iter().copied().reduce(FaceBox::union)?;
         let at = self.nodes.len();
         self.nodes.push(around);
         if faces.len() > 1 {
-            let (left, right) = halves(faces, around.high - around.low);
+            let (left, right) = split_at_median(faces, around.high - around.low);
             self.add(left)?;
             self.nodes[at].below = Below::Halves(self.add(right)?);
         }
@@ -136,19 +140,19 @@ impl FaceTrees {
     }
 }
 
-impl Boxed {
+impl FaceBox {
     fn new(skin: &Skin<'_>, face: u32) -> Self {
         let ([a, b, c], radius) = (skin.triangle(face), skin.face(face).radius);
-        Boxed {
+        FaceBox {
             low: a.min(b).min(c) - radius,
             high: a.max(b).max(c) + radius,
             below: Below::Face(face),
         }
     }
 
-    /// Returns the box around both boxes, with the children of the first one.
-    fn around(self, other: Boxed) -> Boxed {
-        Boxed {
+    /// Returns the union of two boxes, with the children of the first.
+    fn union(self, other: FaceBox) -> FaceBox {
+        FaceBox {
             low: self.low.min(other.low),
             high: self.high.max(other.high),
             below: self.below,
@@ -156,7 +160,7 @@ impl Boxed {
     }
 
     /// Returns whether two boxes are certainly farther apart than `reach` along a coordinate.
-    fn apart(&self, other: &Boxed, reach: f64) -> bool {
+    fn is_farther_apart(&self, other: &FaceBox, reach: f64) -> bool {
         let gap = (other.low - self.high).max(self.low - other.high);
         gap.max_element() > reach
     }
@@ -166,10 +170,10 @@ impl Boxed {
     }
 }
 
-/// Splits at least two faces into halves, by their middles along the longest side of the box.
-fn halves(faces: &mut [Boxed], size: DVec3) -> (&mut [Boxed], &mut [Boxed]) {
+/// Splits two or more faces at the median, along the longest side of their box.
+fn split_at_median(faces: &mut [FaceBox], size: DVec3) -> (&mut [FaceBox], &mut [FaceBox]) {
     let (axis, half) = (size.max_position(), faces.len() / 2);
-    let middle = |face: &Boxed| face.low[axis] + face.high[axis];
+    let middle = |face: &FaceBox| face.low[axis] + face.high[axis];
     faces.select_nth_unstable_by(half, |one, other| middle(one).total_cmp(&middle(other)));
     faces.split_at_mut(half)
 }

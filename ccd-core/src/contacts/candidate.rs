@@ -1,13 +1,13 @@
-//! Two nearest points of two faces that may become a pair of features.
+//! Nearest points of two faces that may become a pair of features.
 
 use glam::DVec3;
 
-/// Two nearest points, in A's frame, and a face for each.
+/// The nearest points of two faces, in A's frame, and the faces.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) points: [DVec3; 2],
     pub(super) faces: [u32; 2],
-    /// The sum of both faces' rounding radii: faces that share an edge or a corner may have different radii.
+    /// The sum of both faces' rounding radii. They may differ for faces that share an edge or a corner.
     pub(super) radii: f64,
 }
 

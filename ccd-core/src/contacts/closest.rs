@@ -1,28 +1,36 @@
-//! Nearest points in closed form: those of a triangle and a point, and those of two crossing edges `[ERICSON05
-//! §5.1]`.
+//! Nearest points in closed form, for a triangle and a point, and for two edges `[ERICSON05 §5.1]`.
 
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// The part of a triangle that contains a point.
+/// The inside, an edge or a corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Corner(usize),
-    /// The edge from this corner to the next one.
+    /// The edge from corner `k` to the next one.
     Edge(usize),
     Inside,
 }
 
-/// Returns the nearest point of a triangle, and the smallest part of the triangle that is as near,
-/// up to `rounding`. The triangle may be a segment or a point.
+/// Returns the nearest point of a triangle, and the smallest part of the triangle that is equally near up to
+/// `rounding`. The triangle may be a segment or a point.
 ///
 /// Even if a weight suffers cancellation, the point is in the triangle, so that its distance is
 /// never too small.
-pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (Part, DVec3) {
+pub(super) fn nearest_on_triangle(
+    from: DVec3,
+    corners: [DVec3; 3],
+    rounding: f64,
+) -> (Part, DVec3) {
     let next = |k: usize| corners[(k + 1) % 3];
     let corner = |k| (Part::Corner(k), corners[k]);
-    let edge = |k| Some((Part::Edge(k), inner_foot(from, [corners[k], next(k)])?));
-    let inside = inside(from, corners).map(|foot| (Part::Inside, foot));
+    let edge = |k| {
+        Some((
+            Part::Edge(k),
+            project_to_segment(from, [corners[k], next(k)])?,
+        ))
+    };
+    let inside = project_to_triangle(from, corners).map(|foot| (Part::Inside, foot));
     // The smallest parts come first: a smaller part is taken if no larger one is nearer.
     let parts = [
         Some(corner(0)),
@@ -48,13 +56,17 @@ pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (P
     best
 }
 
-/// Returns the nearest points of two edges if these are inside of both edges, and nearer than either edge's ends by
-/// more than `rounding`. Edges that are parallel, or meet at an end, do not cross.
-pub(super) fn crossing(e: [DVec3; 2], f: [DVec3; 2], rounding: f64) -> Option<[DVec3; 2]> {
+/// Returns the nearest points of two edges if both are inside the edges, and nearer than the ends by more than
+/// `rounding`. Edges that are parallel, or meet at an end, do not cross.
+pub(super) fn nearest_on_crossing_edges(
+    e: [DVec3; 2],
+    f: [DVec3; 2],
+    rounding: f64,
+) -> Option<[DVec3; 2]> {
     let (along_e, along_f, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
     let across = along_e.cross(along_f);
     let start = way.cross(along_f).dot(across) / across.length_squared();
-    let inner = |p: DVec3, edge: [DVec3; 2]| inner_foot(p, edge);
+    let inner = |p: DVec3, edge: [DVec3; 2]| project_to_segment(p, edge);
     // Two projections correct the share after cancellation. A NaN is in no range.
     if !(start > 0.0 && start < 1.0) {
         return None;
@@ -76,26 +88,26 @@ fn same_kind(one: Part, other: Part) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 
-/// Returns the foot of a point on a segment, if the foot is between the ends.
-fn inner_foot(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
+/// Projects a point onto a segment; `None` if the projection is beyond the ends.
+fn project_to_segment(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
     let along = b - a;
     let share = (from - a).dot(along) / along.length_squared();
     // False for NaN, and for a segment of no length.
     (share > 0.0 && share < 1.0).then(|| a + share * along)
 }
 
-/// Returns the nearest point of a segment.
+/// Returns the point of a segment that is nearest to `from`.
 fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
     let nearer_end = if from.distance_squared(edge[1]) < from.distance_squared(edge[0]) {
         edge[1]
     } else {
         edge[0]
     };
-    inner_foot(from, edge).unwrap_or(nearer_end)
+    project_to_segment(from, edge).unwrap_or(nearer_end)
 }
 
-/// Returns the foot of a point in a triangle's plane, if the foot is inside the triangle.
-fn inside(from: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+/// Projects a point onto a triangle; `None` if the projection is outside the triangle.
+fn project_to_triangle(from: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let (u, v) = (b - a, c - a);
     let normal = u.cross(v);
     let square = normal.length_squared();

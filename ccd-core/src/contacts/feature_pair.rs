@@ -1,19 +1,19 @@
-//! Two features that are in contact.
+//! Pairs of features that are in contact.
 
 use crate::answer::Separation;
 use crate::body::feature::Feature;
 
-/// A feature of A and one of B that are in contact, and their distance.
+/// A feature of A and a feature of B that are in contact, and their distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeaturePair {
-    /// The feature of body A.
+    /// The vertex, edge or face of body A.
     pub feature_a: Feature,
-    /// The feature of body B.
+    /// The vertex, edge or face of body B.
     pub feature_b: Feature,
     /// The index in [`Body::pieces`](crate::Body::pieces) of a piece of body A with this feature.
     pub piece_a: u32,
-    /// The index of a piece of body B with this feature.
+    /// The index in [`Body::pieces`](crate::Body::pieces) of a piece of body B with this feature.
     pub piece_b: u32,
-    /// The separation of the two features, not of the pieces, in world coordinates.
+    /// The bounds of the features' distance and their nearest points, in world coordinates.
     pub separation: Separation,
 }

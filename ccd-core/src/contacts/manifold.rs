@@ -1,7 +1,7 @@
-//! The pairs of features in contact, and the choice of the pairs to report.
+//! Collects the pairs of features in contact, and chooses those to report.
 
 use super::candidate::Candidate;
-use super::closest::{Part, crossing, on_triangle};
+use super::closest::{Part, nearest_on_crossing_edges, nearest_on_triangle};
 use super::feature_pair::FeaturePair;
 use super::measure::measure;
 use super::skin::{Skin, Spot, edge};
@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::cell::LazyCell;
 use std::collections::{HashMap, HashSet};
 
-/// All features found in contact, by the corner, edge or face on each body.
+/// All pairs of features found in contact.
 pub(super) struct Manifold<'a> {
     problem: &'a Problem<'a>,
     skins: [&'a Skin<'a>; 2],
@@ -33,32 +33,32 @@ impl<'a> Manifold<'a> {
         self.found.len()
     }
 
-    /// Adds the contacts of two faces, of A and of B.
-    pub(super) fn meet(&mut self, faces: [u32; 2]) {
+    /// Adds the contacts between a face of A and a face of B.
+    pub(super) fn add_face_contacts(&mut self, faces: [u32; 2]) {
         let [a, b] = self.skins;
         let rounding = self.problem.rounding;
         for v in a.corners_of(faces[0]) {
-            let (part, foot) = on_triangle(a.at(v), b.triangle(faces[1]), rounding);
+            let (part, foot) = nearest_on_triangle(a.at(v), b.triangle(faces[1]), rounding);
             let spots = [Spot::Corner(v), spot(b, faces[1], part)];
-            self.offer(spots, [a.at(v), foot], faces);
+            self.add_pair(spots, [a.at(v), foot], faces);
         }
         for v in b.corners_of(faces[1]) {
-            let (part, foot) = on_triangle(b.at(v), a.triangle(faces[0]), rounding);
+            let (part, foot) = nearest_on_triangle(b.at(v), a.triangle(faces[0]), rounding);
             let spots = [spot(a, faces[0], part), Spot::Corner(v)];
-            self.offer(spots, [foot, b.at(v)], faces);
+            self.add_pair(spots, [foot, b.at(v)], faces);
         }
         for e in a.edges_of(faces[0]) {
             for f in b.edges_of(faces[1]) {
                 let ends = [e.map(|end| a.at(end)), f.map(|end| b.at(end))];
-                if let Some(points) = crossing(ends[0], ends[1], rounding) {
-                    self.offer([Spot::Edge(e), Spot::Edge(f)], points, faces);
+                if let Some(points) = nearest_on_crossing_edges(ends[0], ends[1], rounding) {
+                    self.add_pair([Spot::Edge(e), Spot::Edge(f)], points, faces);
                 }
             }
         }
     }
 
-    /// Keeps a pair within reach. Of several places of contact, the nearest is kept.
-    fn offer(&mut self, spots: [Spot; 2], points: [DVec3; 2], faces: [u32; 2]) {
+    /// Adds a pair if it is within reach. If it is known already, the nearer place of contact is kept.
+    fn add_pair(&mut self, spots: [Spot; 2], points: [DVec3; 2], faces: [u32; 2]) {
         let radius = |k: usize| self.skins[k].face(faces[k]).radius;
         let Problem {
             margin,
@@ -76,23 +76,23 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// Returns the pairs, nearest first; `a_to_world` is A's frame, relative to the problem's origin.
+    /// Returns the pairs to report, nearest first; `a_to_world` is A's frame, relative to the problem's origin.
     pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
-        let covered = self.covered();
+        let covered = self.implied_pairs();
         let mut told = HashMap::new();
-        for (mut spots, mut candidate) in sorted(&self.found) {
-            if covered.contains(&spots) || self.nearer_beside(spots, &candidate) {
+        for (mut spots, mut candidate) in sorted_pairs(&self.found) {
+            if covered.contains(&spots) || self.is_due_to_cut(spots, &candidate) {
                 continue;
             }
             for (k, skin) in self.skins.iter().enumerate() {
-                (spots[k], candidate.faces[k]) = skin.named(spots[k], candidate.faces[k]);
+                (spots[k], candidate.faces[k]) = skin.reported_part(spots[k], candidate.faces[k]);
             }
             keep_nearest(&mut told, spots, candidate);
         }
         let surfaces = LazyCell::new(|| self.skins.map(Surface::new));
         let common_normals =
             |points| Surface::common_normals(&surfaces, points, self.problem.rounding);
-        let told = sorted(&told);
+        let told = sorted_pairs(&told);
         let measured = told
             .iter()
             .map(|found| measure(self.problem, self.skins, a_to_world, found, common_normals));
@@ -106,23 +106,23 @@ impl<'a> Manifold<'a> {
         pairs
     }
 
-    /// Returns whether a point on an edge or corner within a plane is nearest only on the triangle on which it was
-    /// found, while another triangle around it comes nearer elsewhere. Such a point exists only because of the cut
-    /// into triangles: the nearer place makes a pair, or one that is nearer still.
-    fn nearer_beside(&self, spots: [Spot; 2], candidate: &Candidate) -> bool {
+    /// Returns whether the contact exists only because a flat surface is cut into triangles. Its point is on an edge or
+    /// corner within a plane, and another triangle around it comes nearer elsewhere. That nearer place makes a pair of
+    /// its own.
+    fn is_due_to_cut(&self, spots: [Spot; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
             let (skin, from) = (self.skins[k], candidate.points[1 - k]);
-            skin.sharing(spots[k]).iter().any(|&face| {
-                let (_, nearest) = on_triangle(from, skin.triangle(face), rounding);
+            skin.coplanar_faces_around(spots[k]).iter().any(|&face| {
+                let (_, nearest) = nearest_on_triangle(from, skin.triangle(face), rounding);
                 from.distance(nearest) + rounding < candidate.distance()
             })
         })
     }
 
-    /// Returns the pairs that are covered by others: a corner and a boundary part of a face or an edge, if the
-    /// corner's foot inside that face or edge is as near.
-    fn covered(&self) -> HashSet<[Spot; 2]> {
+    /// Returns the pairs that follow from others, and need no report. Such a pair is a corner and a boundary part of a
+    /// face or edge, if the corner's projection inside that face or edge is equally near.
+    fn implied_pairs(&self) -> HashSet<[Spot; 2]> {
         let [a, b] = self.skins;
         let mut covered = HashSet::new();
         for &[of_a, of_b] in self.found.keys() {
@@ -137,7 +137,7 @@ impl<'a> Manifold<'a> {
     }
 }
 
-/// Returns the spot of a part of a face.
+/// Returns the corner, edge or face of the skin that a part of a triangle is.
 fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
     let corners = skin.face(face).corners;
     match part {
@@ -154,8 +154,8 @@ fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Candidate>, spots: [Spot; 2], can
     }
 }
 
-/// Returns the pairs in an order that does not depend on the order of the map.
-fn sorted(pairs: &HashMap<[Spot; 2], Candidate>) -> Vec<([Spot; 2], Candidate)> {
+/// Returns the pairs sorted, so that their order does not depend on that of the map.
+fn sorted_pairs(pairs: &HashMap<[Spot; 2], Candidate>) -> Vec<([Spot; 2], Candidate)> {
     let mut list: Vec<_> = pairs.iter().map(|(&spots, &it)| (spots, it)).collect();
     list.sort_unstable_by_key(|&(spots, _)| spots);
     list

@@ -1,4 +1,4 @@
-//! The measurement of the distance of two features, checked like every separation.
+//! Bounds the distance of two features, checked like every separation.
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
@@ -12,12 +12,12 @@ use crate::problem::Problem;
 use crate::rounding::is_blurred;
 use glam::DVec3;
 
-/// A spot of A and one of B.
+/// A part of A's surface and one of B's.
 pub(super) type Spots = [Spot; 2];
 
-/// Bounds the distance of two features with known nearest points, in the world's coordinates; `a_to_world` is A's
-/// frame, relative to the problem's origin. If the points are too near for a direction, `common_normals` returns
-/// those of both surfaces at two points.
+/// Bounds the distance of two features with known nearest points, in the world's coordinates. `a_to_world` is A's
+/// frame, relative to the problem's origin. If the points are too near for a direction, `common_normals` returns those
+/// of both surfaces at two points.
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper` for any points: the gap of the features' corners along any axis
@@ -36,16 +36,16 @@ pub(super) fn measure(
     let towards = if distance > problem.rounding {
         b - a
     } else {
-        outward(skins, spots, candidate)
+        outward_direction(skins, spots, candidate)
     };
     let mut normal = unit(towards).unwrap_or(DVec3::X);
-    for across in across(&points).into_iter().flatten() {
+    for across in candidate_normals(&points).into_iter().flatten() {
         let across = if across.dot(towards) < 0.0 {
             -across
         } else {
             across
         };
-        if gap(&points, across) > gap(&points, normal) {
+        if support_gap(&points, across) > support_gap(&points, normal) {
             normal = across;
         }
     }
@@ -63,7 +63,7 @@ pub(super) fn measure(
         piece_a: problem.a.number(face(0).piece),
         piece_b: problem.b.number(face(1).piece),
         separation: Separation {
-            lower: gap(&points, normal) - radii - problem.rounding,
+            lower: support_gap(&points, normal) - radii - problem.rounding,
             upper: greater(0.0, distance - radii) + problem.rounding,
             normal: unit(a_to_world.rotation * normal).unwrap_or(normal),
             witness_a: world(a + way * face(0).radius),
@@ -72,8 +72,8 @@ pub(super) fn measure(
     }
 }
 
-/// Returns `min_B n·y − max_A n·x`.
-fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
+/// Returns the gap `min_B n·y − max_A n·x` of two features along `n`.
+fn support_gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     let from = a[0];
     let highest = a
         .map(|x| n.dot(x - from))
@@ -86,9 +86,9 @@ fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     lowest - highest
 }
 
-/// Returns the normals of features: those of faces, and that of two crossing edges. The normal of a face is exact to
-/// the last digits, even if the vector to its foot is mostly rounding.
-fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
+/// Returns candidate normals: those of faces, and that of two crossing edges. The normal of a face is exact to the last
+/// digits, even if the vector to its foot is mostly rounding.
+fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     let along = |of: &[DVec3; 3]| of[1] - of[0];
     [
         normal(*a),
@@ -97,9 +97,9 @@ fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     ]
 }
 
-/// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without
-/// an outside it leads from the middle of one piece to the middle of the other.
-fn outward(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
+/// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without an
+/// outside it leads from the middle of one piece to the middle of the other.
+fn outward_direction(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
     let out = |k: usize| {
         let out = skins[k].outward(spots[k], candidate.faces[k]);
         unit(out).unwrap_or(DVec3::ZERO)

@@ -1,8 +1,8 @@
-//! The search for the near pieces of two bodies, and for the near faces of these, by trees.
+//! Finds near pieces of two bodies, and their near faces, by trees.
 
 use super::boxes::{FaceTrees, NearFaces};
 use super::skin::Skin;
-use crate::body::tree::{Below, Named, NodeId, Tree};
+use crate::body::tree::{Below, NodeId, NodeOrTriangle, Tree};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, normal};
 use crate::motion::pose::Frame;
@@ -10,8 +10,8 @@ use crate::problem::{Problem, Side};
 use crate::rounding::BOX_F64;
 use glam::DVec3;
 
-/// Returns all pairs of faces, of A and of B, that may be nearer than `reach`; `None` when their search exceeds the
-/// problem's budget, of pairs of nodes or of boxes of faces.
+/// Returns all pairs of a face of A and a face of B that may be nearer than `reach`. Returns `None` if the search
+/// exceeds the problem's budget.
 pub(super) fn near_faces(
     problem: &Problem<'_>,
     skins: &mut [Skin<'_>; 2],
@@ -27,13 +27,13 @@ pub(super) fn near_faces(
     for pieces in near_pieces(problem, b_to_a, reach)? {
         let [a, b] = [0, 1].map(|k| trees[k].root(&mut skins[k], pieces[k]));
         if let (Some(a), Some(b)) = (a, b) {
-            near.among(&trees, [a, b])?;
+            near.add_pairs_below(&trees, [a, b])?;
         }
     }
     Some(near.pairs)
 }
 
-/// Returns the pairs of pieces whose nodes, on all levels of the trees, may be nearer than `reach`.
+/// Returns the pairs of pieces that may be nearer than `reach`, judged by their nodes on all levels of the trees.
 fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);
@@ -43,7 +43,7 @@ fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<
             Extent::new(&problem.a, at_a, &Frame::IDENTITY),
             Extent::new(&problem.b, at_b, b_to_a),
         ];
-        if apart(&extents, reach) {
+        if certainly_apart(&extents, reach) {
             continue;
         }
         // As in a schedule, a pair counts when it is split, or examined, not when it is created.
@@ -53,22 +53,22 @@ fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<
         }
         match (a.piece(at_a), b.piece(at_b)) {
             (Some(piece_a), Some(piece_b)) => near.push([piece_a, piece_b]),
-            (None, Some(_)) => stack.extend(below(a, at_a).map(|at| [at, at_b])),
-            (Some(_), None) => stack.extend(below(b, at_b).map(|at| [at_a, at])),
+            (None, Some(_)) => stack.extend(children_of(a, at_a).map(|at| [at, at_b])),
+            (Some(_), None) => stack.extend(children_of(b, at_b).map(|at| [at_a, at])),
             (None, None) if extents[0].radius >= extents[1].radius => {
-                stack.extend(below(a, at_a).map(|at| [at, at_b]));
+                stack.extend(children_of(a, at_a).map(|at| [at, at_b]));
             }
-            (None, None) => stack.extend(below(b, at_b).map(|at| [at_a, at])),
+            (None, None) => stack.extend(children_of(b, at_b).map(|at| [at_a, at])),
         }
     }
     Some(near)
 }
 
 /// Returns the children of a node.
-fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
+fn children_of(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     let members = match tree.get(at) {
-        Named::Triangle(_) => return 0..0,
-        Named::Node(node) => match node.below {
+        NodeOrTriangle::Triangle(_) => return 0..0,
+        NodeOrTriangle::Node(node) => match node.below {
             Below::Boxes(group) => &tree.box_group(group).members,
             Below::Triangles(group) => tree.triangle_members(group),
             Below::Piece(_) => return 0..0,
@@ -77,17 +77,17 @@ fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     members.first..members.first + members.count
 }
 
-/// The extent of a node, in A's frame.
+/// The bounding volume of a node, in A's frame.
 struct Extent {
     centre: DVec3,
     radius: f64,
-    /// The directions along which the node is thin.
+    /// The unit vectors along which the node is likely to be thin.
     axes: [DVec3; 3],
     shape: Shape,
 }
 
 enum Shape {
-    /// The extent along each axis, from the centre.
+    /// A box, by half its extent along each axis.
     Box([f64; 3]),
     Triangle([DVec3; 3]),
 }
@@ -95,7 +95,7 @@ enum Shape {
 impl Extent {
     fn new(side: &Side<'_>, at: NodeId, to_a: &Frame) -> Self {
         match side.body.tree().get(at) {
-            Named::Node(node) => {
+            NodeOrTriangle::Node(node) => {
                 let radius = f64::from(node.radius);
                 // Axes rounded to f32 are not exactly orthonormal.
                 let more = f64::from(node.rounding) + BOX_F64 * radius;
@@ -106,7 +106,7 @@ impl Extent {
                     shape: Shape::Box(node.half.map(|half| f64::from(half) + more)),
                 }
             }
-            Named::Triangle(piece) => {
+            NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
                 let corners = corners.map(|corner| to_a.point(corner));
                 let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -121,7 +121,7 @@ impl Extent {
         }
     }
 
-    /// Returns the interval that the node occupies along a direction.
+    /// Returns the interval of the node's projection on a direction.
     fn along(&self, n: DVec3) -> [f64; 2] {
         match &self.shape {
             Shape::Box(half) => {
@@ -137,9 +137,9 @@ impl Extent {
     }
 }
 
-/// Returns whether two nodes are certainly farther apart than `reach`: by their balls, along the axes of either, or
-/// along the vector between them. Written so that NaN counts as near.
-fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
+/// Returns whether two nodes are certainly farther apart than `reach`. It tries their balls, the axes of either, and
+/// the vector between them. Written so that NaN counts as near.
+fn certainly_apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);
     if distance > a.radius + b.radius + reach {

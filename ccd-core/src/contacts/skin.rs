@@ -1,4 +1,4 @@
-//! The surface of one body near the other, as named corners, edges and triangles.
+//! The surface of one body near the other, as triangles with mesh numbers.
 
 mod unpack;
 
@@ -11,28 +11,27 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// The unpacked part of a body's surface at a time, in A's frame.
+/// The needed part of a body's surface as triangles, in A's frame.
 pub(super) struct Skin<'a> {
     body: &'a Body,
     to_a: Frame,
     corners: Vec<Corner>,
     faces: Vec<Face>,
-    /// The indices of corners, by place and number.
-    known: HashMap<(PointBits, Option<u32>), u32>,
-    /// The edges within a plane, and the faces on either side. Points on such an edge belong to the first of these
-    /// faces.
-    within: HashMap<[u32; 2], [u32; 2]>,
-    /// Marks the corners within a plane that have no number.
-    hidden: Vec<bool>,
-    /// The faces around each of the hidden corners.
+    /// The index of the corner with a given position and mesh number.
+    corner_index: HashMap<(PointBits, Option<u32>), u32>,
+    /// The edges between two coplanar faces, with these faces. Points on such an edge belong to the first of the faces.
+    coplanar_edges: HashMap<[u32; 2], [u32; 2]>,
+    /// For each corner, whether it is inside a plane and has no mesh number.
+    is_hidden: Vec<bool>,
+    /// The faces around each hidden corner.
     faces_around: HashMap<u32, Vec<u32>>,
     /// The first triangle with each face number.
-    first_of: HashMap<Feature, u32>,
-    /// The sum of the normals around each corner.
-    outward: Vec<DVec3>,
+    first_triangle_of: HashMap<Feature, u32>,
+    /// The sum of the normals of the faces around each corner.
+    corner_normals: Vec<DVec3>,
 }
 
-/// A point of the surface that triangles share.
+/// A vertex that triangles of the surface share.
 struct Corner {
     at: DVec3,
     place: PointBits,
@@ -40,7 +39,7 @@ struct Corner {
     id: Option<u32>,
 }
 
-/// A triangle of the surface; a segment or a point repeats its last corner.
+/// A triangle of the surface. A segment or a point is a triangle that repeats its last corner.
 pub(super) struct Face {
     pub(super) corners: [u32; 3],
     pub(super) piece: u32,
@@ -48,7 +47,7 @@ pub(super) struct Face {
     name: Feature,
 }
 
-/// A corner, an edge or a face of the surface, regardless of its name.
+/// A corner, an edge or a face of the surface, by its index here rather than in the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Spot {
     Corner(u32),
@@ -56,42 +55,42 @@ pub(super) enum Spot {
     Face(u32),
 }
 
-/// A point in the body's frame, by its bits.
+/// The bit pattern of a point's coordinates in the body's frame.
 type PointBits = [u64; 3];
 
 impl<'a> Skin<'a> {
-    /// Creates an empty skin of a body in A's frame.
+    /// Creates the surface of a body without any triangles; `to_a` maps the body's frame to A's.
     pub(super) fn new(body: &'a Body, to_a: Frame) -> Self {
         Skin {
             body,
             to_a,
             corners: Vec::new(),
             faces: Vec::new(),
-            known: HashMap::new(),
-            within: HashMap::new(),
-            hidden: Vec::new(),
+            corner_index: HashMap::new(),
+            coplanar_edges: HashMap::new(),
+            is_hidden: Vec::new(),
             faces_around: HashMap::new(),
-            first_of: HashMap::new(),
-            outward: Vec::new(),
+            first_triangle_of: HashMap::new(),
+            corner_normals: Vec::new(),
         }
     }
 
-    /// Unpacks a piece and returns its faces. It is to be called once for each piece.
-    pub(super) fn of_piece(&mut self, piece: u32) -> Range<u32> {
+    /// Adds the triangles of a piece, and returns their indices. It is to be called once for each piece.
+    pub(super) fn add_piece(&mut self, piece: u32) -> Range<u32> {
         let first = self.faces.len() as u32;
         self.unpack(piece);
         first..self.faces.len() as u32
     }
 
-    /// Finds the edges and corners that are due to the cut into triangles, and not to the shape. It is to be called
-    /// after all needed pieces are unpacked. Heights up to `rounding` count as flat.
-    pub(super) fn hide_cuts(&mut self, rounding: f64) {
+    /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
+    /// all needed pieces are added. Heights up to `rounding` count as flat.
+    pub(super) fn find_cut_edges(&mut self, rounding: f64) {
         self.share_numbers();
         self.add_normals();
         let mut sides: HashMap<[u32; 2], Sides> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
             if let Feature::Face(_) = name {
-                self.first_of.entry(*name).or_insert(face);
+                self.first_triangle_of.entry(*name).or_insert(face);
             }
             for ends in edges(*corners) {
                 let sides = sides.entry(ends).or_default();
@@ -101,24 +100,24 @@ impl<'a> Skin<'a> {
                 sides.count += 1;
             }
         }
-        self.hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
+        self.is_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
         // Segments and points are not within a plane.
         let thin = |face: &&Face| edges(face.corners).count() < 3;
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
-            self.hidden[corner as usize] = false;
+            self.is_hidden[corner as usize] = false;
         }
         for (ends, Sides { mut faces, count }) in sides {
             if count == 2 && self.in_one_plane(ends, faces, rounding) {
                 faces.sort_by_key(|&face| (self.face(face).name, face));
-                self.within.insert(ends, faces);
+                self.coplanar_edges.insert(ends, faces);
             } else {
                 for end in ends {
-                    self.hidden[end as usize] = false;
+                    self.is_hidden[end as usize] = false;
                 }
             }
         }
         for (face, Face { corners, .. }) in (0u32..).zip(&self.faces) {
-            for &corner in corners.iter().filter(|&&k| self.hidden[k as usize]) {
+            for &corner in corners.iter().filter(|&&k| self.is_hidden[k as usize]) {
                 self.faces_around.entry(corner).or_default().push(face);
             }
         }
@@ -136,7 +135,7 @@ impl<'a> Skin<'a> {
         self.corners[corner as usize].at
     }
 
-    /// Returns points of a face, possibly repeated, whose hull is the spot.
+    /// Returns three points, possibly equal, whose hull is a corner, edge or face.
     pub(super) fn points(&self, spot: Spot, face: u32) -> [DVec3; 3] {
         match spot {
             Spot::Corner(corner) => [self.at(corner); 3],
@@ -145,10 +144,10 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Returns the approximate outward direction at a spot of a face: the sum of the normals around the spot, or zero
+    /// Returns the approximate outward direction at a corner, edge or face: the sum of the normals around it, or zero
     /// if none is known.
     pub(super) fn outward(&self, spot: Spot, face: u32) -> DVec3 {
-        let at = |corner: u32| self.outward[corner as usize];
+        let at = |corner: u32| self.corner_normals[corner as usize];
         match spot {
             Spot::Corner(corner) => at(corner),
             Spot::Edge([v, w]) => at(v) + at(w),
@@ -175,9 +174,9 @@ impl<'a> Skin<'a> {
         0..self.faces.len() as u32
     }
 
-    /// Calls `look` with the corners of a face, and with a point of the solid below it. If the piece of the face has
-    /// no facets, all its points take the place of the corners.
-    pub(super) fn for_ends_around(&self, face: u32, look: impl FnMut(DVec3)) {
+    /// Calls `look` with the corners of a face, and with a point of the solid below it. If the piece of the face has no
+    /// facets, all its points take the place of the corners.
+    pub(super) fn for_each_point_around(&self, face: u32, look: impl FnMut(DVec3)) {
         let index = self.face(face).piece;
         let piece = self.body.pieces().get(index as usize);
         let corners = self.triangle(face);
@@ -201,7 +200,7 @@ impl<'a> Skin<'a> {
             .point(points.iter().sum::<DVec3>() / points.len() as f64)
     }
 
-    /// Returns the edges and corners on the boundary of a spot.
+    /// Returns the edges and corners on the boundary of an edge or face.
     pub(super) fn boundary(&self, spot: Spot) -> Vec<Spot> {
         match spot {
             Spot::Corner(_) => Vec::new(),
@@ -214,37 +213,36 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Returns the coplanar faces around a spot within a plane; empty for a spot that is reported
-    /// as itself.
-    pub(super) fn sharing(&self, spot: Spot) -> &[u32] {
+    /// Returns the coplanar faces around an edge or corner that is inside a flat part; empty for others.
+    pub(super) fn coplanar_faces_around(&self, spot: Spot) -> &[u32] {
         let faces = match spot {
             Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
-            Spot::Edge(ends) => self.within.get(&ends).map(<[u32; 2]>::as_slice),
+            Spot::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
             Spot::Face(_) => None,
         };
         faces.unwrap_or_default()
     }
 
-    /// Returns the spot to report for a spot on a face, and the face of that spot. Spots within a plane belong to a
-    /// face, and triangles that share one number are one face.
-    pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
+    /// Returns the corner, edge or face to report instead of `spot`, and a face with it. Edges and corners inside a
+    /// flat part are replaced by a face. Triangles with the same face number are one face.
+    pub(super) fn reported_part(&self, spot: Spot, face: u32) -> (Spot, u32) {
         let face = match spot {
-            Spot::Corner(corner) if self.hidden[corner as usize] => face,
-            Spot::Edge(ends) => match self.across(ends) {
+            Spot::Corner(corner) if self.is_hidden[corner as usize] => face,
+            Spot::Edge(ends) => match self.face_of_coplanar_edge(ends) {
                 Some(face) => face,
                 None => return (spot, face),
             },
             Spot::Face(face) => face,
             Spot::Corner(_) => return (spot, face),
         };
-        let first = self.first_of.get(&self.face(face).name);
+        let first = self.first_triangle_of.get(&self.face(face).name);
         (Spot::Face(first.copied().unwrap_or(face)), face)
     }
 
-    /// Returns the name of a spot on a face. A spot without a number has the name of the face, or
-    /// of the piece.
+    /// Returns the mesh's feature of a corner, edge or face. If it has no number, the feature is that of the face
+    /// `face`, or the piece.
     pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
-        let id = |corner: u32| self.number_of(corner);
+        let id = |corner: u32| self.mesh_number(corner);
         let own = match spot {
             Spot::Corner(corner) => id(corner).map(Feature::Vertex),
             Spot::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
@@ -253,22 +251,22 @@ impl<'a> Skin<'a> {
         own.unwrap_or(self.face(face).name)
     }
 
-    /// Returns the corners of a face, each once, except those within a plane that have no number.
+    /// Returns the corners of a face, each once, except the hidden ones.
     pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
         let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
-        let shown = |corner: &u32| !self.hidden[*corner as usize];
+        let shown = |corner: &u32| !self.is_hidden[*corner as usize];
         first.map(move |k| corners[k]).filter(shown)
     }
 
-    /// Returns the edges of a face, except those within a plane.
+    /// Returns the edges of a face, except those between coplanar faces.
     pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
-        edges(self.face(face).corners).filter(|&ends| self.across(ends).is_none())
+        edges(self.face(face).corners).filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
     }
 
-    /// Returns the face to which a point on an edge within a plane belongs; `None` for an edge of the shape.
-    pub(super) fn across(&self, ends: [u32; 2]) -> Option<u32> {
-        self.within.get(&ends).map(|faces| faces[0])
+    /// Returns the face to which points on an edge between coplanar faces belong; `None` for other edges.
+    pub(super) fn face_of_coplanar_edge(&self, ends: [u32; 2]) -> Option<u32> {
+        self.coplanar_edges.get(&ends).map(|faces| faces[0])
     }
 
     fn add_normals(&mut self) {
@@ -279,10 +277,10 @@ impl<'a> Skin<'a> {
                 outward[corner as usize] += normal;
             }
         }
-        self.outward = outward;
+        self.corner_normals = outward;
     }
 
-    /// Gives corners without a number the number of another piece's corner at the same place.
+    /// Copies mesh numbers to corners without one, from corners of other pieces at the same position.
     fn share_numbers(&mut self) {
         let mut numbered: HashMap<PointBits, (u32, u32)> = HashMap::new();
         for (k, corner) in (0u32..).zip(&self.corners) {
@@ -299,8 +297,8 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Returns whether two faces are in one plane, on either side of the edge that they share: neither rises above
-    /// the other's plane, or they are cut from one facet.
+    /// Returns whether two faces with a common edge are coplanar. They are if neither rises above the other's plane, or
+    /// if they are cut from one facet.
     fn in_one_plane(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
         let [one, other] = faces.map(|face| self.face(face));
         // Rounding moves their surfaces off the plane by different radii.
@@ -327,7 +325,7 @@ impl<'a> Skin<'a> {
     }
 }
 
-/// The first two faces at an edge, and the number of all faces there.
+/// The first two faces at an edge, and the number of faces there.
 #[derive(Default)]
 struct Sides {
     faces: [u32; 2],

@@ -1,13 +1,13 @@
-//! The surface of a body around its points, by a tree over all faces of its skin.
+//! Finds the shape of a body's surface around its points, by a tree over its triangles.
 
 use super::boxes::FaceTree;
-use super::closest::on_triangle;
+use super::closest::nearest_on_triangle;
 use super::skin::Skin;
 use crate::distance::common_normals::CommonNormals;
 use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
-/// The unpacked part of a body's surface, with a tree to find the faces around a point.
+/// The needed part of a body's surface, with a tree to find the triangles around a point.
 pub(super) struct Surface<'a> {
     skin: &'a Skin<'a>,
     tree: FaceTree,
@@ -17,7 +17,7 @@ impl<'a> Surface<'a> {
     pub(super) fn new(skin: &'a Skin<'a>) -> Self {
         Surface {
             skin,
-            tree: FaceTree::over(skin),
+            tree: FaceTree::build(skin),
         }
     }
 
@@ -30,20 +30,20 @@ impl<'a> Surface<'a> {
         let reach = AROUND * rounding;
         let mut normals = CommonNormals::default();
         normals.begin(LEVEL * rounding);
-        surfaces[0].ways_around(points[0], reach, |way| normals.add_a(way));
-        surfaces[1].ways_around(points[1], reach, |way| normals.add_b(way));
+        surfaces[0].offsets_around(points[0], reach, |way| normals.add_offset_of_a(way));
+        surfaces[1].offsets_around(points[1], reach, |way| normals.add_offset_of_b(way));
         normals.sort();
         normals
     }
 
-    /// Calls `add` with the vectors from a point to the corners of the faces around it, and with vectors into the
-    /// solid.
-    fn ways_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+    /// Calls `add` with vectors that describe the surface around a point: to the corners of the faces there, and into
+    /// the solid.
+    fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for face in self.tree.near(at, reach) {
-            let (_, nearest) = on_triangle(at, self.skin.triangle(face), 0.0);
+            let (_, nearest) = nearest_on_triangle(at, self.skin.triangle(face), 0.0);
             // Written so that NaN is near.
             if !(nearest.distance(at) > reach) {
-                self.skin.for_ends_around(face, |end| add(end - at));
+                self.skin.for_each_point_around(face, |end| add(end - at));
             }
         }
     }

@@ -45,7 +45,7 @@ fn names(pairs: &[FeaturePair]) -> Vec<String> {
     names
 }
 
-/// Counts the pairs of a vertex and a face, the pairs of edges, and all others.
+/// Counts the pairs of a vertex and a face, of two edges, and of other features.
 fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     let mut counts = [0; 3];
     for pair in pairs {
@@ -58,7 +58,7 @@ fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     counts
 }
 
-/// A cube, or slab, of 12 triangles that share 8 vertices, and the same as one piece.
+/// Creates a box twice: as 12 triangles that share 8 vertices, and as one piece.
 fn cuboids(half: DVec3) -> [Body; 2] {
     let solid = Body::cuboid(half).unwrap();
     [Mesh::cuboid(half).body(Volume::Solid), solid]
@@ -137,7 +137,7 @@ fn flush_squares_cross_along_their_outlines() {
     check_bounds(&pairs, 0.0, -DVec3::Z);
 }
 
-/// Equal faces that cover each other meet corner on corner, without the pairs that follow from these.
+/// Tests that equal faces on each other report only their corners, not the pairs that follow from these.
 #[test]
 fn equal_faces_meet_in_their_corners() {
     for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
@@ -177,7 +177,8 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     check_bounds(&pairs, 5e-4, -DVec3::X);
 }
 
-/// Approximate hulls have no features of a mesh. Hulls of unknown facets have only their corners.
+/// Tests features without mesh numbers: hulls of unknown facets have only corners. Hulls of unknown facets have only
+/// their corners.
 #[test]
 fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
@@ -204,7 +205,7 @@ fn features_without_a_number_are_named_by_their_piece() {
     }
 }
 
-/// Bodies at the distance of the margin are in contact.
+/// Tests that bodies at the distance of the margin are in contact.
 #[test]
 fn a_margin_is_reached_across() {
     let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Volume::Solid);
@@ -220,7 +221,7 @@ fn a_margin_is_reached_across() {
     }
 }
 
-/// The shapes have random numbers and positions, so that no pair is just within or just out of reach.
+/// Tests shapes of random numbers and positions, so that no pair is just within or just out of reach.
 #[test]
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
@@ -247,7 +248,7 @@ fn no_pair_of_random_soups_is_missed() {
     assert!(found.iter().all(|&count| count > 120), "{found:?}");
 }
 
-/// Closed meshes that share vertices: faces on faces, edges on faces, edges across, corners on corners.
+/// Tests closed meshes that share vertices: faces on faces, edges on faces, crossing edges, corners on corners.
 #[test]
 fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     let rng = &mut rng(72);
@@ -282,7 +283,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     assert!(found[0] > 400 && found[1] > 400, "{found:?}");
 }
 
-/// Compares the pairs with those of the reference, by names and distances, in both orders of the bodies.
+/// Compares the pairs with a brute-force search, by features and distances, in both orders of the bodies.
 fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
     let config = Settings {
@@ -347,7 +348,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     assert_eq!(pairs, problem.contacts_at(0.0).unwrap());
 }
 
-/// Two fine plates are face to face: of a million pairs of triangles, only near ones are visited.
+/// Tests that of a million pairs of triangles between two plates, only the near ones are visited.
 #[test]
 fn fine_plates_face_to_face_are_no_trouble() {
     let rng = &mut rng(73);

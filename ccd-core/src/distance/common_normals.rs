@@ -1,48 +1,49 @@
-//! The common normals of two surfaces: the directions along which they are apart at two of their points.
+//! Finds a common normal of two surfaces at a pair of nearest points.
 
 use crate::math::vector::{across, length, unit};
 use crate::rounding::LEAST_SHARE;
 use glam::DVec3;
 
-/// The common normals of surfaces A and B at a point of each: the unit vectors `n` from A to B in the normal cone of A,
-/// with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes nearer around the two points.
+/// The common normals of surfaces A and B at a point of each. They are the unit vectors `n` from A to B in the normal
+/// cone of A, with `−n` in that of B `[ROCKAFELLAR70]`. Along them neither surface comes nearer around the two points.
 /// Each surface is given by its offsets: vectors from its point to the corners of the faces around that point. `n` is a
 /// common normal if no offset of A rises along it, and none of B falls, by more than a slack.
 #[derive(Debug, Default)]
 pub(crate) struct CommonNormals {
-    /// The offsets of A reversed, and those of B: none of them falls along a common normal.
-    ways: Vec<DVec3>,
-    /// The height by which an offset may fall.
+    /// The offsets of B, and the negated offsets of A. None of them may fall along a common normal.
+    offsets: Vec<DVec3>,
+    /// The height by which an offset may fall along a common normal.
     slack: f64,
 }
 
 impl CommonNormals {
     /// Removes all offsets, and sets the slack.
     pub(crate) fn begin(&mut self, slack: f64) {
-        self.ways.clear();
-        self.ways.shrink_to(MOST_KEPT);
+        self.offsets.clear();
+        self.offsets.shrink_to(MOST_KEPT);
         self.slack = slack;
     }
 
-    /// Adds an offset of A.
-    pub(crate) fn add_a(&mut self, way: DVec3) {
-        self.ways.push(-way);
+    /// Adds a vector from A's point to a point of A's surface around it.
+    pub(crate) fn add_offset_of_a(&mut self, offset: DVec3) {
+        self.offsets.push(-offset);
     }
 
-    /// Adds an offset of B.
-    pub(crate) fn add_b(&mut self, way: DVec3) {
-        self.ways.push(way);
+    /// Adds a vector from B's point to a point of B's surface around it.
+    pub(crate) fn add_offset_of_b(&mut self, offset: DVec3) {
+        self.offsets.push(offset);
     }
 
-    /// Sorts the offsets after the last one was added. The longest ones are the most exact, and come first.
+    /// Sorts the offsets, the longest first. It is to be called after the last offset is added. The longest ones are
+    /// the most exact.
     pub(crate) fn sort(&mut self) {
-        let length = |way: &DVec3| way.length_squared();
-        self.ways
+        let length = |offset: &DVec3| offset.length_squared();
+        self.offsets
             .sort_unstable_by(|one, other| length(other).total_cmp(&length(one)));
     }
 
-    /// Returns the common normal that is nearest to a direction, or one near it if there are several; `None` if there
-    /// is no common normal.
+    /// Returns the common normal that is nearest to a direction, or one close to the nearest; `None` if there is no
+    /// common normal.
     pub(crate) fn near(&self, towards: DVec3) -> Option<DVec3> {
         let [x, y, z] = DVec3::AXES;
         // If there is only one common normal, one of these axes is less than 55 degrees from it.
@@ -56,13 +57,14 @@ impl CommonNormals {
         };
         let others = || {
             axes.into_iter()
-                .filter_map(|axis| self.nearest(axis))
+                .filter_map(|axis| self.project_onto_cone(axis))
                 .reduce(nearer)
         };
-        self.nearest(towards).or_else(others)
+        self.project_onto_cone(towards).or_else(others)
     }
 
-    /// Like [`CommonNormals::near`], if the vector between the two points is along the normal, up to the slack.
+    /// Like [`CommonNormals::near`], but returns `None` unless the vector `between` the two points is along the normal,
+    /// up to the slack.
     pub(crate) fn along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
         let n = self.near(towards)?;
         let ahead = n.dot(between);
@@ -71,30 +73,31 @@ impl CommonNormals {
         (ahead >= -self.slack && aside <= self.slack).then_some(n)
     }
 
-    /// Returns the unit vector along the projection of a direction on the cone. The offsets that fall along the vector
-    /// are made level one by one, as in linear programs of few unknowns `[SEIDEL91]`. Returns `None` if the direction
-    /// is not distinctly less than a right angle from the cone.
-    fn nearest(&self, towards: DVec3) -> Option<DVec3> {
+    /// Projects a direction onto the cone of common normals, and returns the unit vector along the projection. The
+    /// offsets that fall along the vector are made level one by one, as in linear programs of few unknowns
+    /// `[SEIDEL91]`. Returns `None` if the direction is not distinctly less than a right angle from the cone.
+    fn project_onto_cone(&self, towards: DVec3) -> Option<DVec3> {
         let towards = unit(towards)?;
         let mut best = towards;
-        for (k, way) in self.ways.iter().copied().enumerate() {
-            if self.falls(best, way) {
-                best = self.nearest_across(towards, way, k)?;
+        for (k, offset) in self.offsets.iter().copied().enumerate() {
+            if self.falls(best, offset) {
+                best = self.project_perpendicular(towards, offset, k)?;
             }
         }
         Some(best)
     }
 
-    /// Like [`CommonNormals::nearest`], perpendicular to an offset, and for the first `count` of the other ones only.
-    fn nearest_across(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
+    /// Like [`CommonNormals::project_onto_cone`], with the result perpendicular to `level`, and for the first `count` offsets
+    /// only.
+    fn project_perpendicular(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
         let level = unit(level)?;
-        let mut best = distinct(towards - level * level.dot(towards))?;
-        let before = || self.ways.iter().copied().take(count);
-        for (k, way) in before().enumerate() {
-            if self.falls(best, way) {
-                let line = unit(across(level, way))?;
-                best = distinct(line * line.dot(towards))?;
-                if before().take(k).any(|way| self.falls(best, way)) {
+        let mut best = unit_if_distinct(towards - level * level.dot(towards))?;
+        let before = || self.offsets.iter().copied().take(count);
+        for (k, offset) in before().enumerate() {
+            if self.falls(best, offset) {
+                let line = unit(across(level, offset))?;
+                best = unit_if_distinct(line * line.dot(towards))?;
+                if before().take(k).any(|offset| self.falls(best, offset)) {
                     return None;
                 }
             }
@@ -102,17 +105,17 @@ impl CommonNormals {
         Some(best)
     }
 
-    fn falls(&self, n: DVec3, way: DVec3) -> bool {
+    fn falls(&self, n: DVec3, offset: DVec3) -> bool {
         // Written so that NaN counts as a fall.
-        !(n.dot(way) >= -self.slack)
+        !(n.dot(offset) >= -self.slack)
     }
 }
 
-/// The most offsets for which the memory is kept.
+/// The largest number of offsets for which memory is kept between uses.
 const MOST_KEPT: usize = 1 << 20;
 
-/// Returns the unit vector along a part of a unit vector, if that part is more than rounding.
-fn distinct(part: DVec3) -> Option<DVec3> {
+/// Returns the unit vector along a component of a unit vector; `None` if the component may be mere rounding.
+fn unit_if_distinct(part: DVec3) -> Option<DVec3> {
     (length(part) > LEAST_SHARE).then(|| unit(part))?
 }
 

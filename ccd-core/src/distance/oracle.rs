@@ -1,4 +1,4 @@
-//! The contract between the engine and the backends that measure the distance of two pieces.
+//! The interface of backends that compute the distance of two pieces.
 
 use crate::body::Body;
 use crate::body::combination::Combination;
@@ -6,7 +6,7 @@ use crate::body::piece::Piece;
 use crate::motion::pose::Frame;
 use glam::DVec3;
 
-/// A backend that computes the distance of two convex pieces.
+/// A backend that computes the nearest points of two convex pieces.
 ///
 /// # Contract
 /// For pieces P and Q, given in frame A (Q through [`PiecePair::b_to_a`]), radii ignored:
@@ -26,10 +26,11 @@ use glam::DVec3;
 /// ([`Separation`](crate::Separation)). A poor claim makes a query slow or
 /// [unresolved](crate::Outcome::Unresolved), never late.
 pub trait DistanceOracle {
-    /// The memory that a call leaves for the next one on the same pair. The default is a start without any.
+    /// What a call remembers for the next call on the same pair, such as the last simplex. The default value remembers
+    /// nothing.
     type Cache: Clone + Default;
 
-    /// Computes a claim: an axis, and the nearest points of a pair.
+    /// Computes a separating axis and the nearest points of a pair of pieces.
     ///
     /// Returns a [`GiveUp`] with the reason if the oracle has no answer; the caller may ask another
     /// one ([`OrElse`]).
@@ -39,12 +40,12 @@ pub trait DistanceOracle {
         cache: &mut Self::Cache,
     ) -> Result<Claim, GiveUp>;
 
-    /// Returns the effort so far, over all calls; an oracle that does not count returns 0.
+    /// Returns the steps of all calls so far; an oracle that does not count returns 0.
     fn effort(&self) -> Effort {
         Effort::default()
     }
 
-    /// Prepares a body in advance, so that its first queries are not slower than later ones.
+    /// Precomputes values for a body, so that its first queries are not slower than later ones.
     ///
     /// # Guarantee
     /// Answers are the same bits with and without this call. An oracle that stores nothing about pieces does nothing
@@ -68,14 +69,14 @@ pub trait DistanceOracle {
     }
 }
 
-/// Two pieces, each in its own body's frame, and the relation of the frames.
+/// Two pieces, each in its own body's frame, and the transform between the frames.
 #[derive(Clone, Copy, Debug)]
 pub struct PiecePair<'a> {
-    /// A piece of body A. Claims are in A's frame.
+    /// The piece of body A, in A's frame, which is also the frame of claims. Claims are in A's frame.
     pub a: Piece<'a>,
-    /// A piece of body B, in B's frame.
+    /// The piece of body B, in B's frame.
     pub b: Piece<'a>,
-    /// Maps B's coordinates to A's.
+    /// The transform from B's frame to A's.
     pub b_to_a: Frame,
 }
 
@@ -86,21 +87,21 @@ impl PiecePair<'_> {
     }
 }
 
-/// The claim of an oracle about a pair, unchecked, in A's frame.
+/// An oracle's unchecked result for a pair of pieces, in A's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claim {
-    /// A vector from A's piece to B's piece, of any length.
+    /// A vector from A's piece to B's piece along which they are claimed to be apart, of any length.
     pub axis: DVec3,
-    /// The point of A's piece that is nearest to B's.
+    /// The claimed point of A's piece that is nearest to B's.
     pub a: Combination,
-    /// The point of B's piece that is nearest to A's.
+    /// The claimed point of B's piece that is nearest to A's.
     pub b: Combination,
 }
 
-/// The effort of an oracle, over many calls.
+/// Counters for the work of an oracle, over many calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
-    /// The steps of the search: from features to neighbouring features, from simplex to simplex.
+    /// The number of steps between features or simplices.
     pub steps: u64,
     /// The number of times that a search returned to an earlier state.
     pub cycles: u64,
@@ -123,7 +124,7 @@ impl std::ops::Add for Effort {
 impl std::ops::Sub for Effort {
     type Output = Effort;
 
-    /// Returns the effort since `earlier`.
+    /// Returns the counts since an earlier state of the counters.
     fn sub(self, earlier: Effort) -> Effort {
         Effort {
             steps: self.steps - earlier.steps,
@@ -133,23 +134,24 @@ impl std::ops::Sub for Effort {
     }
 }
 
-/// The reason why an oracle has no answer.
+/// The reason why an oracle has no result for a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GiveUp {
-    /// The oracle supports fewer points per piece.
+    /// A piece has more points than the oracle supports.
     TooManyPoints,
-    /// The oracle needs the facets of the pieces' hulls, and they are unknown or do not close a hull.
+    /// The oracle needs facets that close the pieces' hulls, and a piece has none.
     BadFacets,
-    /// The search reached its cap of steps.
+    /// The search reached its limit of steps.
     StepCap,
     /// The search returned to an earlier state.
     Cycle,
-    /// The oracle could not certify its result from any start.
+    /// The oracle could not prove its result, from any start.
     Uncertified,
 }
 
-/// Two oracles: the second is called if the first gives up. [`DistanceOracle::or_else`] creates it.
+/// An oracle with a fallback: the second oracle is called if the first gives up. [`DistanceOracle::or_else`] creates
+/// it.
 #[derive(Clone, Debug, Default)]
 pub struct OrElse<First, Second> {
     first: First,
@@ -158,14 +160,14 @@ pub struct OrElse<First, Second> {
 }
 
 impl<First, Second> OrElse<First, Second> {
-    /// Returns the number of calls of the second oracle.
+    /// Returns how often the second oracle was called.
     pub fn fallbacks(&self) -> u64 {
         self.fallbacks
     }
 }
 
 impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<First, Second> {
-    /// The second oracle's cache is created at its first call: most pairs never need it.
+    /// The caches of both oracles; the second one is created at the second oracle's first call.
     type Cache = (First::Cache, Option<Second::Cache>);
 
     fn separation(

@@ -1,5 +1,5 @@
-//! The decision whether two pieces truly intersect. A claimed penetration is confirmed by a proof, and so is its
-//! absence.
+//! Decides whether two pieces intersect by more than rounding. A claimed intersection is confirmed by a proof, and so
+//! is its absence.
 
 use super::oracle::PiecePair;
 use super::separation::Checked;
@@ -9,19 +9,18 @@ use crate::math::vector::unit_or_any;
 use crate::tuning::MAX_CORNERS;
 use glam::DVec3;
 
-/// The decision whether two pieces intersect by more than rounding.
+/// Whether two pieces intersect by more than rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Intersection {
-    /// The pieces certainly intersect: they still do after any displacement by less than rounding.
+    /// The pieces certainly intersect, even after any displacement smaller than rounding.
     Certain,
-    /// The pieces do not intersect: an axis separates them, or would after such a small displacement.
+    /// The pieces do not intersect by more than rounding: an axis separates them, or would after such a displacement.
     None,
-    /// Neither could be proven.
+    /// Neither intersection nor its absence could be proven.
     Undecided,
 }
 
-/// Distinguishes intersecting pieces from touching ones; `rounding` bounds the error of their
-/// points' positions.
+/// Decides whether two pieces intersect by more than rounding; `rounding` bounds the error of their points' positions.
 ///
 /// # Guarantee
 /// Without rounding radii the claim alone decides nothing. Either the origin is in the hull of the differences of the
@@ -31,7 +30,7 @@ pub(crate) fn intersects(
     pair: &PiecePair<'_>,
     checked: &Checked,
     rounding: f64,
-    inner: &mut Inner,
+    inner: &mut InnerPolytope,
 ) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
@@ -67,39 +66,39 @@ pub(crate) fn intersects(
     Intersection::Undecided
 }
 
-/// Returns the difference of two points, of A and of B in A's frame, that is farthest along a direction.
+/// Returns the point of the Minkowski difference `a − b` that is farthest along a direction, in A's frame.
 fn farthest_difference(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
     let of_b = pair.b.farthest(-pair.b_to_a.inverse_vector(along));
     pair.a.farthest(along) - pair.b_to_a.point(of_b)
 }
 
-/// A polytope with corners among the differences of the pieces' points `[GJK88]`: if it contains
-/// the origin, the pieces intersect.
+/// A growing polytope inside the Minkowski difference of two pieces `[GJK88]`. If it contains the origin, the pieces
+/// intersect.
 ///
 /// The polytope grows as in the expanding polytope algorithm `[BERGEN01]`, but need not contain the origin initially.
 /// Its faces form a closed surface even if their normals are rounded: the faces that a new corner sees are replaced
 /// by a cone to their rim. Once all faces are turned away from the origin, the surface winds about it.
 #[derive(Debug, Default)]
-pub(crate) struct Inner {
+pub(crate) struct InnerPolytope {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
-    /// The edges of the faces that the last corner saw, on the border to the faces that it did not see.
-    rim: Vec<[usize; 2]>,
+    /// The border edges between the faces that the last corner is in front of, and the others.
+    horizon_edges: Vec<[usize; 2]>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Face {
-    /// The corners, counterclockwise as seen from outside.
+    /// The indices of the corners, counterclockwise as seen from outside.
     corners: [usize; 3],
-    /// The unit normal.
+    /// The outward unit normal.
     normal: DVec3,
-    /// The heights of the lowest and the highest of the face's corners above the origin, along the normal.
+    /// The least and greatest heights of the face's corners above the origin, along the normal.
     depth: f64,
     height: f64,
 }
 
-impl Inner {
-    /// Starts again with a tetrahedron. Returns false if all differences are in one plane.
+impl InnerPolytope {
+    /// Starts with a tetrahedron of differences. Returns false if all differences are in one plane.
     fn begin(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
         self.corners.clear();
         self.faces.clear();
@@ -125,38 +124,38 @@ impl Inner {
         });
     }
 
-    /// Returns the face that is nearest to the origin, or farthest on the wrong side of it.
+    /// Returns the face that is nearest to the origin, or that the origin is farthest in front of.
     fn shallowest(&self) -> Option<&Face> {
         self.faces.iter().min_by(|f, g| f.depth.total_cmp(&g.depth))
     }
 
-    /// Adds a corner that sees a face.
+    /// Adds a corner that is in front of the face `seen`, and replaces all faces that it is in front of.
     fn add(&mut self, corner: DVec3, seen: [usize; 3]) {
         let new = self.corners.len();
         self.corners.push(corner);
-        let rim = &mut self.rim;
-        rim.clear();
+        let horizon_edges = &mut self.horizon_edges;
+        horizon_edges.clear();
         self.faces.retain(|face| {
             let sees = face.corners == seen || face.normal.dot(corner) > face.height;
             for k in (0..3).filter(|_| sees) {
                 let [from, to] = [face.corners[k], face.corners[(k + 1) % 3]];
                 // An edge of two removed faces is not part of the rim.
-                match rim.iter().position(|&edge| edge == [to, from]) {
-                    Some(other) => drop(rim.swap_remove(other)),
-                    None => rim.push([from, to]),
+                match horizon_edges.iter().position(|&edge| edge == [to, from]) {
+                    Some(other) => drop(horizon_edges.swap_remove(other)),
+                    None => horizon_edges.push([from, to]),
                 }
             }
             !sees
         });
-        for k in 0..self.rim.len() {
-            let [from, to] = self.rim[k];
+        for k in 0..self.horizon_edges.len() {
+            let [from, to] = self.horizon_edges[k];
             self.push([from, to, new]);
         }
     }
 }
 
-/// Returns four differences far from one another; `None` when all differences are in a plane up to rounding, so that
-/// no point is deeper than that.
+/// Returns four differences far from one another. Returns `None` if all differences are in a plane up to rounding, so
+/// that the pieces cannot intersect by more than that.
 fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     let both = |along: DVec3| [along, -along].map(|along| farthest_difference(pair, along));
     let farther =
@@ -184,8 +183,8 @@ fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
     })
 }
 
-/// Returns the unit normal of a triangle, computed so that even the corners of a needle are level along it. The part
-/// of the cross product's rounding that lies along the needle would tilt the normal.
+/// Returns the unit normal of a triangle, computed so that even the corners of a needle have equal heights along it.
+/// The part of the cross product's rounding that lies along the needle would tilt the normal.
 fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     let edges = [b - a, c - b, a - c];
     let longest = |e: DVec3, f: DVec3| {

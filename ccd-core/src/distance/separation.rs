@@ -1,4 +1,4 @@
-//! The check of the claims of oracles: no claim is used unchecked.
+//! Checks oracles' claims and turns them into proven distance bounds.
 
 pub(crate) mod sharp;
 
@@ -8,32 +8,32 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit_or_any};
 use glam::DVec3;
 
-/// A checked claim, in A's frame.
+/// A checked claim with proven bounds of the distance, in A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Checked {
-    /// The claim; its combinations name existing points.
+    /// The claim, with combinations of points that exist.
     pub(crate) claim: Claim,
-    /// A lower bound of the distance, rounding deducted; negative when no axis separates.
+    /// A lower bound of the distance, minus rounding; negative if no axis separates the pieces.
     pub(crate) lower: f64,
-    /// An upper bound of the distance, rounding added.
+    /// An upper bound of the distance, plus rounding.
     pub(crate) upper: f64,
-    /// The unit axis that `lower` was computed along.
+    /// The unit axis along which `lower` was computed.
     pub(crate) axis: DVec3,
-    /// The distance of the witnesses before the pieces' radii are subtracted.
+    /// The distance of the nearest points before the pieces' radii are subtracted.
     pub(crate) core_distance: f64,
-    /// The points that `upper` was computed from, on the rounded surfaces.
+    /// The point of A from which `upper` was computed, on the surface that includes the radius.
     pub(crate) witness_a: DVec3,
     pub(crate) witness_b: DVec3,
 }
 
-/// Checks a claim with one support query per axis and one pair of points; `rounding` bounds the
-/// error of either.
+/// Computes bounds of the distance from a claim: the gap along its axis, and the distance of its points. `rounding`
+/// bounds the error of either.
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper`, for any claim.
 pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Checked {
-    let (a, on_a) = named(claim.a, pair.a.points);
-    let (b, on_b) = named(claim.b, pair.b.points);
+    let (a, on_a) = with_valid_indices(claim.a, pair.a.points);
+    let (b, on_b) = with_valid_indices(claim.b, pair.b.points);
     let on_b = pair.b_to_a.point(on_b);
     let way = on_b - on_a;
     let distance = length(way);
@@ -66,13 +66,13 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     }
 }
 
-/// Returns `min_B n·y − max_A n·x` of the unrounded pieces, with heights measured from `from`.
+/// Returns the gap `min_B n·y − max_A n·x` of two pieces without their radii. Heights are measured from `from`.
 #[inline]
 pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
     support_gap_near(pair, n, from, [None; 2])
 }
 
-/// Like [`support_gap`], by climbing edges from corners that may be known to be nearly extreme.
+/// Like [`support_gap`], but starts the searches at corners that may be known to be nearly extremal.
 #[inline]
 fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
     let highest = match pair.a.support {
@@ -100,9 +100,8 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
     lowest + origin_b - highest
 }
 
-/// Returns a combination and its point. A combination with indices of points that the piece does not have is
-/// replaced.
-fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
+/// Returns a combination and its position. A combination with indices that the piece does not have is replaced.
+fn with_valid_indices(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
     match combination.of(points) {
         Some(point) => (combination, point),
         None => (Combination::point(0), points[0]),

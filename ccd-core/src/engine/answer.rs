@@ -11,9 +11,9 @@ use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
 use crate::touching_plane::TouchingPlane;
-pub(crate) use given::{contact_of_given, of_given};
+pub(crate) use given::{contact_for_given_bodies, outcome_for_given_bodies};
 
-/// Searches in order of time, under the query's policy for contacts at the start.
+/// Runs a search that examines pairs in order of time, under the query's policy for contacts at the start.
 ///
 /// Bodies that begin in contact, under the policy `StartPolicy::Leave`, are searched again at half the gap that they
 /// began with. Pairs that part or slide keep more than that gap; pairs that approach do not. If there is no useful
@@ -27,11 +27,11 @@ pub(crate) fn answer<O: DistanceOracle>(
     search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     let as_found = |_: &Problem<'_>, _: &mut O, _: &mut Meter| None;
-    answer_after(problem, oracle, scratch, as_found, search)
+    answer_under_policy(problem, oracle, scratch, as_found, search)
 }
 
-/// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. Bodies that are to
-/// be let go are therefore examined first.
+/// Like [`answer`], for a search in any order. Such a search may pass over a contact at the start. If contacts at the
+/// start are to be ignored, the start is therefore examined first.
 pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -42,19 +42,19 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
         let beyond = problem.contact_distance().next_up();
         at_start(problem, beyond, oracle, meter)
     };
-    answer_after(problem, oracle, scratch, at_start, search)
+    answer_under_policy(problem, oracle, scratch, at_start, search)
 }
 
-/// Searches under the policy. For bodies that are to be let go, `look` examines the start first, and may return the
-/// answer.
-fn answer_after<O: DistanceOracle>(
+/// Runs a search under the query's policy for contacts at the start. If these are to be ignored, `look` examines the
+/// start first, and may return the outcome.
+fn answer_under_policy<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     scratch: &mut Scratch,
     look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter) -> Option<Outcome>,
     mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
-    metered(problem, oracle, scratch, |oracle, meter| {
+    run_metered(problem, oracle, scratch, |oracle, meter| {
         let outcome = match problem.start {
             StartPolicy::Report => search(problem, oracle, meter),
             StartPolicy::Leave => {
@@ -63,22 +63,26 @@ fn answer_after<O: DistanceOracle>(
                 seen.unwrap_or_else(|| search(&problem, oracle, meter))
             }
         };
-        let parting = let_go(problem, problem.start, &outcome, oracle, meter);
+        let parting = ignoring_start_contact(problem, problem.start, &outcome, oracle, meter);
         let (outcome, tolerance) = match parting {
             Some(problem) => {
                 let outcome = search(&problem, oracle, meter);
-                (outcome, shown(&problem, &outcome))
+                (outcome, achieved_tolerance(&problem, &outcome))
             }
             None => (outcome, problem.tolerance),
         };
         let within = problem.margin + tolerance;
-        (of_given(problem, oracle, meter, outcome, within), tolerance)
+        (
+            outcome_for_given_bodies(problem, oracle, meter, outcome, within),
+            tolerance,
+        )
     })
     .answer()
 }
 
-/// Returns the problem of bodies that touch at the start and are to be let go; `None` for other bodies.
-pub(crate) fn let_go<'a, O: DistanceOracle>(
+/// Returns the problem in which the contact at the start is ignored, if the policy asks for that and the bodies touch;
+/// `None` otherwise.
+pub(crate) fn ignoring_start_contact<'a, O: DistanceOracle>(
     problem: &Problem<'a>,
     start: StartPolicy,
     outcome: &Outcome,
@@ -89,7 +93,8 @@ pub(crate) fn let_go<'a, O: DistanceOracle>(
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let (within, at_start) = (problem.contact_distance(), problem.time(0.0));
             // The normal is needed here. That of two pieces alone may be arbitrary.
-            let contact = contact_of_given(problem, oracle, meter, *contact, within, at_start);
+            let contact =
+                contact_for_given_bodies(problem, oracle, meter, *contact, within, at_start);
             let gap = contact.separation.lower - problem.margin;
             Some(problem.leaving(gap, TouchingPlane::of(problem, &contact)))
         }
@@ -97,14 +102,14 @@ pub(crate) fn let_go<'a, O: DistanceOracle>(
     }
 }
 
-/// The result of a search, with its tolerance and the cost.
-pub(crate) struct Searched<T> {
+/// The result of a search, with its tolerance and its work.
+pub(crate) struct SearchResult<T> {
     pub(crate) found: T,
     pub(crate) tolerance: f64,
     pub(crate) stats: Stats,
 }
 
-impl Searched<Outcome> {
+impl SearchResult<Outcome> {
     pub(crate) fn answer(self) -> Answer {
         Answer {
             outcome: self.found,
@@ -114,19 +119,19 @@ impl Searched<Outcome> {
     }
 }
 
-/// Runs a search, and adds its work to the meter. The search returns its result and the tolerance.
-pub(crate) fn metered<O: DistanceOracle, T>(
+/// Runs a search and counts its work. The search returns its result and the tolerance.
+pub(crate) fn run_metered<O: DistanceOracle, T>(
     problem: &Problem<'_>,
     oracle: &mut O,
     scratch: &mut Scratch,
     solve: impl FnOnce(&mut O, &mut Meter) -> (T, f64),
-) -> Searched<T> {
+) -> SearchResult<T> {
     let before = oracle.effort();
     let mut meter = Meter::new(problem);
     meter.scratch = scratch.take();
     let (found, tolerance) = solve(oracle, &mut meter);
     *scratch = meter.scratch.take();
-    Searched {
+    SearchResult {
         found,
         tolerance,
         stats: Stats {
@@ -137,9 +142,9 @@ pub(crate) fn metered<O: DistanceOracle, T>(
 }
 
 /// Returns the tolerance that an outcome under `StartPolicy::Leave` achieves. Pieces that rest on each other count as
-/// in contact again once they cannot be proven apart, even if their distance is known less exactly than the least
+/// in contact again once they cannot be proven apart. Their distance may then be known less exactly than the least
 /// tolerance.
-pub(crate) fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
+pub(crate) fn achieved_tolerance(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     match outcome {
         Outcome::Contact { contact, .. } => {
             let shown = (contact.separation.upper - problem.margin).next_up();

@@ -1,8 +1,8 @@
-//! Best-first search: the pair whose proof expires first is examined next.
+//! Best-first search: always examines the pair whose proof expires first.
 
 use super::answer::answer;
 use super::meter::Meter;
-use super::proven::{Proven, free_at_once};
+use super::proven::{Proven, free_by_bounding_volumes};
 use super::queue::Queue;
 use super::scratch::Scratch;
 use super::search::{Advance, Item, Question, Search};
@@ -13,7 +13,7 @@ use crate::problem::Problem;
 use crate::shortcuts::rounds::in_rounds;
 use std::ops::ControlFlow;
 
-/// Best-first search by time, the default.
+/// The default schedule: a best-first search in order of time.
 ///
 /// A pair of nodes carries the clock until which it is proven apart. The pair of least clock is split at the pose of
 /// that clock, and its children are proven apart further, eight at once. The first pair of pieces found within the
@@ -85,7 +85,7 @@ impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
 
 impl<O: DistanceOracle> BestFirst<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
-        if let Some(free) = free_at_once(problem) {
+        if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
         let mut search = Search {
@@ -97,7 +97,7 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 }
 
-/// The question of the first contact. All pairs are proven apart until the clock of the next one.
+/// The search for the first contact. All pairs are proven apart until the clock of the next one.
 impl<O: DistanceOracle> Question<O> for Proven {
     type Found = Outcome;
 

@@ -1,4 +1,4 @@
-//! Depth-first search: the newest pair is examined next, whatever its clock. It serves questions other than the first
+//! Depth-first search: always examines the newest pair, whatever its clock. It serves questions other than the first
 //! contact.
 
 use super::scratch::Scratch;
@@ -6,7 +6,7 @@ use super::search::Item;
 use super::stack::Stack;
 use crate::distance::oracle::DistanceOracle;
 
-/// Depth-first search, for [any contact](DepthFirst::any_contact) and for the [closest
+/// A schedule that searches depth first, for [any contact](DepthFirst::any_contact) and for the [closest
 /// approach](DepthFirst::closest_approach).
 ///
 /// Pairs are split and followed like those of [`BestFirst`](crate::schedule::BestFirst), but the newest is examined next. A

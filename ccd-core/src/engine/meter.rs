@@ -1,4 +1,4 @@
-//! The limits of a query's work, the work done, and the scratch memory.
+//! Counts a query's work, and enforces its limits.
 
 use super::scratch::{Memory, Scratch};
 use crate::answer::{Limit, Stats};
@@ -7,58 +7,58 @@ use crate::tuning::WORK_BETWEEN_LOOKS;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// Counts the work of a query, and ends the query at its limit.
+/// Counts the work of a query, and stops the query at its limit.
 #[derive(Debug)]
 pub(crate) struct Meter {
     pub(crate) stats: Stats,
     pub(crate) scratch: Scratch,
-    /// The time of the deadline; `None` if there is none. No clock is read then.
-    end: Option<Instant>,
-    /// The work at which the clock and the stop flag are read next; never if there are none.
-    next_look: u64,
+    /// The time at which the deadline passes; `None` without a deadline. No clock is read then.
+    deadline_at: Option<Instant>,
+    /// The amount of work at which the clock and the stop flag are read next; unreachable if there are none.
+    next_check: u64,
 }
 
 impl Meter {
-    /// Starts the meter at the present time.
+    /// Starts counting, and starts the deadline's time.
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         // A deadline that no clock can represent counts as none.
-        let end = |deadline| Instant::now().checked_add(deadline);
-        let end = problem.deadline.and_then(end);
+        let deadline_at = |deadline| Instant::now().checked_add(deadline);
+        let deadline_at = problem.deadline.and_then(deadline_at);
         Meter {
             stats: Stats::default(),
             scratch: None,
-            next_look: if end.is_some() || problem.stop.is_some() {
+            next_check: if deadline_at.is_some() || problem.stop.is_some() {
                 0
             } else {
                 u64::MAX
             },
-            end,
+            deadline_at,
         }
     }
 
-    /// Returns the memory for searches that need lists.
-    pub(crate) fn memory(&mut self) -> &mut Memory {
+    /// Returns the scratch memory, and creates it if necessary.
+    pub(crate) fn scratch_memory(&mut self) -> &mut Memory {
         self.scratch.get_or_insert_default()
     }
 
-    /// Counts a pair that is about to be visited.
+    /// Counts one visit of a pair, and returns an error if a limit is reached.
     #[inline]
-    pub(crate) fn visit(&mut self, problem: &Problem<'_>) -> Result<(), Limit> {
+    pub(crate) fn count_visit(&mut self, problem: &Problem<'_>) -> Result<(), Limit> {
         self.stats.iterations += 1;
         let work = self.stats.work();
         if work > problem.budget {
             return Err(Limit::Budget);
         }
-        if work >= self.next_look {
-            self.look(problem, work)
+        if work >= self.next_check {
+            self.check_limits(problem, work)
         } else {
             Ok(())
         }
     }
 
     #[cold]
-    fn look(&mut self, problem: &Problem<'_>, work: u64) -> Result<(), Limit> {
-        self.next_look = work.saturating_add(WORK_BETWEEN_LOOKS);
+    fn check_limits(&mut self, problem: &Problem<'_>, work: u64) -> Result<(), Limit> {
+        self.next_check = work.saturating_add(WORK_BETWEEN_LOOKS);
         // The work of the other thread before the flag was set does not matter to this one.
         if problem
             .stop
@@ -66,7 +66,10 @@ impl Meter {
         {
             return Err(Limit::Stopped);
         }
-        if self.end.is_some_and(|end| Instant::now() >= end) {
+        if self
+            .deadline_at
+            .is_some_and(|deadline_at| Instant::now() >= deadline_at)
+        {
             Err(Limit::Deadline)
         } else {
             Ok(())

@@ -1,4 +1,4 @@
-//! The distance of two bodies at one clock, by a search of the nearest pairs first.
+//! Computes the distance of two bodies at one clock, by a search that examines the nearest pairs first.
 
 pub(crate) mod lists;
 
@@ -18,8 +18,8 @@ use crate::rounding::NEAREST_SHARE;
 use lists::Lists;
 use std::ops::ControlFlow;
 
-/// A search for the nearest pieces. It splits the pair of nodes that may contain them, until no waiting pair can
-/// contain any that are nearer than those found.
+/// A search for the nearest pieces. It splits the pair of nodes with the least lower bound, until no waiting pair can
+/// contain pieces that are nearer than those found.
 ///
 /// Pairs that may intersect have no lower bound of their distance, and therefore come first.
 pub(crate) struct Nearest<'p> {
@@ -27,27 +27,27 @@ pub(crate) struct Nearest<'p> {
     common: Common<'p>,
     clock: f64,
     lists: &'p mut Lists,
-    /// Pairs at least this far apart are of no interest.
+    /// The distance at and beyond which pairs are ignored.
     beyond: f64,
     /// The two pieces with the least upper bound, by their indices in the problem, and their contact.
     nearest: Option<([u32; 2], Contact)>,
-    /// A lower bound of the distance of all pieces that were measured or given up.
+    /// A lower bound of the distances of all pieces that were measured, or that the oracle gave up.
     lower: f64,
-    /// True if for some pair it is undecided whether the pieces intersect.
+    /// True if it could not be decided for some pair whether its pieces intersect.
     pub(crate) undecided: bool,
 }
 
-/// The reason why a search ends before it has the distance.
+/// The reason why a search ended before it found the distance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Stop {
-    /// These pieces intersect.
+pub(crate) enum SearchEnd {
+    /// Two pieces that intersect, by their indices, and their contact.
     Overlap([u32; 2], Contact),
     /// A limit was reached.
     Limit(Limit),
 }
 
 impl<'p> Nearest<'p> {
-    /// Creates the search at a clock.
+    /// Creates the search for the nearest pieces at a clock.
     pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut Lists) -> Self {
         Nearest {
             problem,
@@ -61,12 +61,12 @@ impl<'p> Nearest<'p> {
         }
     }
 
-    /// Returns the search for only those pieces that are nearer than `beyond` to each other.
-    pub(crate) fn nearer_than(self, beyond: f64) -> Self {
+    /// Limits the search to pieces that are nearer than `beyond` to each other.
+    pub(crate) fn with_cutoff(self, beyond: f64) -> Self {
         Nearest { beyond, ..self }
     }
 
-    /// Searches for the nearest pieces, unless an overlap or a limit ends the search.
+    /// Searches for the nearest pieces until they are found, an overlap is found, or a limit ends the search.
     ///
     /// # Complexity
     /// One distance of the bodies, and one visit for every pair of pieces that may intersect.
@@ -74,45 +74,49 @@ impl<'p> Nearest<'p> {
         &mut self,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Option<Stop> {
+    ) -> Option<SearchEnd> {
         self.run(oracle, meter).break_value()
     }
 
-    fn run<O: DistanceOracle>(&mut self, oracle: &mut O, meter: &mut Meter) -> ControlFlow<Stop> {
+    fn run<O: DistanceOracle>(
+        &mut self,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<SearchEnd> {
         let mut next = Some(Next::roots(self.problem));
         while let Some(pair) = next {
-            if let Err(limit) = meter.visit(self.problem) {
-                return ControlFlow::Break(Stop::Limit(limit));
+            if let Err(limit) = meter.count_visit(self.problem) {
+                return ControlFlow::Break(SearchEnd::Limit(limit));
             }
             match pair {
                 Next::Split(split) => {
                     let expansion = measure(&self.common, &split, self.clock);
                     self.wait(Siblings::new(&expansion, split, 0.0))?;
                 }
-                Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
+                Next::Measure(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }
             next = self.next();
         }
         ControlFlow::Continue(())
     }
 
-    fn wait(&mut self, siblings: Siblings) -> ControlFlow<Stop> {
+    fn wait(&mut self, siblings: Siblings) -> ControlFlow<SearchEnd> {
         let distance = siblings.clock();
         if !(distance < self.upper()) {
             return ControlFlow::Continue(());
         }
         match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
             Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => ControlFlow::Break(Stop::Limit(Limit::Budget)),
+            Err(Full) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
         }
     }
 
-    /// Returns the pair that may be the nearest; `None` when no pair can be nearer than the one found.
+    /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
     fn next(&mut self) -> Option<Next> {
-        let (upper, near_enough) = (self.upper(), self.near_enough());
+        let (upper, search_radius) = (self.upper(), self.search_radius());
         let (distance, siblings) = self.lists.waiting.next()?;
         // Pairs without a distance may intersect.
-        if distance > 0.0 && distance >= near_enough {
+        if distance > 0.0 && distance >= search_radius {
             self.lower = lesser(self.lower, distance);
             return None;
         }
@@ -124,22 +128,25 @@ impl<'p> Nearest<'p> {
         Some(next)
     }
 
-    /// Measures two pieces.
-    fn look<O: DistanceOracle>(
+    /// Measures the distance of two pieces.
+    fn measure_pieces<O: DistanceOracle>(
         &mut self,
         ids: [u32; 2],
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> ControlFlow<Stop> {
+    ) -> ControlFlow<SearchEnd> {
         let problem = self.problem;
         let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
         let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
-            return ControlFlow::Break(Stop::Limit(Limit::OracleGaveUp));
+            return ControlFlow::Break(SearchEnd::Limit(Limit::OracleGaveUp));
         };
-        let inner = &mut meter.memory().inner;
+        let inner = &mut meter.scratch_memory().inner;
         match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
-                return ControlFlow::Break(Stop::Overlap(ids, contact(&snapshot, ids, &checked)));
+                return ControlFlow::Break(SearchEnd::Overlap(
+                    ids,
+                    contact(&snapshot, ids, &checked),
+                ));
             }
             Intersection::Undecided => self.undecided = true,
             Intersection::None => {}
@@ -155,14 +162,14 @@ impl<'p> Nearest<'p> {
         ControlFlow::Continue(())
     }
 
-    /// Returns an upper bound of the distances of interest.
+    /// Returns the least upper bound found so far, or the distance beyond which pairs are ignored.
     fn upper(&self) -> f64 {
         let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
         self.nearest.map_or(self.beyond, upper)
     }
 
-    /// Returns the distance at and beyond which pairs are not examined.
-    fn near_enough(&self) -> f64 {
+    /// Returns the distance at and beyond which pairs need not be examined.
+    fn search_radius(&self) -> f64 {
         let upper = self.upper();
         if upper <= self.problem.contact_distance() {
             upper * (1.0 - NEAREST_SHARE)
@@ -171,24 +178,24 @@ impl<'p> Nearest<'p> {
         }
     }
 
-    /// Returns the nearest pieces, with a lower bound that holds for all; `None` if no pieces are of interest.
+    /// Returns the nearest pieces, with a lower bound for all pieces; `None` if no pieces are nearer than `beyond`.
     pub(crate) fn nearest(&self) -> Option<Contact> {
-        self.pieces().map(|(_, contact)| contact)
+        self.nearest_pieces().map(|(_, contact)| contact)
     }
 
     /// Like [`Nearest::nearest`], with the indices of the pieces in the problem.
-    pub(crate) fn pieces(&self) -> Option<([u32; 2], Contact)> {
+    pub(crate) fn nearest_pieces(&self) -> Option<([u32; 2], Contact)> {
         self.nearest
-            .map(|(pieces, contact)| (pieces, contact.no_nearer_than(self.lower)))
+            .map(|(pieces, contact)| (pieces, contact.cap_lower_bound(self.lower)))
     }
 
-    /// Returns the nearest pieces, with a lower bound that holds for all. If a later claim of an oracle contradicts
-    /// an earlier one, these are the pieces `seen` in contact.
+    /// Returns the nearest pieces, with a lower bound for all pieces. If a later claim of an oracle contradicts an
+    /// earlier one, these are the pieces `seen` in contact.
     pub(crate) fn contact(&self, seen: Contact) -> Contact {
         let within = self.problem.contact_distance();
         let nearest = self
             .nearest()
             .filter(|nearest| nearest.separation.upper <= within);
-        nearest.unwrap_or(seen.no_nearer_than(self.lower))
+        nearest.unwrap_or(seen.cap_lower_bound(self.lower))
     }
 }

@@ -1,4 +1,4 @@
-//! Pairs of nodes, eight at once, in f32.
+//! Bounds for pairs of tree nodes, eight at once in f32.
 //!
 //! `expand.rs` splits a node, `bounds.rs` bounds its children against the other node, and the pairs wait together in
 //! `siblings.rs`.

@@ -1,4 +1,4 @@
-//! The facts proven about two bodies in the course of a search.
+//! The facts that are proven about two bodies in the course of a search.
 
 use super::meter::Meter;
 use super::pieces::pair::Step;
@@ -12,8 +12,8 @@ use crate::shortcuts::out_of_reach::out_of_reach;
 use crate::shortcuts::roots::keep_apart;
 use std::ops::ControlFlow;
 
-/// Returns the outcome if bounding balls or boxes prove the bodies apart for good.
-pub(crate) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
+/// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
+pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
     let by_balls = problem.takes(Shortcut::Balls) && out_of_reach(problem);
     let is_free = by_balls || problem.takes(Shortcut::Boxes) && keep_apart(problem);
     is_free.then(|| Outcome::Free {
@@ -21,16 +21,16 @@ pub(crate) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
     })
 }
 
-/// The facts proven of the bodies, independent of pairs that still wait.
+/// The facts proven about the bodies as a whole, independent of pairs that still wait.
 #[derive(Debug, Default)]
 pub(crate) struct Proven {
-    /// True if at the start no pair of pieces is in contact, and no body inside the other.
+    /// True if no pair of pieces is in contact at the start, and neither body is inside the other.
     apart_at_start: bool,
 }
 
 impl Proven {
-    /// Draws the conclusion from the advance of a pair of pieces at clock `s`: returns the clock to wait for, or the
-    /// answer.
+    /// Processes the advance of a pair of pieces at clock `s`: returns the pair's next clock, or the outcome of the
+    /// query.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
     pub(crate) fn conclude<O: DistanceOracle>(
@@ -52,17 +52,17 @@ impl Proven {
         })
     }
 
-    /// Returns the outcome for a pair in contact at clock `s`. Other pairs may be nearer: only their clocks bound
-    /// their distances.
+    /// Returns the outcome for a pair in contact at clock `s`. Other pairs may be nearer: only their clocks bound their
+    /// distances.
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
             time: problem.time(s),
-            contact: contact.no_nearer_than(problem.proven_gap()),
+            contact: contact.cap_lower_bound(problem.proven_gap()),
         }
     }
 
-    /// Records that all pairs are past the start without contact there. Returns the answer if one
-    /// body is inside the other.
+    /// Records that all pairs are past the start without contact there. Returns the outcome if one body is inside the
+    /// other.
     pub(crate) fn past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
         if std::mem::replace(&mut self.apart_at_start, true) {
             return None;

@@ -1,34 +1,34 @@
-//! A priority queue of pairs, least clock first.
+//! A priority queue of pairs, ordered by clock.
 
 use super::capacity::empty;
 use super::waiting::{Full, Rank, Waiting};
 use crate::math::order::greater;
 
-/// Items ordered by their clocks. Among equal clocks pairs of pieces come first, then the newest,
-/// for a depth-first search.
+/// A priority queue of items by their clocks. Among equal clocks pairs of pieces come first, then the newest item, for
+/// a depth-first search.
 #[derive(Debug)]
 pub(crate) struct Queue<T> {
     items: Vec<T>,
     vacant: Vec<u32>,
-    /// The least of all keys.
+    /// The least key in the queue.
     least: Key,
-    /// A tournament: the keys of the items, then the least of every four keys of the level before, up to a single
-    /// four. The steps are the same for every change, so that no branch is mispredicted. In a heap, each step down
-    /// has an unpredictable branch.
+    /// A tournament tree: the keys of the items, then the least of every four keys of the level before, up to a single
+    /// four. The steps are the same for every change, so that no branch is mispredicted. In a heap, each step down has
+    /// an unpredictable branch.
     levels: Vec<Vec<[Key; 4]>>,
     /// The number of levels in use.
     depth: usize,
     serial: u32,
 }
 
-/// A key has 64 bits of clock (clocks are not negative, so their bits have the order of the numbers), 1 bit of rank,
-/// 31 bits of age, 32 bits of index.
+/// The sort key of an item. It has 64 bits of clock (clocks are not negative, so their bits have the order of the
+/// numbers), 1 bit of rank, 31 bits of age, 32 bits of index.
 type Key = u128;
 
-/// The key of an empty place, later than all others.
+/// The key of an empty slot, greater than all others.
 const VACANT: Key = Key::MAX;
 
-/// The most items that can wait at once.
+/// The largest number of items that can wait at once.
 const MAX_ITEMS: usize = u32::MAX as usize;
 
 impl<T> Default for Queue<T> {
@@ -70,7 +70,7 @@ impl<T> Queue<T> {
         key(clock, rank, self.serial, place)
     }
 
-    /// Sets the key of a place, and updates the least keys on all levels above it.
+    /// Sets the key of a slot, and updates the least keys on all levels above it.
     #[inline]
     fn set(&mut self, place: u32, key: Key) {
         let (mut at, mut least) = (place as usize, key);
@@ -83,7 +83,7 @@ impl<T> Queue<T> {
         self.least = least;
     }
 
-    /// Adds room for the key of the last item.
+    /// Adds a slot for the key of the last item.
     #[inline]
     fn grow(&mut self) {
         let mut last = self.items.len() - 1;

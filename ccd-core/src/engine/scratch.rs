@@ -1,21 +1,21 @@
-//! Scratch memory that is kept from query to query, so that queries allocate nothing.
+//! Scratch memory that is reused from query to query, so that queries allocate nothing.
 
 use super::nearest::lists::Lists;
 use crate::distance::common_normals::CommonNormals;
-use crate::distance::overlap::Inner;
+use crate::distance::overlap::InnerPolytope;
 use crate::shortcuts::screw::Profiles;
 
-/// The scratch memory, created when it is first needed.
+/// The scratch memory of a solver, created when first needed.
 pub(crate) type Scratch = Option<Box<Memory>>;
 
 /// The lists that some queries need. They carry no information to the next query.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
-    /// The lists for the search for the nearest pieces.
+    /// The lists of the search for the nearest pieces.
     pub(crate) nearest: Lists,
-    /// The memory for the decision whether two pieces intersect.
-    pub(crate) inner: Inner,
-    /// The memory for the surfaces around two points.
+    /// The polytope of the test whether two pieces intersect.
+    pub(crate) inner: InnerPolytope,
+    /// The surfaces around two nearest points.
     pub(crate) normals: CommonNormals,
     /// The profiles of nodes, for bodies that move along a screw.
     pub(crate) profiles: Profiles,

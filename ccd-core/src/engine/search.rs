@@ -1,4 +1,4 @@
-//! The steps of every search: the next waiting pair is proven apart for longer, or split.
+//! The loop of every search: the next waiting pair is proven apart for longer, or split.
 
 use super::meter::Meter;
 use super::nodes::common::Common;
@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::shortcuts::closer_look::CloserLook;
 use std::ops::ControlFlow;
 
-/// A waiting item: siblings of nodes, or a pair of pieces.
+/// A waiting item: the children of a split node, or a pair of pieces.
 #[derive(Debug)]
 pub(crate) enum Item<C> {
     Siblings(Siblings),
@@ -28,18 +28,18 @@ impl<C> Item<C> {
     }
 }
 
-/// The question of a search, which draws the conclusions from the steps.
+/// The question that a search answers: it decides from each step whether the search goes on.
 pub(crate) trait Question<O: DistanceOracle> {
-    /// The type of the answer.
+    /// The type of the result.
     type Found;
 
-    /// Draws a conclusion from the clock of the next pair, if there is one.
+    /// Called with the clock of the next pair before the pair is examined; may end the search.
     #[inline]
     fn arrive(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
         ControlFlow::Continue(())
     }
 
-    /// Draws the conclusion from the advance of a pair of pieces: returns the clock to wait for, or the answer.
+    /// Processes the advance of a pair of pieces: returns the pair's next clock, or the result.
     fn conclude(
         &mut self,
         problem: &Problem<'_>,
@@ -48,24 +48,24 @@ pub(crate) trait Question<O: DistanceOracle> {
         advance: Advance,
     ) -> ControlFlow<Self::Found, f64>;
 
-    /// Returns the answer if a limit is reached at clock `s`.
+    /// Returns the result if a limit is reached at clock `s`.
     fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
 
-    /// Returns the answer if all pairs are proven to the end.
+    /// Returns the result if all pairs are proven apart to the end.
     fn done(&mut self, problem: &Problem<'_>) -> Self::Found;
 }
 
-/// The advance of a pair of pieces.
+/// What a step found out about a pair of pieces.
 pub(crate) struct Advance {
     /// The indices of the pieces in the problem.
     pub(crate) pieces: [u32; 2],
-    /// The clock at which they were examined.
+    /// The clock at which the pair was examined.
     pub(crate) clock: f64,
-    /// The result of the advance.
+    /// The new clock, the contact, or the failure of the pair.
     pub(crate) step: Step,
 }
 
-/// A search, with the oracle, the waiting pairs and the meter.
+/// The state of a search: the oracle, the waiting pairs and the counters.
 pub(crate) struct Search<'s, O, W> {
     pub(crate) waiting: &'s mut W,
     pub(crate) oracle: &'s mut O,
@@ -73,7 +73,7 @@ pub(crate) struct Search<'s, O, W> {
 }
 
 impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
-    /// Searches, beginning with the pair of both roots.
+    /// Runs the search from the pair of both roots until it has a result.
     pub(crate) fn run<Q: Question<O>>(
         &mut self,
         problem: &Problem<'_>,
@@ -91,7 +91,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         }
     }
 
-    /// Continues until all pairs are proven apart up to a clock, and returns the clock of the next one.
+    /// Continues until all pairs are proven apart up to a clock, and returns the clock of the next pair.
     pub(crate) fn until<Q: Question<O>>(
         &mut self,
         problem: &Problem<'_>,
@@ -112,7 +112,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     /// Adds the pair of both roots to the waiting pairs.
     pub(crate) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
         let item = match Next::roots(problem) {
-            Next::Ask(a, b) => Item::Pieces(Pair::new(a, b)),
+            Next::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
             Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
         };
         self.waiting.push(0.0, item.rank(), item)
@@ -136,7 +136,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             return ControlFlow::Break(question.done(problem));
         };
         question.arrive(problem, s)?;
-        if let Err(limit) = meter.visit(problem) {
+        if let Err(limit) = meter.count_visit(problem) {
             return ControlFlow::Break(question.stopped(problem, s, limit));
         }
         let (next, rest) = match item {
@@ -165,7 +165,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
                 look.finish(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))
             }
-            Next::Ask(a, b) => {
+            Next::Measure(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
                 let clock = question.conclude(problem, *oracle, meter, advance)?;
@@ -176,8 +176,8 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         unless_full(waits, problem, question, s)
     }
 
-    /// Returns the siblings of the next pair, and the new item from that pair, to the waiting items, if their clocks
-    /// are before the end.
+    /// Puts the remaining siblings of the last pair, and its new item, back among the waiting items if their clocks are
+    /// before the end.
     #[inline(always)]
     fn wait(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
         // Written so that NaN is not the end.

@@ -1,10 +1,10 @@
-//! A stack of waiting pairs, the newest first.
+//! A stack of waiting pairs, of which the newest is examined next.
 
 use super::capacity::empty;
 use super::waiting::{Full, Rank, Waiting};
 use crate::math::order::lesser;
 
-/// Items in order of arrival; the last one is next, whatever its clock.
+/// A stack of items: the last one added is next, whatever its clock.
 #[derive(Debug)]
 pub(crate) struct Stack<T> {
     items: Vec<(f64, T)>,

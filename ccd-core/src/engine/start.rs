@@ -1,16 +1,16 @@
-//! Bodies in contact at the start: their distance, or the proof that they overlap.
+//! Handles bodies in contact at the start: measures their distance, or proves that they overlap.
 
 mod containment;
 
 use super::meter::Meter;
-use super::nearest::{Nearest, Stop};
+use super::nearest::{Nearest, SearchEnd};
 use crate::answer::{Contact, Limit, Outcome, Overlap};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
 use containment::Containment;
 
-/// Returns the answer for bodies of which two pieces are in contact at the start: the distance of the bodies, or that
-/// they overlap.
+/// Returns the outcome for bodies of which two pieces are in contact at the start: touching, with their distance, or
+/// overlapping.
 ///
 /// # Guarantee
 /// Touching bodies are at least the contact's lower bound apart, and its pieces prove the upper one. If the oracle is
@@ -29,8 +29,8 @@ pub(crate) fn touching<O: DistanceOracle>(
     outcome.unwrap_or(Outcome::Touching { contact: seen })
 }
 
-/// Returns the answer for bodies that begin nearer to each other than `beyond`, which then count as touching, or with
-/// one inside the other; `None` for others.
+/// Returns the outcome for bodies that are nearer than `beyond` at the start, which then count as touching, or of which
+/// one is inside the other; `None` for others.
 pub(crate) fn at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
@@ -40,7 +40,7 @@ pub(crate) fn at_start<O: DistanceOracle>(
     measured(problem, beyond, oracle, meter, |nearest| nearest.nearest())
 }
 
-/// Measures the bodies at the start, and returns the answer if they overlap, or are in `contact`. Pieces at least as
+/// Measures the bodies at the start, and returns the outcome if they overlap, or are in `contact`. Pieces at least as
 /// far apart as `beyond` are not measured.
 fn measured<O: DistanceOracle>(
     problem: &Problem<'_>,
@@ -49,11 +49,11 @@ fn measured<O: DistanceOracle>(
     meter: &mut Meter,
     contact: impl FnOnce(&Nearest<'_>) -> Option<Contact>,
 ) -> Option<Outcome> {
-    let mut lists = std::mem::take(&mut meter.memory().nearest);
-    let mut nearest = Nearest::new(problem, 0.0, &mut lists).nearer_than(beyond);
+    let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
+    let mut nearest = Nearest::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
-        Some(Stop::Overlap(_, contact)) => Some(overlapping(contact)),
-        Some(Stop::Limit(limit)) => Some(unresolved(limit)),
+        Some(SearchEnd::Overlap(_, contact)) => Some(overlapping(contact)),
+        Some(SearchEnd::Limit(limit)) => Some(unresolved(limit)),
         None if nearest.undecided => Some(unresolved(Limit::Undecided)),
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
@@ -62,12 +62,12 @@ fn measured<O: DistanceOracle>(
         }
     };
     lists.clear();
-    meter.memory().nearest = lists;
+    meter.scratch_memory().nearest = lists;
     outcome
 }
 
-/// Returns the answer if one body is inside the other, or if that is undecided. No two pieces intersect; `touching`
-/// are the pairs without a separating axis, and `pieces` is a list of scratch memory.
+/// Returns the outcome if one body is inside the other, or if that is undecided. No two pieces intersect; `touching`
+/// are the pairs without a separating axis, and `pieces` is scratch memory.
 pub(crate) fn contained(
     problem: &Problem<'_>,
     touching: &[[u32; 2]],

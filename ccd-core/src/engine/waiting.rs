@@ -1,26 +1,26 @@
 //! The interface of collections of waiting pairs.
 
-/// A collection of waiting items, from which a search takes one after another.
+/// A collection of waiting items, from which a search takes the next one.
 pub(crate) trait Waiting<T> {
-    /// Adds an item that waits for its clock, which is not negative.
+    /// Adds an item that waits until a clock ≥ 0.
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full>;
 
     /// Returns the next item and its clock.
     fn next(&mut self) -> Option<(f64, &mut T)>;
 
-    /// Lets the next item wait for a later clock.
+    /// Changes the clock of the next item to a later one.
     ///
     /// # Panics
     /// When no item waits.
     fn postpone(&mut self, clock: f64);
 
-    /// Lets the next item wait for a later clock, as the newest of all.
+    /// Changes the clock of the next item, and makes it the newest of all items.
     ///
     /// # Panics
     /// When no item waits.
     fn renew(&mut self, clock: f64, rank: Rank);
 
-    /// Puts a new item in the place of the next one.
+    /// Replaces the next item by a new one.
     ///
     /// # Panics
     /// When no item waits.
@@ -30,13 +30,13 @@ pub(crate) trait Waiting<T> {
     fn remove(&mut self);
 }
 
-/// The order of items with equal clocks.
+/// The order of items with equal clocks: pieces before nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rank {
     PiecePair = 0,
     Siblings = 1,
 }
 
-/// The error of a collection that holds as many items as its indices allow.
+/// The collection is full: it holds as many items as its indices allow.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Full;

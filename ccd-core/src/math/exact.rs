@@ -1,4 +1,5 @@
-//! Exact signs: the side of a plane or a line on which a point is, by the crate `robust` `[SHE97]`.
+//! Exact geometric predicates: on which side of a plane or a line a point is. The crate `robust` computes them
+//! `[SHE97]`.
 //!
 //! One convention holds: `Greater` is in front of a triangle, where its corners are seen counterclockwise, and to the
 //! left of a line.
@@ -8,8 +9,8 @@ use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
-/// Returns the side of a triangle's plane on which a point is: `Greater` in front, `Less` behind,
-/// `Equal` in the plane and for a triangle without area.
+/// Returns on which side of a triangle's plane a point is: `Greater` in front, `Less` behind, `Equal` in the plane and
+/// for a triangle without area.
 ///
 /// # Guarantee
 /// Exact, unless a coordinate is [too fine](too_fine).
@@ -32,8 +33,8 @@ pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     sign(-orient3d(coord3(p), coord3(q), coord3(r), coord3(point)))
 }
 
-/// Returns the side of a line on which a point is, for a view along a coordinate axis, against its direction, from
-/// `a` towards `b`. `Greater` is to the left.
+/// Returns on which side of the line from `a` to `b` a point is, in the view along a coordinate axis against its
+/// direction. `Greater` is to the left.
 ///
 /// # Guarantee
 /// Like [`side`].
@@ -43,7 +44,7 @@ pub fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
     sign(orient2d(a, b, point))
 }
 
-/// Returns whether a triangle has no area: its corners are on one line.
+/// Returns whether the corners of a triangle are on one line.
 ///
 /// # Guarantee
 /// Like [`side`].
@@ -51,8 +52,8 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     (0..3).all(|axis| turn_along(axis, [a, b], c).is_eq())
 }
 
-/// Returns the first point with a coordinate that is [too near to 0](LEAST_COORDINATE) for exact
-/// signs.
+/// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_COORDINATE) for exact
+/// predicates.
 pub fn too_fine(points: &[DVec3]) -> Option<usize> {
     let fine = |x: f64| x != 0.0 && x.abs() < LEAST_COORDINATE;
     points

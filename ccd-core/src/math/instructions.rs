@@ -1,10 +1,10 @@
-//! The vector instructions that kernels are compiled for, chosen at run time.
+//! Chooses at run time the vector instructions for which kernels are compiled.
 
 use crate::settings::Instructions;
 use fearless_simd::Level;
 
 impl Instructions {
-    /// Returns these instructions in the form that [`vectorize!`](crate::vectorize) takes.
+    /// Converts the choice to the form that [`vectorize!`](crate::vectorize) takes.
     #[doc(hidden)]
     pub fn level(self) -> Level {
         match self {
@@ -14,9 +14,9 @@ impl Instructions {
     }
 }
 
-/// Evaluates an expression with a token of the best useful instructions: AVX2 and SSE2 on x86, the only ones
-/// elsewhere. All functions called by the expression, closures included, have to be `#[inline(always)]`: others are
-/// compiled for the oldest machine.
+/// Evaluates an expression with the best useful vector instructions: AVX2 or SSE2 on x86, the only ones elsewhere. All
+/// functions called by the expression, closures included, have to be `#[inline(always)]`: others are compiled for the
+/// oldest machine.
 ///
 /// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every further level is
 /// another copy of the code.

@@ -1,14 +1,14 @@
-//! Eight numbers at once, and eight vectors, one for every child of a group.
+//! Eight vectors at once, in f32, one for every child of a group.
 
 use crate::rounding::LEAST_AXIS_F32;
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 use std::ops::{Add, Mul, Sub};
 
-/// The least normal number: a divisor in place of zero.
+/// The least positive normal number, which replaces zero in divisors.
 pub(crate) const TINY: f32 = f32::MIN_POSITIVE;
 
-/// Eight vectors.
+/// Eight vectors of three coordinates in f32.
 #[derive(Clone, Copy)]
 pub(crate) struct Vec3x8<L: Simd> {
     pub(crate) x: f32x8<L>,
@@ -60,14 +60,14 @@ impl<L: Simd> Vec3x8<L> {
         }
     }
 
-    /// Returns the unit vectors. A vector that is too short to have one in f32 gives zero, and along zero there is no
-    /// gap.
+    /// Returns the unit vectors along eight vectors. A vector that is too short to have one in f32 gives zero, and
+    /// along zero there is no gap.
     #[inline(always)]
     pub(crate) fn unit(self) -> Self {
         self * self.reciprocal_length()
     }
 
-    /// Returns the factors that make unit vectors; zero for a vector that is too short to have one in f32.
+    /// Returns the reciprocals of the lengths; zero for a vector that is too short to have one in f32.
     #[inline(always)]
     pub(crate) fn reciprocal_length(self) -> f32x8<L> {
         let (zero, one) = (splat(self.level(), 0.0), splat(self.level(), 1.0));
@@ -122,7 +122,7 @@ pub(crate) fn load<L: Simd>(level: L, row: &[f32; 8]) -> f32x8<L> {
     (*row).simd_into(level)
 }
 
-/// Returns the vectors of `a` where the mask is set, and those of `b` elsewhere.
+/// Selects vectors of `a` where the mask is set, and vectors of `b` elsewhere.
 #[inline(always)]
 pub(crate) fn choose<L: Simd>(mask: mask32x8<L>, a: Vec3x8<L>, b: Vec3x8<L>) -> Vec3x8<L> {
     Vec3x8 {

@@ -1,4 +1,4 @@
-//! The lesser and the greater of two numbers, written out as comparisons.
+//! Minimum and maximum by comparison, with a defined result for NaN.
 //!
 //! `f64::min` and `f64::max` are not used in this project: some compilers lose the last elements of
 //! a loop that folds with them (rustc 1.95, LLVM 22.1.2). They compile a comparison and a choice

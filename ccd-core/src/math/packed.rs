@@ -1,4 +1,4 @@
-//! Vectors of three numbers in f64, each in one vector register, and matrices of three of them.
+//! Vectors and matrices in f64, with one vector register for each vector.
 
 use fearless_simd::{
     ExtractToken, Simd, SimdBase, SimdNarrow, SimdSplit, f32x4, f64x4, prelude::*,
@@ -6,23 +6,23 @@ use fearless_simd::{
 use glam::{DMat3, DVec3, Vec3};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// Three numbers in memory, and an unused fourth.
+/// Three coordinates in memory, and an unused fourth number.
 pub(crate) type Row = [f64; 4];
 
-/// A vector.
+/// A vector in one register.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Packed<L: Simd>(f64x4<L>);
 
-/// A matrix, by columns.
+/// A matrix, stored by columns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PackedMatrix<L: Simd>([Packed<L>; 3]);
 
-/// Returns the vector with a fourth number.
+/// Extends a vector by an unused fourth number.
 pub(crate) fn row(v: DVec3) -> Row {
     [v.x, v.y, v.z, 0.0]
 }
 
-/// Returns the columns of a matrix.
+/// Returns the columns of a matrix, each with an unused fourth number.
 pub(crate) fn rows(m: DMat3) -> [Row; 3] {
     [row(m.x_axis), row(m.y_axis), row(m.z_axis)]
 }
@@ -43,7 +43,7 @@ impl<L: Simd> Packed<L> {
         DVec3::new(self.0[0], self.0[1], self.0[2])
     }
 
-    /// Rounds the vector to f32.
+    /// Rounds the vector to f32, in a register.
     #[inline(always)]
     pub(crate) fn narrow(self) -> f32x4<L> {
         self.0.narrow(self.0).split().0
@@ -67,7 +67,7 @@ impl<L: Simd> PackedMatrix<L> {
         PackedMatrix(columns)
     }
 
-    /// Rounds the columns to f32.
+    /// Rounds the columns of the matrix to f32.
     #[inline(always)]
     pub(crate) fn narrow(&self) -> [f32x4<L>; 3] {
         let [x, y, z] = self.0;

@@ -1,11 +1,11 @@
-//! A tree of points, to find those in front of planes.
+//! A tree of points, to find the points in front of a plane.
 
 use super::order::greater;
 use crate::rounding::height_rounding;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Points in a binary tree of boxes.
+/// A binary tree of bounding boxes over points.
 ///
 /// The tree suits many planes, such as the facets of a hull, if each plane has few of many points in front or on it.
 /// Each query takes about O(log n).
@@ -25,9 +25,9 @@ pub struct PointTree {
     base: DVec3,
     /// The points in the order of the leaves, with their original indices.
     points: Vec<(DVec3, u32)>,
-    /// The nodes: every node precedes those below it, and left ones precede right ones.
+    /// The nodes in depth-first order: every node comes before its left subtree, and that before its right subtree.
     nodes: Vec<Node>,
-    /// The largest absolute coordinate.
+    /// The largest absolute value of a stored coordinate.
     reach: f64,
 }
 
@@ -37,11 +37,11 @@ struct Node {
     half: DVec3,
     /// The points of a leaf; empty for an inner node.
     points: Range<u32>,
-    /// The first node in the list that is not below this one.
+    /// The index of the first node after this one's subtree.
     next: u32,
 }
 
-/// The most points of a leaf.
+/// The largest number of points in a leaf.
 const LEAF: usize = 8;
 
 impl PointTree {
@@ -63,7 +63,7 @@ impl PointTree {
         tree
     }
 
-    /// Halves the range recursively: the depth is at most the number of bits of its length.
+    /// Builds the subtree of a range of points, by halving it. The depth is at most the number of bits of the length.
     fn build(&mut self, range: Range<usize>) {
         let points = &mut self.points[range.clone()];
         let (mut lo, mut hi) = (points[0].0, points[0].0);
@@ -96,8 +96,8 @@ impl PointTree {
         self.nodes[at].next = self.nodes.len() as u32;
     }
 
-    /// Visits every point that is not certainly behind the plane of a triangle. The front is the
-    /// side from which the triangle is seen counterclockwise.
+    /// Visits every point that is not certainly behind the plane of a triangle. The front is the side from which the
+    /// triangle is seen counterclockwise.
     ///
     /// # Guarantee
     /// Skipped points are behind the plane in exact arithmetic. Coordinates are at most

@@ -1,4 +1,4 @@
-//! The directions of the largest and smallest spread of points.
+//! The principal axes of points: their directions of largest and smallest spread.
 
 use crate::rounding::SQUARES;
 use crate::tuning::LEAST_TURN;
@@ -38,7 +38,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
     axes
 }
 
-/// Returns the sine and the cosine of half the angle of a vector (x, y), from −π/2 to π/2.
+/// Returns the sine and cosine of half the angle of the vector (x, y), from −π/2 to π/2.
 fn half_angle(y: f64, x: f64) -> (f64, f64) {
     let square = x * x + y * y;
     // Squares of small numbers have lost their digits.
@@ -57,7 +57,7 @@ fn half_angle(y: f64, x: f64) -> (f64, f64) {
     (sine.copysign(y), cosine)
 }
 
-/// Computes `m ← Jᵀ m J` for the rotation by (s, c) in the plane of `i` and `j`.
+/// Applies the Jacobi rotation by (s, c) in the plane of `i` and `j`: `m ← Jᵀ m J`.
 fn rotate(m: &mut [[f64; 3]; 3], i: usize, j: usize, s: f64, c: f64) {
     for row in m.iter_mut() {
         let (x, y) = (row[i], row[j]);

@@ -1,4 +1,4 @@
-//! Lengths and directions of vectors of any size.
+//! Lengths and directions of vectors, without overflow or underflow.
 //!
 //! A length is the root of a sum of squares. Squares of components below about 1e-154 lose their digits, then vanish;
 //! above 1e154 they overflow. A vector divided by such a length is not a unit vector, and a height along it is not a
@@ -37,13 +37,14 @@ fn unit_of_extreme(v: DVec3) -> Option<DVec3> {
     (length > 0.0 && length.is_finite()).then(|| v / length)
 }
 
-/// Returns the unit vector, or an arbitrary one if there is none: a support gap along any axis is a bound.
+/// Returns the unit vector along `v`, or an arbitrary unit vector if there is none: a support gap along any axis is a
+/// bound.
 #[inline]
 pub(crate) fn unit_or_any(v: DVec3) -> DVec3 {
     unit(v).unwrap_or(DVec3::X)
 }
 
-/// Returns the length of a vector.
+/// Returns the length of a vector of any magnitude.
 ///
 /// # Guarantee
 /// Its relative error is at most `4u`; a denormal number is exact to its last bit.
@@ -59,7 +60,7 @@ pub fn distance(a: DVec3, b: DVec3) -> f64 {
     length(b - a)
 }
 
-/// Returns a vector perpendicular to two others, of any length; zero if they are parallel up to rounding.
+/// Returns a vector of any length perpendicular to two others; zero if they are parallel up to rounding.
 ///
 /// The components of a cross product are products, which vanish for short vectors. Both vectors are
 /// therefore scaled to a length near 1 first.
@@ -68,8 +69,8 @@ pub fn across(a: DVec3, b: DVec3) -> DVec3 {
     scaled(a).0.cross(scaled(b).0)
 }
 
-/// Returns the unit normal of a triangle, on the side from which its corners turn left; `None` if they are on one
-/// line.
+/// Returns the unit normal of a triangle, on the side from which its corners are counterclockwise; `None` if they are
+/// on one line.
 #[inline]
 pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let across_both = (b - a).cross(c - a);
@@ -82,16 +83,16 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     }
 }
 
-/// Returns the vector times a power of two, and the inverse of that power. The factor moves the vector's square into
-/// the normal range.
+/// Scales a vector by a power of two so that its square is in the normal range. Returns the scaled vector and the
+/// inverse factor.
 #[inline]
 fn scaled(v: DVec3) -> (DVec3, f64) {
     let (scale, back) = scale_of(v.length_squared());
     (v * scale, back)
 }
 
-/// Returns the power of two that moves the square of a vector into the normal range, and its inverse, for the
-/// computed square.
+/// Returns the power of two that scales a vector so that its square is in the normal range, and the inverse of that
+/// power. `square` is the computed square.
 #[inline]
 pub(crate) fn scale_of(square: f64) -> (f64, f64) {
     if square < *SQUARES.start() {

@@ -1,4 +1,4 @@
-//! Bounds of the rate at which a moving body advances along a fixed axis.
+//! Bounds of the velocity of a moving body's points along a fixed axis.
 //!
 //! These bounds are coarser than the exact [`Track`](super::track::Track) of a point:
 //! - [`published`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
@@ -8,16 +8,16 @@ use crate::math::order::greater;
 use crate::math::vector::length;
 use glam::DVec3;
 
-/// A constant velocity of a centre, and a constant angular velocity about it.
+/// The constant velocity of a centre, and the constant angular velocity about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Velocities {
-    /// The velocity of the centre.
+    /// The velocity of the centre of rotation.
     pub(crate) linear: DVec3,
     /// The angular velocity about the centre, in radians per unit of time.
     pub(crate) spin: DVec3,
 }
 
-/// The bound of a body's advance along an axis, by which a schedule divides distances.
+/// Which upper bound of the velocity of a body's points along an axis a schedule uses, to divide distances by it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Bound {
     /// `max (n×ω)·r + |v·n|` over the arms r, as printed in the paper `[FAST06 §4.2 Eq. 5]`. It
@@ -29,8 +29,8 @@ pub enum Bound {
     Sound,
 }
 
-/// Returns `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this instant, over the arms `rᵢ` from the
-/// centre. `farthest` returns the arm that is farthest along a direction `[FAST06 §4.2 Eq. 5]`.
+/// Returns `maxᵢ (n×ω)·rᵢ + |v·n|`, the fastest velocity along `n` at this instant over the arms `rᵢ` from the centre.
+/// `farthest` returns the arm that is farthest along a direction `[FAST06 §4.2 Eq. 5]`.
 ///
 /// The bound is **unsound over a step**: the arms turn with the body. It is for comparison only.
 pub(crate) fn published(
@@ -42,8 +42,8 @@ pub(crate) fn published(
     greater(0.0, c.dot(farthest(c))) + motion.linear.dot(n).abs()
 }
 
-/// Returns `v·n + |n×ω| ρ`: a signed upper bound of the rate of advance along `n` at any time, for
-/// points no farther than `reach` from the axis of rotation `[C2A09]`.
+/// Returns `v·n + |n×ω| ρ`, a signed upper bound of the velocity along `n` at any time. It holds for points no farther
+/// than `reach` from the axis of rotation `[C2A09]`.
 ///
 /// # Guarantee
 /// The bound holds over any interval, up to a few units in the last place.

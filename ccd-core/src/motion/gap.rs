@@ -1,10 +1,10 @@
-//! The time for which a gap stays open.
+//! Computes for how long a gap stays open.
 
 use crate::rounding::RATE_F64;
 use crate::tuning::WORTHWHILE;
 
-/// A gap that closes by at most `rate τ + bend τ²/2` within `τ`. The second derivative `bend` is negative if the
-/// bodies accelerate away from each other.
+/// A gap that decreases by at most `rate τ + bend τ²/2` within a time `τ`. The second derivative `bend` is negative if
+/// the bodies accelerate away from each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub(crate) gap: f64,
@@ -13,7 +13,7 @@ pub(crate) struct Gap {
 }
 
 impl Gap {
-    /// Returns the longest time for which the gap certainly stays open; 0 when it is closed or NaN.
+    /// Returns the longest time for which the gap certainly stays open; 0 if it is closed or NaN.
     #[inline]
     pub(crate) fn free_time(&self) -> f64 {
         let (gap, rate, bend) = (self.gap, self.rate, self.bend);
@@ -41,7 +41,7 @@ impl Gap {
         }
     }
 
-    /// Returns the free time of a gap that closes ever slower, and may never close.
+    /// Returns the free time for a negative `bend`: the gap closes ever slower, and may never close.
     #[cold]
     fn free_time_of_parting(&self) -> f64 {
         let (gap, rate, bend) = (self.gap, self.rate, self.bend);
@@ -62,8 +62,8 @@ impl Gap {
     }
 }
 
-/// Returns the first time within `[0, horizon]` at which a gap may close, or a lower bound of it; `None` if the gap
-/// stays open. `free_time(τ)` returns a time for which it stays open from `τ` on.
+/// Returns the first time within `[0, horizon]` at which a gap may close, or an earlier time; `None` if the gap stays
+/// open. `free_time(τ)` returns a time for which it stays open from `τ` on.
 #[inline]
 pub(crate) fn first_crossing(
     horizon: f64,

@@ -1,4 +1,4 @@
-//! Conversions from and to the types of other libraries.
+//! Conversions from and to the pose types of other libraries.
 
 use super::pose::Pose;
 use crate::error::InputError;
@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 impl TryFrom<Isometry3<f64>> for Pose {
     type Error = InputError;
 
-    /// Converts an isometry to the same placement.
+    /// Converts a nalgebra isometry to a pose.
     ///
     /// # Errors
     /// [`InputError::NotFinite`] for a NaN or infinite part.

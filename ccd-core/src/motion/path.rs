@@ -1,5 +1,5 @@
-//! A motion in a problem's own units: time runs from 0 to 1, and the origin is near both bodies. Neither a far origin
-//! of the world nor a long duration costs digits.
+//! Motions in a problem's own units: time runs from 0 to 1, and the origin is near both bodies. Neither a far origin of
+//! the world nor a long duration costs digits.
 
 use super::Motion;
 use super::bound::Velocities;
@@ -9,13 +9,13 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use glam::{DMat3, DVec3};
 
-/// The motion `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`. On a
-/// stretch of a trajectory the centre is displaced by `s²/2 · acceleration` as well.
+/// A motion in a problem's units, with the rotation `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s ·
+/// velocity` `[FAST06 §4.1]`. On a stretch of a trajectory the centre is displaced by `s²/2 · acceleration` as well.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
-    /// The factor of the cosine, `A = R₀ − C`.
+    /// The coefficient of the cosine, `A = R₀ − C`.
     cosine: DMat3,
-    /// The factor of the sine, `B = [u]× R₀`.
+    /// The coefficient of the sine, `B = [u]× R₀`.
     sine: DMat3,
     /// The constant part, `C = u uᵀ R₀`.
     constant: DMat3,
@@ -27,13 +27,13 @@ pub(crate) struct Path {
     pub(crate) velocity: DVec3,
     /// The centre's acceleration, which is constant; zero except on stretches of trajectories.
     pub(crate) acceleration: DVec3,
-    /// The angular velocity along the world's axes, per unit of `s`.
+    /// The angular velocity per unit of `s`, in the world's frame.
     pub(crate) spin: DVec3,
-    /// The angular velocity along the body's axes, which is constant.
+    /// The angular velocity per unit of `s`, in the body's frame; it is constant.
     pub(crate) spin_local: DVec3,
     /// The angular speed, `|spin|`.
     pub(crate) rate: f64,
-    /// The direction of `spin`; zero if the body does not turn.
+    /// The unit vector along `spin`; zero if the body does not turn.
     pub(crate) axis: DVec3,
 }
 
@@ -67,7 +67,7 @@ impl Path {
         }
     }
 
-    /// Returns the path with this acceleration of the centre, per unit of `s`.
+    /// Sets the acceleration of the centre, per unit of `s` squared.
     pub(crate) fn accelerated(self, acceleration: DVec3) -> Self {
         Path {
             acceleration,
@@ -75,7 +75,7 @@ impl Path {
         }
     }
 
-    /// Returns the path from one `s` to a later one, with times from 0 to 1 again. Positions are off by
+    /// Returns the part of the path between two times, with times from 0 to 1 again. Positions are off by
     /// [`place_rounding`](crate::rounding::place_rounding) at most.
     pub(crate) fn part(&self, [from, to]: [f64; 2]) -> Self {
         let time = to - from;
@@ -95,7 +95,7 @@ impl Path {
         }
     }
 
-    /// Returns the factors of cosine, sine and one in the rotation.
+    /// Returns the coefficients of the cosine, the sine and one in the rotation.
     pub(crate) fn rotations(&self) -> [DMat3; 3] {
         [self.cosine, self.sine, self.constant]
     }
@@ -115,7 +115,7 @@ impl Path {
         }
     }
 
-    /// Returns the position of the body's point `x` at the start.
+    /// Returns the position of the body's point `x` at time 0.
     pub(crate) fn start_of(&self, x: DVec3) -> DVec3 {
         self.start + (self.cosine + self.constant) * (x - self.centre)
     }
@@ -132,18 +132,18 @@ impl Path {
         self.velocity + self.acceleration * s
     }
 
-    /// Returns a bound of the speed of the centre of rotation at any time.
+    /// Returns an upper bound of the speed of the centre of rotation at any time.
     pub(crate) fn speed(&self) -> f64 {
         length(self.velocity) + length(self.acceleration)
     }
 
-    /// Returns the velocity of the body's point at `x`.
+    /// Returns the velocity of the body's point `x` at time `s`.
     #[inline]
     pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
         self.centre_velocity_at(s) + self.spin.cross(x - self.centre_at(s))
     }
 
-    /// Returns the velocities per unit of `s`, if they are constant.
+    /// Returns the velocities per unit of `s`; `None` if they are not constant.
     pub(crate) fn velocities(&self) -> Velocities {
         Velocities {
             linear: self.velocity,
@@ -151,8 +151,8 @@ impl Path {
         }
     }
 
-    /// Returns the largest distance of the body's given points from the axis of rotation. It is
-    /// constant; 0 if the body does not turn.
+    /// Returns the largest distance of points of the body from the axis of rotation. It is constant; 0 if the body does
+    /// not turn.
     pub(crate) fn reach(&self, points: &[DVec3]) -> f64 {
         if !self.turns() {
             return 0.0;
@@ -177,12 +177,12 @@ impl Path {
     }
 }
 
-/// Returns `u uᵀ`.
+/// Returns the outer product `u uᵀ`.
 fn outer(u: DVec3) -> DMat3 {
     DMat3::from_cols(u * u.x, u * u.y, u * u.z)
 }
 
-/// Returns `[u]×`.
+/// Returns the cross product matrix `[u]×`.
 fn cross_matrix(u: DVec3) -> DMat3 {
     DMat3::from_cols(
         DVec3::new(0.0, u.z, -u.y),

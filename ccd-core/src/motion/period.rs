@@ -1,4 +1,4 @@
-//! The periods after which two turning bodies are back in the same relative pose, or nearly.
+//! Finds periods after which two turning bodies are in the same relative pose again, or nearly.
 //!
 //! After a time `T`, a body that turns at a rate `ω` has its former orientation, turned by `ε = |ω T − 2π p|` for the
 //! nearest whole number of turns `p`; after `k` such times, turned by `k ε`. A point at a distance of at most `ρ`
@@ -16,17 +16,17 @@ use crate::math::vector::length;
 use crate::rounding::{RATE_F64, TURNS_F64};
 use std::f64::consts::TAU;
 
-/// A time after which all distances repeat, or nearly.
+/// A time after which all distances of two bodies repeat, or nearly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Period {
     /// The length of the period, in units of the paths' time.
     pub(crate) length: f64,
-    /// A bound of the change of any distance after a period; after `k` periods the bound is `k` times that. The
+    /// A bound of the change of any distance after one period; after `k` periods the bound is `k` times that. The
     /// rounding of the rates comes in addition, see [`place_rounding`](crate::rounding::place_rounding).
     pub(crate) change: f64,
 }
 
-/// A body's path, and the largest distance of its points from the centre of rotation.
+/// A body's path, with the largest distance of its points from the centre of rotation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reaching<'p> {
     pub(crate) path: &'p Path,
@@ -34,8 +34,8 @@ pub(crate) struct Reaching<'p> {
 }
 
 impl Period {
-    /// Returns the periods that fit twice into the whole time, short ones first. Later ones are longer, and distances
-    /// change less after them.
+    /// Returns the periods that fit twice into the whole time, in ascending order. After longer periods, distances
+    /// change less.
     pub(crate) fn all(bodies: [Reaching<'_>; 2]) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;
         let [slow, fast] = if a.path.rate > b.path.rate {
@@ -58,13 +58,13 @@ impl Period {
             .take_while(|period| period.length <= 0.5)
     }
 
-    /// Returns the length of the first period and a little more, so that whole periods leave no time out.
+    /// Returns a time slightly longer than the period, so that whole periods leave no time out.
     pub(crate) fn covering(&self) -> f64 {
         self.length * (1.0 + TURNS_F64)
     }
 }
 
-/// The fractions nearest to a number from 0 to 1 for their size, as numerators and denominators.
+/// An iterator over the continued fraction convergents of a number from 0 to 1, as numerators and denominators.
 struct Convergents {
     rest: f64,
     last: [f64; 2],

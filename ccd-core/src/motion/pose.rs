@@ -1,10 +1,10 @@
-//! Rigid placements.
+//! Rigid transforms: poses of bodies and frames.
 
 use crate::error::InputError;
 use crate::math::vector::scale_of;
 use glam::{DMat3, DQuat, DVec3};
 
-/// A rigid placement of a body in the world: `x ↦ rotation · x + translation`.
+/// The position and orientation of a body in the world: `x ↦ rotation · x + translation`.
 ///
 /// ```
 /// use ccd_core::{glam::{DQuat, DVec3}, Pose};
@@ -19,13 +19,13 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose whose frame equals the world's.
+    /// The pose of a body whose frame equals the world's.
     pub const IDENTITY: Pose = Pose {
         translation: DVec3::ZERO,
         rotation: DQuat::IDENTITY,
     };
 
-    /// Creates a pose from its parts. The quaternion has the order x, y, z, w, and is normalised.
+    /// Creates a pose from a translation and a quaternion. The quaternion has the order x, y, z, w, and is normalised.
     ///
     /// Both parts are arrays, or types that convert to arrays: vectors of `glam` and `nalgebra`,
     /// quaternions of `glam`, the `coords` of quaternions of `nalgebra`.
@@ -50,7 +50,7 @@ impl Pose {
         }
     }
 
-    /// Creates a pose from a unit quaternion.
+    /// Creates a pose from a translation and a unit quaternion.
     pub(crate) fn from_unit(translation: DVec3, rotation: DQuat) -> Self {
         Pose {
             translation,
@@ -58,7 +58,7 @@ impl Pose {
         }
     }
 
-    /// Creates a pose at a position, oriented as the world.
+    /// Creates a pose at a position, with the world's orientation.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -76,7 +76,7 @@ impl Pose {
         self.rotation
     }
 
-    /// Returns the pose of a body that has the pose `inner` in this body's frame: `self ∘ inner`.
+    /// Returns the composition `self ∘ inner`: the pose of a body that has the pose `inner` in this body's frame.
     ///
     /// ```
     /// use ccd_core::{glam::{DQuat, DVec3}, Pose};
@@ -93,24 +93,24 @@ impl Pose {
         )
     }
 
-    /// Returns the pose of the world in the body's frame.
+    /// Returns the inverse pose: the pose of the world in the body's frame.
     pub fn inverse(&self) -> Pose {
         let rotation = self.rotation.conjugate();
         Pose::from_unit(rotation * -self.translation, rotation)
     }
 
-    /// Returns the pose displaced by a vector.
+    /// Returns the pose translated by a vector.
     pub(crate) fn moved(&self, by: DVec3) -> Pose {
         Pose::from_unit(self.translation + by, self.rotation)
     }
 
-    /// Returns a point of the body in world coordinates.
+    /// Converts a point from the body's frame to the world's.
     pub fn transform_point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 }
 
-/// Returns the unit quaternion of the same orientation, for finite quaternions of any length; `None` for zero.
+/// Normalises a finite quaternion of any length; `None` for zero.
 fn unit(rotation: DQuat) -> Option<DQuat> {
     let (scale, _) = scale_of(rotation.length_squared());
     let scaled = rotation * scale;
@@ -118,35 +118,35 @@ fn unit(rotation: DQuat) -> Option<DQuat> {
     (length > 0.0).then(|| (scaled * length.recip()).normalize())
 }
 
-/// A pose in the form that is cheapest to apply: a rotation matrix and a translation.
+/// A rigid transform as a rotation matrix and a translation, the form that is cheapest to apply.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// The rotation. Its columns are the images of the axes.
+    /// The rotation matrix; its columns are the images of the axes. Its columns are the images of the axes.
     pub rotation: DMat3,
-    /// The image of the origin.
+    /// The translation; it is the image of the origin.
     pub translation: DVec3,
 }
 
 impl Frame {
-    /// The frame that maps every point to itself.
+    /// The identity transform.
     pub const IDENTITY: Frame = Frame {
         rotation: DMat3::IDENTITY,
         translation: DVec3::ZERO,
     };
 
-    /// Returns `rotation · point + translation`.
+    /// Transforms a point: `rotation · point + translation`.
     #[inline(always)]
     pub fn point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
-    /// Returns `rotationᵀ · (point − translation)`, the inverse of [`Frame::point`].
+    /// Transforms a point back: `rotationᵀ · (point − translation)`, the inverse of [`Frame::point`].
     #[inline(always)]
     pub fn inverse_point(&self, point: DVec3) -> DVec3 {
         self.inverse_vector(point - self.translation)
     }
 
-    /// Returns `rotationᵀ · vector`.
+    /// Rotates a vector back: `rotationᵀ · vector`.
     #[inline(always)]
     pub fn inverse_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
@@ -156,7 +156,7 @@ impl Frame {
         )
     }
 
-    /// Returns the frame that maps `other`'s coordinates into this one's: `self⁻¹ ∘ other`.
+    /// Returns the transform from `other`'s coordinates to this frame's: `self⁻¹ ∘ other`.
     #[inline(always)]
     pub fn from_frame(&self, other: &Frame) -> Frame {
         Frame {

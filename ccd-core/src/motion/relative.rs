@@ -1,4 +1,4 @@
-//! The motion of one body as seen from another.
+//! The motion of one body in the frame of another.
 
 use super::path::Path;
 use super::trig::sin_cos;
@@ -6,15 +6,14 @@ use crate::math::packed::{Packed, PackedMatrix, Row, row, rows};
 use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
-/// A body as seen from another, prepared once for each query.
+/// The motion of one body, the seen body, in the frame of another, the seeing body. It is prepared once for each query.
 ///
 /// If only one of the two turns, the view is a sum of three constant parts: factors of cosine, of sine and of one, as
 /// in the rotation of a single [`Path`].
 #[derive(Clone, Debug)]
 pub(crate) struct View {
     seen: Parts,
-    /// The centres of rotation in their bodies' frames: that of the body from which the other is seen, and that of
-    /// the seen one.
+    /// The centre of rotation of the seeing body, in that body's frame.
     centre: Row,
     other_centre: Row,
 }
@@ -23,50 +22,50 @@ pub(crate) struct View {
 enum Parts {
     OneTurns {
         rotation: Turning<[Row; 3]>,
-        /// The vector from centre to centre at the start, and its change per unit of time.
-        way: Turning<Row>,
+        /// The vector between the centres of rotation over time, and its rate of change.
+        offset: Turning<Row>,
         change: Turning<Row>,
         acceleration: Option<Turning<Row>>,
         spin: Row,
     },
-    /// Both bodies turn. Vectors are along the axes of the world.
+    /// Both bodies turn; vectors are in the world's frame. Vectors are along the axes of the world.
     BothTurn {
-        /// The inverse of the rotation of the body from which the other is seen.
+        /// The inverse of the seeing body's rotation.
         inverse: Turning<[Row; 3]>,
         other: Turning<[Row; 3]>,
-        way: Row,
+        offset: Row,
         change: Row,
         acceleration: Option<Row>,
         spin: Row,
     },
 }
 
-/// The sum `cos(ω s) P + sin(ω s) Q + K`.
+/// A quantity that turns: `cos(ω s) P + sin(ω s) Q + K`.
 #[derive(Clone, Copy, Debug)]
 struct Turning<T> {
     rate: f64,
     parts: [T; 3],
 }
 
-/// One body as seen from another at an instant, along the axes of the latter.
+/// The relative motion of two bodies at an instant, in the seeing body's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen<L: Simd> {
-    /// The rotation from the seen body's frame to the seeing body's frame.
+    /// The rotation from the seen body's frame to the seeing body's.
     pub(crate) rotation: PackedMatrix<L>,
     /// The vector from the seeing body's centre of rotation to the seen body's.
-    pub(crate) way: Packed<L>,
-    /// The velocity of the seeing body's centre minus that of the seen body's.
+    pub(crate) offset: Packed<L>,
+    /// The velocity of the seeing body's centre of rotation minus that of the seen body's.
     pub(crate) velocity: Packed<L>,
-    /// The derivative of the velocity, if the centres accelerate differently.
+    /// The derivative of `velocity`; `None` if both centres accelerate equally.
     pub(crate) acceleration: Option<Packed<L>>,
     /// The angular velocity of the seen body.
     pub(crate) spin: Packed<L>,
 }
 
 impl View {
-    /// Returns the view of the other body from `own`.
+    /// Prepares the motion of `other` in the frame of `own`.
     pub(crate) fn new(own: &Path, other: &Path) -> Self {
-        let way = other.centre_at(0.0) - own.centre_at(0.0);
+        let offset = other.centre_at(0.0) - own.centre_at(0.0);
         let change = other.velocity - own.velocity;
         let acceleration = other.acceleration - own.acceleration;
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
@@ -75,13 +74,13 @@ impl View {
             Parts::BothTurn {
                 inverse: Turning::new(own.rate, inverse),
                 other: Turning::new(other.rate, other.rotations()),
-                way: row(way),
+                offset: row(offset),
                 change: row(change),
                 acceleration: acceleration.map(row),
                 spin: row(other.spin),
             }
         } else {
-            Parts::one_turns(own, other, inverse, [way, change], acceleration)
+            Parts::one_turns(own, other, inverse, [offset, change], acceleration)
         };
         View {
             seen,
@@ -95,7 +94,7 @@ impl View {
         match &self.seen {
             Parts::OneTurns {
                 rotation,
-                way,
+                offset,
                 change,
                 acceleration,
                 spin,
@@ -105,7 +104,7 @@ impl View {
                 let [travel, change] = accelerated(change.vector(level, angle), acceleration, s);
                 Seen {
                     rotation: rotation.matrix(level, angle),
-                    way: way.vector(level, angle) + travel,
+                    offset: offset.vector(level, angle) + travel,
                     velocity: -change,
                     acceleration: acceleration.map(|acceleration| -acceleration),
                     spin: Packed::load(level, spin),
@@ -114,7 +113,7 @@ impl View {
             Parts::BothTurn {
                 inverse,
                 other,
-                way,
+                offset,
                 change,
                 acceleration,
                 spin,
@@ -125,7 +124,7 @@ impl View {
                 let [travel, change] = accelerated(Packed::load(level, change), acceleration, s);
                 Seen {
                     rotation: inverse * other,
-                    way: inverse * (Packed::load(level, way) + travel),
+                    offset: inverse * (Packed::load(level, offset) + travel),
                     velocity: inverse * -change,
                     acceleration: acceleration.map(|acceleration| inverse * -acceleration),
                     spin: inverse * Packed::load(level, spin),
@@ -148,12 +147,13 @@ impl View {
 }
 
 impl Parts {
-    /// Returns the view if at most one of the bodies turns. The rotation of the other one has only the constant part.
+    /// Prepares the relative motion if at most one of the bodies turns. The rotation of the other one has only the
+    /// constant part.
     fn one_turns(
         own: &Path,
         other: &Path,
         inverse: [DMat3; 3],
-        way: [DVec3; 2],
+        offset: [DVec3; 2],
         acceleration: Option<DVec3>,
     ) -> Self {
         let others = other.rotations();
@@ -169,10 +169,10 @@ impl Parts {
             rate,
             parts: inverse.map(|part| row(part * v)),
         };
-        let [way, change] = way.map(seen);
+        let [offset, change] = offset.map(seen);
         Parts::OneTurns {
             rotation: Turning::new(rate, rotation),
-            way,
+            offset,
             change,
             acceleration: acceleration.map(seen),
             spin: row(inverse[2] * other.spin),
@@ -204,7 +204,7 @@ impl Turning<Row> {
     }
 }
 
-/// Returns the displacement by a constant acceleration until `s`, and the rate at `s`, from the rate at 0.
+/// Returns the displacement until `s`, and the velocity at `s`, for a constant acceleration.
 #[inline(always)]
 fn accelerated<L: Simd>(
     change: Packed<L>,

@@ -8,7 +8,7 @@ use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
-/// Returns the distance between the images of points of about unit size under two poses.
+/// Returns the largest distance between the images of points of about unit size under two poses.
 fn apart(a: &Pose, b: &Pose) -> f64 {
     let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let off = points.map(|p| a.transform_point(p).distance(b.transform_point(p)));
@@ -52,7 +52,7 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
     }
 }
 
-/// Both directions are equally short, and the signs of the quaternions decide.
+/// Tests half a turn, for which both directions are equally short, and the signs of the quaternions decide.
 #[test]
 fn half_a_turn_goes_about_the_axis_as_it_is_given() {
     let turn = |start: DQuat, end: DQuat| {

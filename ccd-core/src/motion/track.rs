@@ -1,4 +1,4 @@
-//! The exact height of a turning point along an axis.
+//! The exact height along an axis of a point that turns.
 
 use crate::math::order::lesser;
 use crate::math::vector::length;
@@ -6,8 +6,8 @@ use crate::rounding::RATE_F64;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// The height of one moving point along a fixed axis:
-/// `height + drift τ + pull τ²/2 + (cos ωτ − 1) p + sin ωτ q`.
+/// The height of a moving point along a fixed axis as a function of time: `height + drift τ + pull τ²/2 + (cos ωτ − 1)
+/// p + sin ωτ q`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Track {
     height: f64,
@@ -30,8 +30,8 @@ impl Track {
         self.drift + self.pull * tau + self.omega * (angle.cos * self.q - angle.sin * self.p)
     }
 
-    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `drift` and `pull`,
-    /// which all points of a body share. `end` is the rotation at `horizon`.
+    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `drift` and `pull`.
+    /// `end` is the rotation at `horizon`.
     pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
         let turn = self.omega * horizon;
@@ -45,7 +45,7 @@ impl Track {
         self.height + (turned - RATE_F64 * swing * (1.0 + turn))
     }
 
-    /// Returns whether the point passes the lowest point of its circle before the end of a turn by less than 2π.
+    /// Returns whether the point passes the lowest point of its circle before the end of a rotation by less than 2π.
     fn passes_trough(&self, turn: f64, end: Angle) -> bool {
         // The lowest point is at the angle of (−p, −q). It is compared to the start and to the end of the turn.
         let (after_start, before_end) = (-self.q, self.q * end.cos - self.p * end.sin);
@@ -56,27 +56,27 @@ impl Track {
         }
     }
 
-    /// Returns a bound of the second derivative due to rotation.
+    /// Returns an upper bound of the second derivative due to rotation.
     #[inline]
     pub(crate) fn bend(&self) -> f64 {
         self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
     }
 }
 
-/// The motion along one axis that all points of a body share.
+/// The motion along one axis that all points of a body have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisMotion {
     drift: f64,
     pull: f64,
-    /// The part of `n` perpendicular to the axis of rotation.
+    /// The component of `n` perpendicular to the axis of rotation.
     across: DVec3,
-    /// The cross product `n × u`.
+    /// The cross product `n × u`, with the direction `u` of the axis of rotation.
     beside: DVec3,
     omega: f64,
 }
 
 impl AxisMotion {
-    /// Creates the motion along `n`; `unit` is the direction of the axis of rotation, or zero if there is none.
+    /// Creates the motion along `n`; `unit` is the direction of the axis of rotation, or zero without rotation.
     #[inline]
     pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
         AxisMotion {
@@ -88,31 +88,31 @@ impl AxisMotion {
         }
     }
 
-    /// Returns the motion with this second derivative of the heights of all points.
+    /// Sets the second derivative that the heights of all points have in common.
     pub(crate) fn pulled(self, pull: f64) -> Self {
         AxisMotion { pull, ..self }
     }
 
-    /// Returns the present rate of points of a body that does not turn.
+    /// Returns the present velocity along the axis, without rotation.
     #[inline]
     pub(crate) fn drift(&self) -> f64 {
         self.drift
     }
 
-    /// Returns the derivative of that rate.
+    /// Returns the acceleration along the axis, without rotation.
     #[inline]
     pub(crate) fn pull(&self) -> f64 {
         self.pull
     }
 
-    /// Returns the displacement of such points after some time.
+    /// Returns the displacement along the axis after `tau`, without rotation.
     #[inline]
     pub(crate) fn rise(&self, tau: f64) -> f64 {
         (self.drift + 0.5 * self.pull * tau) * tau
     }
 
-    /// Returns a bound of the second derivative of heights due to rotation, for points at most `distance` from the
-    /// axis of rotation.
+    /// Returns an upper bound of the second derivative of heights due to rotation, for points at most `distance` from
+    /// the axis of rotation.
     #[inline]
     pub(crate) fn bend(&self, distance: f64) -> f64 {
         self.omega * self.omega * length(self.across) * distance
@@ -131,7 +131,7 @@ impl AxisMotion {
     }
 }
 
-/// The sine and the cosine of an angle, and the cosine minus one without cancellation.
+/// The sine and cosine of an angle, and the cosine minus one without cancellation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Angle {
     sin: f64,
@@ -158,18 +158,18 @@ impl Angle {
     }
 }
 
-/// A vector that turns about an axis.
+/// A vector that turns about an axis at a constant rate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spinning {
     start: DVec3,
-    /// The part of the vector perpendicular to the axis.
+    /// The component of the vector perpendicular to the axis.
     across: DVec3,
-    /// The cross product `u × v`.
+    /// The cross product `u × v` of the axis and the vector.
     beside: DVec3,
 }
 
 impl Spinning {
-    /// Creates the vector with its value at the start; `unit` is the direction of the axis, or zero if there is none.
+    /// Creates the vector from its value at the start; `unit` is the direction of the axis, or zero without rotation.
     #[inline]
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
         Spinning {

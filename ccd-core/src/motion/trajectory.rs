@@ -1,4 +1,4 @@
-//! Motions of any kind, as stretches of the paper's motion with a known bound of their deviation.
+//! Motions of any kind, approximated by stretches of constant velocities with a bound of the deviation.
 
 use super::Motion;
 use super::pose::Pose;
@@ -8,7 +8,7 @@ use crate::math::vector::length;
 use crate::rounding::STRETCH_F64;
 use glam::DVec3;
 
-/// A motion of any kind. Between any two times it is near a [`Motion`], up to a bound of its deviation.
+/// A motion of any kind. Between any two times it is near a [`Motion`], up to a known deviation.
 ///
 /// A query covers the time with stretches, long ones first. It requests shorter ones if the answer depends on it. The
 /// bounds have to shrink with the length of the stretch: with its square if the motion is smooth.
@@ -41,14 +41,14 @@ use glam::DVec3;
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Trajectory: Sync {
-    /// Returns a motion near this one, from a time to a later one or to the same time.
+    /// Returns a motion near this trajectory between two times, which may be equal.
     ///
     /// # Errors
     /// An [`InputError`] if there is no motion between these times.
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError>;
 
-    /// Returns a time between two others, if there is one, at which a velocity jumps: bounds of stretches that end
-    /// there are better. If there are several, the best one is near the middle.
+    /// Returns a time between two others at which a velocity jumps; `None` if there is none. Stretches that end there
+    /// have better bounds. If there are several, the best one is near the middle.
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let _ = (from, to);
         None
@@ -60,7 +60,7 @@ pub trait Trajectory: Sync {
         None
     }
 
-    /// Returns the pose at a time, up to the deviation of the stretch of no length.
+    /// Returns the pose at a time, as exact as a stretch of no length.
     ///
     /// # Errors
     /// The errors of [`Trajectory::stretch`].
@@ -69,20 +69,21 @@ pub trait Trajectory: Sync {
     }
 }
 
-/// A motion near a trajectory between two times, with an acceleration of its centre.
+/// A motion that approximates a trajectory between two times, with an acceleration of the centre and a bound of the
+/// deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// The motion; its time 0 is the first of the two.
+    /// The approximate motion; its time 0 is the start of the stretch.
     pub motion: Motion,
-    /// The constant acceleration of the motion's centre, added to the motion: after a time `t` all points are
-    /// displaced by another `acceleration · t²/2`.
+    /// The constant acceleration of the motion's centre. After a time `t` it displaces all points by another
+    /// `acceleration · t²/2`.
     pub acceleration: DVec3,
-    /// A bound of the trajectory's deviation from the motion with this acceleration.
+    /// A bound of the trajectory's deviation from the accelerated motion.
     pub stray: Stray,
 }
 
 impl Stretch {
-    /// Creates a stretch of a trajectory that is the motion itself.
+    /// Creates a stretch of a trajectory that equals the motion.
     pub fn exact(motion: Motion) -> Self {
         Stretch {
             motion,
@@ -91,7 +92,7 @@ impl Stretch {
         }
     }
 
-    /// Returns the pose after a time, up to the deviation.
+    /// Returns the pose after a time, except for the deviation.
     pub fn pose(&self, time: f64) -> Pose {
         let pose = self.motion.pose(time);
         if self.acceleration == DVec3::ZERO {
@@ -101,14 +102,14 @@ impl Stretch {
         }
     }
 
-    /// Returns the velocity of the body's point at `x` after a time, without the deviation.
+    /// Returns the velocity of the body's point `x` after a time, except for the deviation.
     pub(crate) fn velocity_at(&self, x: DVec3, time: f64) -> DVec3 {
         let motion = &self.motion;
         let arm = x - self.pose(time).transform_point(motion.centre());
         motion.velocity() + time * self.acceleration + motion.spin().cross(arm)
     }
 
-    /// Returns the stretch with another time as its time 0, up to rounding.
+    /// Returns the stretch with its time 0 moved to `at`, up to rounding.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -141,25 +142,23 @@ impl Stretch {
     }
 }
 
-/// Bounds of the deviation between two motions of a body.
+/// Bounds of the deviation between two motions of a body, in position and orientation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stray {
-    /// The largest distance between the two positions of the motion's centre, a point of the body, in the scene's
-    /// unit of length.
+    /// The largest distance between the two positions of the motion's centre, in the scene's unit of length.
     pub shift: f64,
     /// The largest angle between the two orientations, in radians.
     pub turn: f64,
 }
 
 impl Stray {
-    /// No deviation: the motions are the same.
+    /// The deviation of a motion from itself, which is zero.
     pub const NONE: Stray = Stray {
         shift: 0.0,
         turn: 0.0,
     };
 
-    /// Returns a bound of the distance between the two positions of a point that is at most `reach` from the motion's
-    /// centre.
+    /// Returns a bound of the deviation of a point that is at most `reach` from the motion's centre.
     pub fn at(&self, reach: f64) -> f64 {
         let Stray { shift, turn } = *self;
         match turn > 0.0 {
@@ -213,7 +212,7 @@ impl std::ops::Add for Stray {
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Smooth: Sync {
-    /// Returns the motion with the pose and the velocities of a time; its time 0 is that time.
+    /// Returns the motion with the trajectory's pose and velocities at a time, which becomes its time 0.
     ///
     /// The linear velocity is that of the motion's [centre](Motion::centre).
     ///
@@ -221,11 +220,11 @@ pub trait Smooth: Sync {
     /// An [`InputError`] if there is no pose at that time.
     fn tangent(&self, time: f64) -> Result<Motion, InputError>;
 
-    /// Returns bounds of the lengths of the accelerations from a time to a later one.
+    /// Returns upper bounds of the magnitudes of the accelerations between two times.
     fn accelerations(&self, from: f64, to: f64) -> Accelerations;
 
-    /// Returns the tangent at a time with the acceleration of its centre, and a bound of the rate of change of that
-    /// acceleration from a time to a later one; `None` if it is unknown or unbounded.
+    /// Returns the tangent at a time with the acceleration of its centre, and a bound of how fast that acceleration
+    /// changes up to a later time; `None` if it is unknown or unbounded.
     ///
     /// # Errors
     /// The errors of the motion.
@@ -239,41 +238,41 @@ pub trait Smooth: Sync {
         Ok((self.tangent(time)?, None))
     }
 
-    /// Returns bounds of the errors of the poses of tangents from a time to a later one, if these errors exceed about
-    /// 40 units in the last place, of lengths and of a radian.
+    /// Returns bounds of the errors of tangent poses between two times. They matter if they exceed about 40 units in
+    /// the last place, of lengths and of a radian.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let _ = (from, to);
         Stray::NONE
     }
 
-    /// Returns a time between two others, if there is one, at which an acceleration jumps: bounds of
-    /// stretches that end there are better.
+    /// Returns a time between two others at which an acceleration jumps; `None` if there is none. Stretches that end
+    /// there have better bounds.
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let _ = (from, to);
         None
     }
 }
 
-/// Bounds of the lengths of accelerations, per unit of time squared.
+/// Upper bounds of the magnitudes of a trajectory's accelerations, per unit of time squared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Accelerations {
-    /// The acceleration of the tangents' centre, in the scene's unit of length.
+    /// A bound of the acceleration of the tangents' centre, in the scene's unit of length.
     pub linear: f64,
-    /// The angular acceleration, in radians: the length of the derivative of the angular velocity.
+    /// A bound of the angular acceleration in radians, which is the derivative of the angular velocity.
     pub angular: f64,
 }
 
-/// A linear acceleration, and a bound of its change.
+/// The linear acceleration at a time, and a bound of its rate of change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Acceleration {
-    /// The acceleration, in the scene's unit of length per unit of time squared.
+    /// The acceleration vector, in the scene's unit of length per unit of time squared.
     pub vector: DVec3,
-    /// A bound of the length of its derivative, per unit of time.
+    /// A bound of the magnitude of the acceleration's derivative, per unit of time.
     pub jerk: f64,
 }
 
 impl Acceleration {
-    /// Returns a bound of the deviation that the changes of the acceleration cause in a time, from the tangent on.
+    /// Returns a bound of the deviation from the tangent after a time that changes of the acceleration cause.
     fn over(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = STRETCH_F64 * (time * (time * length(self.vector)));
@@ -282,7 +281,7 @@ impl Acceleration {
 }
 
 impl Accelerations {
-    /// Returns a bound of the deviation that the accelerations cause in a time, from a tangent on.
+    /// Returns a bound of the deviation from a tangent after a time that the accelerations cause.
     fn over(self, time: f64) -> Stray {
         // The time and the products are rounded.
         let square = 0.5 * time * time * (1.0 + STRETCH_F64);
@@ -324,7 +323,7 @@ impl<S: Smooth + ?Sized> Trajectory for S {
     }
 }
 
-/// Each stretch is the motion itself; those that do not begin at time 0 are off by rounding.
+/// Returns the motion itself for each stretch. Stretches that do not begin at time 0 are off by rounding.
 impl Trajectory for Motion {
     fn as_motion(&self) -> Option<Motion> {
         Some(*self)

@@ -1,8 +1,8 @@
-//! The sine and the cosine without a table: the same bits on every machine.
+//! Sine and cosine with the same bits on every machine.
 
 use std::f64::consts::FRAC_2_PI;
 
-/// π/2 in three parts; products of the first two with an integer below 2²⁰ are exact.
+/// π/2 as a sum of three numbers; products of the first two with an integer below 2²⁰ are exact.
 const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3ff9_21fb_5440_0000),
     f64::from_bits(0x3dd0_b461_1a60_0000),
@@ -30,7 +30,7 @@ const COSINE: [f64; 7] = [
     1.0 / 20_922_789_888_000.0,
 ];
 
-/// Returns the sine and the cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
+/// Returns the sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
 ///
 /// # Guarantee
 /// Each is off by at most 2u, as [`distance_rounding`](crate::rounding::distance_rounding) counts.

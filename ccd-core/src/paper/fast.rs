@@ -1,4 +1,5 @@
-//! The paper's schedule: one common time step for all pairs of the front of the bounding volume traversal tree.
+//! The schedule FAST of the paper: all pairs of a front of the bounding volume traversal tree advance by one common
+//! time step.
 
 mod descent;
 mod front;
@@ -57,7 +58,7 @@ pub struct Fast<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// Creates a schedule that divides distances by this bound.
+    /// Creates a schedule that divides distances by the given bound of the approach.
     pub fn new(bound: Bound) -> Self {
         Fast {
             bound,
@@ -101,7 +102,7 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// Runs Alg. 2: repeatedly computes the distance, and advances both bodies by the time that it allows.
+    /// Runs Alg. 2: repeatedly computes the distance of the bodies, and advances both by the time that it allows.
     fn advance(
         &mut self,
         problem: &Problem<'_>,

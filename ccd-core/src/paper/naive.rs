@@ -1,4 +1,4 @@
-//! All pairs of pieces on one common clock: Alg. 1 of the paper, a slow and obvious reference.
+//! A slow and simple reference: all pairs of pieces with one common clock, Alg. 1 of the paper.
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
@@ -15,8 +15,8 @@ use crate::motion::bound::Bound;
 use crate::problem::{Problem, Side};
 use std::ops::ControlFlow;
 
-/// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`: the
-/// distance of each pair, divided by a [bound](Bound) of its rate of approach.
+/// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`. A free time is the pair's
+/// distance, divided by a [bound](Bound) of its rate of approach.
 ///
 /// Every step costs one distance for each pair of pieces. Grazing passes, fast turning and bodies that are let go
 /// from flush contact cost many steps. This schedule suits only bodies of few pieces, and checks of the other
@@ -33,7 +33,7 @@ pub struct Naive<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Naive<O> {
-    /// Creates a schedule that divides distances by this bound.
+    /// Creates a schedule that divides distances by the given bound of the approach.
     pub fn new(bound: Bound) -> Self {
         Naive {
             bound,
@@ -89,7 +89,7 @@ impl<O: DistanceOracle> Naive<O> {
             let mut next = f64::INFINITY;
             let snapshot = Snapshot::new(problem, 0, 0, s);
             for pair in &mut self.pairs {
-                if let Err(limit) = meter.visit(problem) {
+                if let Err(limit) = meter.count_visit(problem) {
                     return unresolved(s, limit);
                 }
                 let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
@@ -111,7 +111,7 @@ impl<O: DistanceOracle> Naive<O> {
     }
 }
 
-/// Returns the greatest distance of each piece's points from its body's axis of rotation.
+/// Returns for each piece the largest distance of its points from its body's axis of rotation.
 fn reaches(side: &Side<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
     pieces.map(|piece| side.path.reach(piece.points)).collect()

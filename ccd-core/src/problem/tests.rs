@@ -1,4 +1,4 @@
-//! Inputs of a query, and its internal units.
+//! Tests the accepted inputs of a query, and the conversion to its internal units.
 
 use super::*;
 use crate::limits::LEAST_TOLERANCE;

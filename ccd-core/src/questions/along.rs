@@ -1,4 +1,4 @@
-//! Questions about bodies that move along trajectories, answered stretch by stretch.
+//! Questions about bodies on trajectories, answered one stretch of time after the other.
 //!
 //! On a stretch of time each body follows a motion, with a constant acceleration of its centre, up to a known
 //! deviation. The query about these motions uses the sum of both deviations as a margin: if the motions keep this

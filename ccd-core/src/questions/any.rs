@@ -6,7 +6,7 @@ use crate::engine::answer::answer_in_any_order;
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Step;
-use crate::engine::proven::{Proven, free_at_once};
+use crate::engine::proven::{Proven, free_by_bounding_volumes};
 use crate::engine::search::{Advance, Question, Search};
 use crate::engine::start::overlapping;
 use crate::error::InputError;
@@ -17,7 +17,7 @@ use crate::shortcuts::rounds::in_rounds;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Answers whether the bodies touch at all, or come within margin + tolerance.
+    /// Decides whether the bodies touch at all: whether they come within margin + tolerance.
     ///
     /// The verdict is that of the first contact, up to near misses within the tolerance. It costs as
     /// much for bodies that stay apart, and less for others: pairs are followed to a contact without
@@ -36,7 +36,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Answers the same question about two motions.
+    /// Decides whether two bodies with constant velocities touch at all.
     pub(crate) fn any_contact_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer =
@@ -55,7 +55,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 
     fn contact(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
-        if let Some(free) = free_at_once(problem) {
+        if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
         let mut search = Search {
@@ -75,7 +75,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-/// Returns the answer of a search that does not distinguish contacts at the start from later ones.
+/// Converts an answer to one in which a contact at the start counts like any other contact.
 pub(crate) fn any(answer: Answer) -> Answer {
     let outcome = match answer.outcome {
         Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
@@ -84,16 +84,16 @@ pub(crate) fn any(answer: Answer) -> Answer {
     Answer { outcome, ..answer }
 }
 
-/// The question whether the bodies touch at all.
+/// The search for any contact of the bodies.
 #[derive(Default)]
 struct Any {
     proven: Proven,
-    /// The clock of the first pair that could not be proven further, and the reason.
+    /// The clock of the first pair that could not be proven to the end, and the reason.
     stuck: Option<(f64, Limit)>,
 }
 
 impl Any {
-    /// Abandons a pair that cannot be proven further: another pair may be in contact.
+    /// Gives up a pair that cannot be proven further, because another pair may be in contact.
     fn leave(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
         if self.stuck.is_none_or(|(first, _)| s < first) {
             self.stuck = Some((s, limit));
@@ -123,7 +123,7 @@ impl<O: DistanceOracle> Question<O> for Any {
             // A pair that keeps its distance gives no bound for the other pairs.
             Step::Contact(contact) => Outcome::Contact {
                 time: problem.time(s),
-                contact: contact.no_nearer_than(0.0),
+                contact: contact.cap_lower_bound(0.0),
             },
             Step::Overlap(contact) => overlapping(contact),
             Step::Stalled => return self.leave(s, Limit::Stalled),

@@ -1,4 +1,4 @@
-//! Brackets the least distance of two bodies over a query, and its time.
+//! Computes bounds of the least distance of two bodies over a query, and its time.
 
 mod follow;
 pub(crate) mod guess;
@@ -8,7 +8,7 @@ pub(crate) mod required;
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{Searched, contact_of_given, metered};
+use crate::engine::answer::{SearchResult, contact_for_given_bodies, run_metered};
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::Common;
@@ -31,8 +31,8 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Brackets the least distance of the bodies over the duration, to within the tolerance; or answers
-    /// whether bodies that move keep a required [clearance](crate::Settings::clearance).
+    /// Bounds the least distance of the bodies over the duration, to within the tolerance. If a
+    /// [clearance](crate::Settings::clearance) is required of bodies that move, decides whether they keep it instead.
     ///
     /// The margin and the [policy](crate::StartPolicy) for the start play no role.
     ///
@@ -53,16 +53,16 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Answers the same question about two motions.
+    /// Bounds the least distance of two bodies with constant velocities.
     pub(crate) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
             Some(distance) => self.keeps(problem, distance, oracle),
             None => self.approach_of_bodies(problem, oracle),
         };
-        answer.of_shapes(problem.excess())
+        answer.to_shapes(problem.excess())
     }
 
-    /// Brackets the least distance of the bodies themselves, whatever their shapes are.
+    /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
     pub(crate) fn approach_of_bodies(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = self.measured(problem, f64::INFINITY, oracle, or_overlap);
         let found = answer.found;
@@ -74,7 +74,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
+    /// Decides whether the bodies keep a distance, or their shapes come nearer.
     fn keeps(&mut self, problem: &Problem<'_>, distance: f64, oracle: &mut O) -> Answer {
         let required = Required {
             distance,
@@ -93,27 +93,27 @@ impl<O: DistanceOracle> DepthFirst<O> {
         answer.unwrap_or_else(|never| match never {})
     }
 
-    /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`. If they meet, the answer
-    /// does not say whether they overlap at the start.
+    /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`. If they meet, the answer does
+    /// not say whether they overlap at the start.
     pub(crate) fn approach_below(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
-    ) -> Searched<Result<Outcome, Beyond>> {
+    ) -> SearchResult<Result<Outcome, Beyond>> {
         self.measured(problem, beyond, oracle, |_, _, _, found| found)
     }
 
-    /// Searches for distances below `beyond`; `last_look` completes the outcome.
+    /// Searches for distances below `beyond`, and completes the outcome by `last_look`.
     fn measured(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
         last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, Outcome) -> Outcome,
-    ) -> Searched<Result<Outcome, Beyond>> {
+    ) -> SearchResult<Result<Outcome, Beyond>> {
         let mut scratch = self.scratch.take();
-        let answer = metered(problem, oracle, &mut scratch, |oracle, meter| {
+        let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
             let problem = problem.measuring();
             let found = match Sample::of(&problem) {
                 Some(sample) => {
@@ -206,7 +206,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-/// Converts the result for a sample period to an answer for the whole time.
+/// Converts the outcome for a sample of the periods to one for the whole time.
 fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<Outcome, Beyond> {
     let found = found.map_err(|Beyond { lower }| Beyond {
         lower: sample.lower(lower),
@@ -224,7 +224,7 @@ fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<O
     )
 }
 
-/// Returns the answer for bodies that meet, unless they overlap at the start as well.
+/// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
 fn or_overlap<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -240,7 +240,7 @@ fn or_overlap<O: DistanceOracle>(
     }
 }
 
-/// Measures bodies that do not move.
+/// Measures the distance of bodies at rest.
 fn at_one_pose<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
@@ -259,14 +259,14 @@ fn at_one_pose<O: DistanceOracle>(
     })
 }
 
-/// The result for bodies whose distance is at least as large as is of interest.
+/// The bodies stay at least as far apart as the distance of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Beyond {
-    /// A lower bound of the distance at all times.
+    /// A lower bound of the distance of the bodies at all times.
     pub(crate) lower: f64,
 }
 
-/// Returns the ladder with the lower bound that bounding balls of the bodies prove.
+/// Creates the ladder whose first lower bound comes from bounding balls of the bodies.
 fn ladder(problem: &Problem<'_>) -> Ladder {
     let ladder = Ladder::new(least_distance(problem), problem.budget);
     if problem.deadline.is_some() || problem.stop.is_some() {
@@ -284,7 +284,7 @@ fn unresolved(lower: f64, limit: Limit) -> Outcome {
     Outcome::Unresolved(Unresolved::least(lower, None, limit))
 }
 
-/// Returns true if the bodies meet, within the tolerance, only after the start.
+/// Returns whether the bodies come within the tolerance after the start, and not at the start.
 pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
     match *found {
         Outcome::Measured {
@@ -295,7 +295,7 @@ pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
     }
 }
 
-/// Translates the answer to the given bodies, if surfaces replaced them in the search.
+/// Converts the contacts of an outcome to those of the bodies that the caller gave, if surfaces replaced them.
 fn told<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -304,15 +304,15 @@ fn told<O: DistanceOracle>(
 ) -> Outcome {
     found.map_contacts(|contact, time| {
         let within = contact.separation.upper;
-        contact_of_given(problem, oracle, meter, contact, within, time)
+        contact_for_given_bodies(problem, oracle, meter, contact, within, time)
     })
 }
 
-/// The nearest two pieces so far, at their clock.
+/// The nearest two pieces found so far, with the clock at which they were measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Best {
     clock: f64,
-    /// The indices of the pieces in the problem.
+    /// The indices of the two pieces in the problem.
     pieces: [u32; 2],
     pub(crate) contact: Contact,
 }

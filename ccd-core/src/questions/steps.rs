@@ -1,12 +1,12 @@
-//! A search for the first contact in steps: it stops at a time, and continues later.
+//! Searches for the first contact in steps: the search stops at a given time, and continues later.
 
 use super::along::first::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{let_go, of_given, shown};
+use crate::engine::answer::{achieved_tolerance, ignoring_start_contact, outcome_for_given_bodies};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
-use crate::engine::proven::{Proven, free_at_once};
+use crate::engine::proven::{Proven, free_by_bounding_volumes};
 use crate::engine::search::{Question, Search};
 use crate::error::InputError;
 use crate::problem::Problem;
@@ -16,7 +16,7 @@ use crate::shortcuts::closer_look::CloserLook;
 use crate::shortcuts::rounds::Rounds;
 use std::ops::ControlFlow;
 
-/// A search for the first contact that advances to a requested time.
+/// A search for the first contact that can be advanced to any time and continued later.
 ///
 /// It serves queries for the first contact among many pairs of bodies. No pair is proven further than the answer
 /// needs: the pair that is proven least far continues next.
@@ -45,9 +45,9 @@ pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
 
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum Kind<'a, O: DistanceOracle> {
-    /// A search about motions.
+    /// A search about constant velocities, which is done in steps.
     InSteps(Steps<'a, O>),
-    /// A search along trajectories, which are searched as a whole.
+    /// A search along trajectories, which is done at once.
     AtOnce {
         query: Query<'a>,
         memory: BestFirst<O>,
@@ -55,14 +55,14 @@ enum Kind<'a, O: DistanceOracle> {
     },
 }
 
-/// A search about two motions.
+/// A search in steps, about two bodies with constant velocities.
 struct Steps<'a, O: DistanceOracle> {
     problem: Problem<'a>,
-    /// The problem that is searched now: it ends at a contact at the start, or lets the bodies go.
+    /// The problem that is searched now. It reports a contact at the start, or ignores it.
     current: Problem<'a>,
-    /// For a problem that repeats itself: its rounds, and the part that is searched.
+    /// The rounds and the part that is searched now, if the motions repeat themselves.
     part: Option<(Rounds<'a>, Problem<'a>)>,
-    /// The policy for a contact at the start, as far as it is still to be applied.
+    /// The policy for a contact at the start that is still to be applied.
     start: StartPolicy,
     memory: BestFirst<O>,
     meter: Meter,
@@ -71,26 +71,26 @@ struct Steps<'a, O: DistanceOracle> {
     answer: Option<Answer>,
 }
 
-/// The state of a search besides the waiting pairs.
+/// The state of the search without the waiting pairs.
 #[derive(Debug)]
 struct Begun {
     look: CloserLook,
     proven: Proven,
 }
 
-/// The progress of a search for the first contact.
+/// How far a search for the first contact has come.
 #[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
-    /// The bodies stay apart until this time, certified.
+    /// The bodies are certified apart until this time.
     ApartUntil(f64),
-    /// The answer.
+    /// The search is finished, with this answer.
     Answered(Answer),
 }
 
 impl<'a, O: DistanceOracle> FirstContact<'a, O> {
-    /// Creates the search for a query, with the memory of a schedule. A [deadline](crate::Settings::deadline) counts
-    /// from now.
+    /// Creates the search for a query, with the memory of a schedule. The time until the
+    /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContact(match query.problem.take() {
             Some(problem) => Kind::InSteps(Steps::new(problem, memory)),
@@ -102,7 +102,7 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         })
     }
 
-    /// Returns the memory, for another search.
+    /// Returns the memory of the schedule, for another search.
     pub fn into_memory(self) -> BestFirst<O> {
         match self.0 {
             Kind::InSteps(steps) => steps.into_memory(),
@@ -110,8 +110,8 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
         }
     }
 
-    /// Continues until the bodies are proven apart up to a time, or later, or there is an answer. Along trajectories
-    /// other than [motions](crate::Motion), the search continues to the answer.
+    /// Continues until the bodies are proven apart up to the time `until` or later, or there is an answer. Along
+    /// trajectories other than [motions](crate::Motion), the search continues to the answer.
     ///
     /// # Guarantee
     /// [Never late](crate#guarantee); ends on every input. The answer has the same bits as that of [`BestFirst`],
@@ -170,7 +170,8 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             ControlFlow::Break((outcome, tolerance)) => {
                 let within = self.problem.margin + tolerance;
                 let meter = &mut self.meter;
-                let outcome = of_given(&self.problem, oracle, meter, outcome, within);
+                let outcome =
+                    outcome_for_given_bodies(&self.problem, oracle, meter, outcome, within);
                 Progress::Answered(Answer {
                     outcome,
                     tolerance,
@@ -210,7 +211,13 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     }
                 },
             };
-            let parting = let_go(&self.current, self.start, &outcome, oracle, &mut self.meter);
+            let parting = ignoring_start_contact(
+                &self.current,
+                self.start,
+                &outcome,
+                oracle,
+                &mut self.meter,
+            );
             match parting {
                 Some(parting) => {
                     self.part = first_part(&parting);
@@ -221,7 +228,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     let tolerance = if self.start == self.problem.start {
                         self.problem.tolerance
                     } else {
-                        shown(&self.current, &outcome)
+                        achieved_tolerance(&self.current, &outcome)
                     };
                     return ControlFlow::Break((outcome, tolerance));
                 }
@@ -229,7 +236,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         }
     }
 
-    /// Searches until a time. Returns the time that is reached, or the outcome.
+    /// Searches the current problem or part up to a time. Returns the time that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
         let (problem, until) = match &self.part {
@@ -246,7 +253,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         let Begun { look, proven } = match &mut self.begun {
             Some(begun) => begun,
             begun => {
-                if let Some(free) = free_at_once(problem) {
+                if let Some(free) = free_by_bounding_volumes(problem) {
                     return ControlFlow::Break(free);
                 }
                 let mut proven = Proven::default();

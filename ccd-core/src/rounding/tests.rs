@@ -1,4 +1,4 @@
-//! The f64 allowances, compared with double-double arithmetic.
+//! Compares the error bounds for f64 with double-double arithmetic.
 
 mod derivations;
 mod distances;
@@ -23,13 +23,13 @@ use crate::tests::worst::share;
 use crate::{Body, Pose};
 use glam::DVec3;
 
-/// The largest errors found, as shares of the allowed rounding.
+/// The largest errors found, as shares of their bounds.
 #[derive(Debug, Default)]
 struct Worst {
     place: f64,
     gap: f64,
     distance: f64,
-    /// The number of problems at a million units from the body's or the world's origin, and of those with many turns.
+    /// The number of problems a million units from the body's or the world's origin.
     far: usize,
     turns: usize,
 }
@@ -64,7 +64,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
     assert!(worst.distance < 1.0, "{worst:?}");
 }
 
-/// The allowance covers velocities derived from poses at both ends, compared with the motion between these poses.
+/// Tests velocities derived from poses at both ends: answers hold for the motion between the given poses.
 #[test]
 fn rounding_of_motions_between_poses_is_allowed_for() {
     let mut rng = rng(6);
@@ -123,7 +123,7 @@ fn motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Moti
     .unwrap()
 }
 
-/// Compares positions, a support gap and a distance at one clock with the exact ones.
+/// Compares positions, a support gap and a distance at one clock with the exact values, and records the errors.
 fn sample(
     rng: &mut Pcg64,
     problem: &Problem<'_>,
@@ -138,7 +138,7 @@ fn sample(
     worst.distance = greater(worst.distance, of.distance);
 }
 
-/// The errors of one comparison of two bodies, as shares of the allowed rounding.
+/// The errors of one comparison, as shares of the bound.
 #[derive(Clone, Copy, Debug, Default)]
 struct Shares {
     place: f64,
@@ -146,7 +146,7 @@ struct Shares {
     distance: f64,
 }
 
-/// Returns the errors of positions, of a support gap and of a distance at one clock.
+/// Returns the errors of positions, of a support gap and of a distance at one clock, as shares of the bound.
 fn shares_of_a_look(
     rng: &mut impl RngExt,
     problem: &Problem<'_>,

@@ -1,4 +1,4 @@
-//! The rate of approach of two nodes across a fixed plane, in f64.
+//! Bounds of the rate at which two nodes approach along a fixed direction, in f64.
 
 use super::placed::Placed;
 use crate::math::order::{greater, lesser};
@@ -9,18 +9,18 @@ use crate::problem::Problem;
 use crate::rounding::RATE_F64;
 use glam::DVec3;
 
-/// Upper bounds of the approach of two nodes, of A and of B, from now on.
+/// Upper bounds of the rate at which a node of A and a node of B approach.
 pub(crate) struct Approach {
-    /// The rate at which the nodes' centres approach.
+    /// The rate at which the nodes' centres approach each other.
     pub(crate) straight: f64,
-    /// The rate at which any two points of the nodes approach.
+    /// An upper bound of the rate at which any two points of the nodes approach.
     rate: f64,
-    /// The second derivative of the approach; negative if the nodes accelerate away from each other.
+    /// An upper bound of the second derivative of the approach; negative if the nodes accelerate away from each other.
     bend: f64,
 }
 
 impl Approach {
-    /// Bounds the approach along a unit vector that points from A to B, at clock `s`.
+    /// Computes the bounds along a unit vector from A to B, from clock `s` on.
     pub(crate) fn along(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> Self {
         let straight = straight(problem, [a, b], n, s);
         let (mut turning, mut bend, mut speed) = (0.0, 0.0, 0.0);
@@ -43,7 +43,7 @@ impl Approach {
         }
     }
 
-    /// Returns a time in which the nodes do not use up a gap.
+    /// Returns a time in which the nodes certainly do not use up a gap.
     pub(crate) fn free_time(&self, gap: f64) -> f64 {
         let gap = Gap {
             gap,

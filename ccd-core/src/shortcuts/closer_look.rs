@@ -1,4 +1,4 @@
-//! Tighter f64 bounds for single pairs of nodes, beside the bounds for eight pairs in f32.
+//! Tighter bounds in f64 for single pairs of nodes, for which the bounds of eight in f32 are too coarse.
 //!
 //! These bounds are computed only where splits would prove little.
 
@@ -11,12 +11,12 @@ use crate::problem::{Problem, Side};
 use crate::rounding::REACH_F32;
 use crate::tuning::{AXIS_ROUNDS, COARSE_F32, SCREW_AFTER};
 
-/// The tighter bounds that are useful for a query.
+/// Computes tighter bounds for the pairs of a query, as far as they are useful.
 #[derive(Debug)]
 pub(crate) struct CloserLook {
-    /// True if the rounding of gaps between the largest nodes, in f32, is too coarse for the gap to be kept.
+    /// True if f32 is too coarse for the gap to keep between the largest nodes.
     fine: bool,
-    /// The number of splits so far.
+    /// The number of splits in the search so far.
     splits: u64,
     screw: Option<Screw>,
 }
@@ -32,8 +32,8 @@ impl CloserLook {
         }
     }
 
-    /// Removes the pair of least clock, which is `s`, from its siblings, if a later clock is proven for it. Returns
-    /// that clock and the pair, which then waits alone.
+    /// Removes the pair with the least clock `s` from its siblings, if a later clock can be proven for it. Returns that
+    /// clock and the pair, which then waits alone.
     #[inline(always)]
     pub(crate) fn part(
         &self,
@@ -41,14 +41,14 @@ impl CloserLook {
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        if self.fine && siblings.parted() < AXIS_ROUNDS {
+        if self.fine && siblings.removed_count() < AXIS_ROUNDS {
             part_flat(problem, siblings, s)
         } else {
             None
         }
     }
 
-    /// Finishes the pairs of a new split that stay apart for good.
+    /// Marks the pairs of a new split that are proven apart to the end as finished.
     #[inline(always)]
     pub(crate) fn finish(
         &mut self,
@@ -74,13 +74,13 @@ impl CloserLook {
         meter: &mut Meter,
     ) {
         if self.splits == SCREW_AFTER && problem.takes(Shortcut::Screw) {
-            self.screw = Screw::of(problem, &mut meter.memory().profiles);
+            self.screw = Screw::of(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw
             && split.lanes == u8::MAX
         {
-            let profiles = &mut meter.memory().profiles;
+            let profiles = &mut meter.scratch_memory().profiles;
             siblings.finish(|pair| screw.keeps_apart(problem, profiles, pair, s));
         }
     }
@@ -91,5 +91,5 @@ fn part_flat(problem: &Problem<'_>, siblings: &mut Siblings, s: f64) -> Option<(
     let free = flat_pair::free_time(problem, siblings.least_pair(), s);
     // One step down undoes the rounding of the sum. Written so that NaN is no clock.
     let clock = (s + free).next_down();
-    (clock > s).then(|| (clock, siblings.part_least(clock)))
+    (clock > s).then(|| (clock, siblings.remove_least(clock)))
 }

@@ -1,11 +1,11 @@
-//! Flat nodes that approach each other face to face.
+//! Bounds for flat nodes that approach each other face to face.
 //!
 //! In f32 the rounding of the gap between two large plates is that of their size. For a finer tolerance all of their
 //! nodes would be split before a single pair of pieces is near enough. Their slabs are known in f64.
 
 use super::approach::Approach;
 use super::placed::Placed;
-use crate::body::tree::{Named, NodeId, Slab};
+use crate::body::tree::{NodeId, NodeOrTriangle, Slab};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{Problem, Side};
@@ -13,9 +13,8 @@ use crate::rounding::{RATE_F64, REACH_F32};
 use crate::tuning::{CLOSED_GAP, COARSE_F32, TURNED_SHARE};
 use glam::DVec3;
 
-/// Returns a time for which two flat nodes, of A and of B, certainly stay apart by the gap of nodes from clock `s`
-/// on. The time is 0 if they are not flat, if f32 is fine enough for them, or if their turning uses up more of the
-/// gap than their approach.
+/// Returns a time for which two flat nodes of A and B certainly keep the gap of nodes, from clock `s` on. The time is 0
+/// if they are not flat, if f32 is fine enough for them, or if rotation uses up more of the gap than their approach.
 pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f64 {
     let sides = [(&problem.a, a), (&problem.b, b)];
     if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
@@ -32,20 +31,20 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
     greater(along(a.normal), along(b.normal))
 }
 
-/// Returns whether a node is a triangle, or as thin as flat nodes are.
+/// Returns whether a node is a triangle, or thin enough for a flat node.
 fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
     match side.body.tree().get(id) {
-        Named::Node(node) => node.is_thin(),
-        Named::Triangle(_) => true,
+        NodeOrTriangle::Node(node) => node.is_thin(),
+        NodeOrTriangle::Triangle(_) => true,
     }
 }
 
-/// A flat node at its position in the problem's coordinates.
+/// A flat node at the pose of a clock, in the problem's coordinates.
 struct Flat {
     node: Placed,
-    /// The half thickness; `None` for a triangle, whose corners are known.
+    /// Half the thickness; `None` for a triangle, whose corners are known.
     half: Option<f64>,
-    /// A unit vector.
+    /// The unit normal of the node's plane.
     normal: DVec3,
 }
 
@@ -54,11 +53,11 @@ impl Flat {
         let node = Placed::new(side, id, s);
         let tree = side.body.tree();
         let (normal, half) = match tree.get(id) {
-            Named::Node(_) => {
+            NodeOrTriangle::Node(_) => {
                 let &Slab { normal, half } = tree.slab(id)?;
                 (normal, Some(half))
             }
-            Named::Triangle(piece) => {
+            NodeOrTriangle::Triangle(piece) => {
                 let [a, b, c] = side.body.pieces().triangle(piece as usize);
                 (unit((b - a).cross(c - a))?, None)
             }
@@ -70,7 +69,7 @@ impl Flat {
         })
     }
 
-    /// Returns `max n·(x − centre)` over the points, for a unit vector.
+    /// Returns `max n·(x − centre)` over the node's points `x`, for a unit vector `n`.
     fn reach(&self, n: DVec3) -> f64 {
         match self.half {
             Some(half) => {
@@ -83,8 +82,7 @@ impl Flat {
     }
 }
 
-/// Returns the time for which a fixed plane keeps the nodes apart. The vector `n` is perpendicular to it, with either
-/// sign.
+/// Returns the time for which a fixed plane perpendicular to `n` keeps the nodes apart; `n` may have either sign.
 fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };

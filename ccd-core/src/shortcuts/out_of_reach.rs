@@ -1,4 +1,4 @@
-//! A test for bodies that are far from each other all the time, by two balls on straight paths.
+//! Proves bodies apart that are far from each other all the time, by two balls on straight paths.
 //!
 //! A path with a constant acceleration is within an eighth of that acceleration from the straight path between its
 //! ends.
@@ -8,7 +8,7 @@ use crate::problem::{Problem, Side};
 use crate::rounding::RATE_F64;
 use glam::DVec3;
 
-/// Returns whether bounding balls keep the bodies farther apart than the contact distance, by more than rounding.
+/// Returns whether bounding balls prove the bodies farther apart than the contact distance at all times.
 ///
 /// Most pairs of a simulation or of a plan are proven apart by this test, in a few tens of nanoseconds.
 ///
@@ -19,7 +19,7 @@ pub(crate) fn out_of_reach(problem: &Problem<'_>) -> bool {
     least_distance(problem) > problem.contact_distance()
 }
 
-/// Returns a lower bound of the distance of the bodies at all times, by the balls; negative where the balls meet.
+/// Returns a lower bound of the distance of the bodies at all times, by bounding balls; negative if the balls meet.
 pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
     let distance = least_length(b.centre - a.centre, b.velocity - a.velocity) - bow(problem);
@@ -28,20 +28,21 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
     distance - a.radius - b.radius - 2.0 * problem.rounding
 }
 
-/// Bounds how far the offset from ball to ball is from its straight change, rounded up.
+/// Returns how far the vector between the balls' centres may be off a linear function of time, because of
+/// accelerations.
 fn bow(problem: &Problem<'_>) -> f64 {
     0.125 * length(problem.b.path.acceleration - problem.a.path.acceleration) * (1.0 + RATE_F64)
 }
 
-/// Returns the clock at which the balls are nearest.
+/// Returns the clock at which the bounding balls are nearest to each other.
 pub(crate) fn nearest_clock(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
     least_at(b.centre - a.centre, b.velocity - a.velocity)
 }
 
-/// A ball that moves straight and contains a body all the time.
+/// A ball on a straight path that contains a body at all times.
 struct Ball {
-    /// The centre at the start.
+    /// The position of the centre at the start.
     centre: DVec3,
     velocity: DVec3,
     radius: f64,
@@ -64,7 +65,7 @@ impl Ball {
     }
 }
 
-/// Returns the least length of `from + s · change` for `s` from 0 to 1.
+/// Returns the least length of `from + s · change` over `s` from 0 to 1.
 fn least_length(from: DVec3, change: DVec3) -> f64 {
     length(from + change * least_at(from, change))
 }

@@ -1,6 +1,6 @@
-//! Single nodes and triangles in f64, for bounds tighter than the eight in f32.
+//! Bounding boxes of single nodes, and triangles, in f64 at the pose of a clock.
 
-use crate::body::tree::{Named, NodeId};
+use crate::body::tree::{NodeId, NodeOrTriangle};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
@@ -8,30 +8,30 @@ use crate::problem::Side;
 use crate::rounding::BOX_AXES_F32;
 use glam::{DVec3, Vec3};
 
-/// A node or a triangle at its body's position.
+/// A node's box or a triangle at the pose of a clock.
 pub(crate) struct Placed {
     frame: Frame,
     shape: Shape,
-    /// The centre, in the problem's coordinates. All arguments and results are in these coordinates.
+    /// The centre in the problem's coordinates, in which all arguments and results are.
     pub(crate) centre: DVec3,
-    /// An upper bound of the points' distances from the centre.
+    /// An upper bound of the distances of the node's points from the centre.
     pub(crate) radius: f64,
 }
 
 enum Shape {
     Box {
-        /// The axes of the box, which are those of the body.
+        /// The axes of the box at that pose.
         axes: [DVec3; 3],
         half: [f64; 3],
-        /// The pieces' rounding radius, and the error of axes and half sizes.
+        /// The pieces' rounding radius, plus the error of the axes and half extents.
         slack: f64,
     },
-    /// The corners, relative to the centre.
+    /// A triangle, by its corners relative to the centre.
     Triangle([DVec3; 3]),
 }
 
 impl Placed {
-    /// Places the box about a whole body.
+    /// Places the bounding box of a whole body at clock `s`.
     #[inline]
     pub(crate) fn whole(side: &Side<'_>, s: f64) -> Self {
         let frame = side.path.frame(s);
@@ -52,7 +52,7 @@ impl Placed {
     pub(crate) fn new(side: &Side<'_>, id: NodeId, s: f64) -> Self {
         let frame = side.path.frame(s);
         match side.body.tree().get(id) {
-            Named::Node(node) => Placed {
+            NodeOrTriangle::Node(node) => Placed {
                 frame,
                 shape: Shape::Box {
                     axes: node.axes.map(Vec3::as_dvec3),
@@ -62,7 +62,7 @@ impl Placed {
                 centre: frame.point(node.centre),
                 radius: f64::from(node.radius),
             },
-            Named::Triangle(piece) => {
+            NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
                 let [a, b, c] = corners.map(|x| frame.point(x));
                 let centre = (a + b + c) / 3.0;
@@ -85,12 +85,12 @@ impl Placed {
         }
     }
 
-    /// Rotates a vector with the body.
+    /// Rotates a vector from the body's frame.
     pub(crate) fn turned(&self, vector: DVec3) -> DVec3 {
         self.frame.rotation * vector
     }
 
-    /// Returns the nearest point of the box, up to rounding; the centre of a triangle.
+    /// Returns the point of the box that is nearest to a point, up to rounding; the centre of a triangle.
     #[inline]
     pub(crate) fn project(&self, point: DVec3) -> DVec3 {
         let Shape::Box { axes, half, slack } = &self.shape else {
@@ -104,8 +104,7 @@ impl Placed {
         self.centre + self.turned(along(0) + along(1) + along(2))
     }
 
-    /// Returns the axis of the box that is nearest to a vector, with the sign of the vector; the vector itself for a
-    /// triangle.
+    /// Returns the axis of the box that is nearest in direction to `n`, oriented like it; `n` itself for a triangle.
     pub(crate) fn axis_along(&self, n: DVec3) -> DVec3 {
         let Shape::Box { axes, .. } = &self.shape else {
             return n;
@@ -117,7 +116,7 @@ impl Placed {
         nearest.map_or(n, |axis| if axis.dot(n) < 0.0 { -axis } else { axis })
     }
 
-    /// Returns `max n·(x − centre)` over the points, for an axis of any length.
+    /// Returns `max n·(x − centre)` over the node's points `x`, for a vector `n` of any length.
     #[inline]
     pub(crate) fn reach(&self, n: DVec3) -> f64 {
         match &self.shape {

@@ -1,4 +1,4 @@
-//! The boxes of two whole bodies, which one fixed plane may separate for good.
+//! Proves two bodies apart by one fixed plane between their bounding boxes.
 
 use super::approach::{Approach, straight};
 use super::placed::Placed;
@@ -8,9 +8,9 @@ use crate::problem::{Problem, Side};
 use crate::tuning::PROJECTIONS;
 use glam::DVec3;
 
-/// Returns whether one fixed plane separates both bounding boxes by more than the contact distance, all the time. The
-/// plane is perpendicular to the offset between the boxes' nearest points, to the offset between their centres when
-/// these pass each other, or to an axis of a box.
+/// Returns whether one fixed plane separates both bounding boxes by more than the contact distance for the whole
+/// duration. The plane is perpendicular to the offset between the boxes' nearest points, to the offset between their
+/// centres when these pass each other, or to an axis of a box.
 ///
 /// # Guarantee
 /// The result is true only for bodies that are never in contact, up to the tolerance, nor inside each other.
@@ -37,7 +37,7 @@ pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
     ways.chain(along).any(|n| keeps_apart(problem, [&a, &b], n))
 }
 
-/// Returns the offset between the centres when they are nearest, at their velocities of the start.
+/// Returns the vector between the centres when they are nearest, if they keep their velocities at the start.
 fn passing(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
     let way = b.centre - a.centre;
     let velocity =
@@ -47,7 +47,7 @@ fn passing(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
     way + velocity * greater(0.0, lesser(nearest, 1.0))
 }
 
-/// Returns whether a plane perpendicular to a unit vector keeps the boxes apart.
+/// Returns whether a fixed plane perpendicular to a unit vector keeps the boxes apart.
 fn keeps_apart(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3) -> bool {
     let gap = n.dot(b.centre - a.centre) - a.reach(n) - b.reach(-n);
     let excess = gap - problem.contact_distance() - 2.0 * problem.rounding;

@@ -1,4 +1,5 @@
-//! Rounds: for bodies that turn many times, one period is searched for all periods that repeat it.
+//! Searches one period instead of all, for bodies that turn many times. A *round* is a number of periods that are
+//! searched together.
 //!
 //! A *round* is a number of periods. The distances in each of them differ from those in the first by at most a known
 //! change, see `motion/period.rs`. Bodies that keep that change beyond the margin in the first period keep the margin
@@ -9,7 +10,7 @@
 use super::Shortcut;
 use crate::answer::{Contact, Limit, Outcome, Separation};
 use crate::engine::meter::Meter;
-use crate::engine::proven::free_at_once;
+use crate::engine::proven::free_by_bounding_volumes;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::period::{Period, Reaching};
@@ -20,7 +21,7 @@ use crate::tuning::{LEAST_GAIN, REPEATED, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-/// Searches a problem round by round if it repeats itself, and as a whole otherwise.
+/// Searches a problem round by round if its motions are periodic, and as a whole otherwise.
 #[inline]
 pub(crate) fn in_rounds(
     problem: &Problem<'_>,
@@ -39,36 +40,36 @@ pub(crate) fn in_rounds(
     }
 }
 
-/// A problem that repeats itself, and what is proven of it so far.
+/// A problem with periodic motions, and what is proven of it so far.
 #[derive(Debug)]
 pub(crate) struct Rounds<'a> {
     whole: Problem<'a>,
     period: Period,
-    /// The error of distances in a part of the time, in addition to the error in the whole.
+    /// The error of distances in a part of the duration, in addition to the error in the whole.
     rounding: f64,
     /// The clock until which the bodies are proven apart.
     from: f64,
     round: Round,
-    /// The number of periods to search in a row while they differ by too much.
+    /// The number of periods to search one after the other, if they differ too much to be represented by one.
     patience: f64,
-    /// A lower bound of the distance up to `from`.
+    /// A lower bound of the distance of the bodies up to the clock `from`.
     gap: f64,
 }
 
-/// The periods of a round, by their number.
+/// The periods of a round, as a number of periods, and how they are searched.
 #[derive(Clone, Copy, Debug)]
 enum Round {
-    /// The first period is searched for all of them.
+    /// The first period is searched, and represents all others.
     Repeated(f64),
     /// All periods are searched.
     Each(f64),
 }
 
 impl<'a> Rounds<'a> {
-    /// Returns the rounds of a problem that repeats itself often enough for a gain; `None` for others.
+    /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
     #[inline]
     pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
-        if turns_often(problem) && free_at_once(problem).is_none() {
+        if turns_often(problem) && free_by_bounding_volumes(problem).is_none() {
             Rounds::of_many_turns(problem)
         } else {
             None
@@ -112,7 +113,7 @@ impl<'a> Rounds<'a> {
         Some(rounds)
     }
 
-    /// Returns the problem to be searched in this round.
+    /// Returns the problem to search in this round.
     pub(crate) fn part(&self) -> Problem<'a> {
         let tolerance = self.whole.tolerance;
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
@@ -130,7 +131,7 @@ impl<'a> Rounds<'a> {
         )
     }
 
-    /// Draws the conclusion from the outcome of a round: another round, or the answer.
+    /// Processes the outcome of a round, and starts the next round or returns the outcome of the query.
     pub(crate) fn conclude(
         &mut self,
         outcome: &Outcome,
@@ -153,13 +154,13 @@ impl<'a> Rounds<'a> {
             }
         }
         // A round counts as a visit, even if bounding balls prove the bodies apart at once.
-        match meter.visit(&self.whole) {
+        match meter.count_visit(&self.whole) {
             Ok(()) => ControlFlow::Continue(()),
             Err(limit) => ControlFlow::Break(unresolved(self, limit)),
         }
     }
 
-    /// Records that the bodies keep a gap in a round.
+    /// Records that the bodies keep a gap in a round, and continues with the next.
     fn prove(&mut self, gap: f64) -> ControlFlow<Outcome> {
         self.gap = lesser(self.gap, (gap - self.raised()).next_down());
         self.from = self.end();
@@ -180,7 +181,7 @@ impl<'a> Rounds<'a> {
         ControlFlow::Continue(())
     }
 
-    /// Records that the bodies come near each other in a round: they are in contact, or the round was too long.
+    /// Processes a contact in a round: the bodies are in contact, or the round was too long and is shortened.
     fn meet(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
         let within = self.whole.contact_distance();
         let contact = loosened(contact, self.rounding);
@@ -203,7 +204,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Plans a round of some periods, or of all that are left.
+    /// Starts a round of `count` periods, or of all that are left.
     fn plan(&mut self, count: f64) {
         let left = ((1.0 - self.from) / self.period.length).ceil();
         self.round = match lesser(count, left) {
@@ -224,7 +225,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Bounds the difference between the distances in a round and those that are searched.
+    /// Returns a bound of the difference between distances in the round and those in the searched part.
     fn change(&self) -> f64 {
         match self.round {
             Round::Repeated(count) => count * self.period.change,
@@ -232,7 +233,7 @@ impl<'a> Rounds<'a> {
         }
     }
 
-    /// Returns the distance to be kept beyond the margin.
+    /// Returns the distance beyond the margin that the searched part has to keep.
     fn raised(&self) -> f64 {
         self.change() + self.rounding
     }
@@ -244,19 +245,19 @@ fn turns_often(problem: &Problem<'_>) -> bool {
     turns(&problem.a) || turns(&problem.b)
 }
 
-/// A period that represents the whole time, for questions about distances.
+/// A period that represents the whole duration, for questions about distances.
 #[derive(Debug)]
 pub(crate) struct Sample<'a> {
     /// The problem in that period, with a tolerance that leaves room for the change.
     pub(crate) part: Problem<'a>,
-    /// A bound of the difference between the distances of all other periods and those of this one.
+    /// A bound of how much distances in other periods differ from those in this one.
     pub(crate) change: f64,
-    /// The error of distances, in addition to that of the whole problem.
+    /// The error of distances in the period, in addition to that of the whole problem.
     pub(crate) rounding: f64,
 }
 
 impl<'a> Sample<'a> {
-    /// Returns the first period of a problem that repeats itself, up to a part of the tolerance; `None` for others.
+    /// Returns the first period if all others are equal to it, up to a part of the tolerance; `None` otherwise.
     #[inline]
     pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
         if turns_often(problem) {
@@ -279,18 +280,18 @@ impl<'a> Sample<'a> {
         })
     }
 
-    /// Returns the lower bound for the whole time that a lower bound of the distance in the period implies.
+    /// Converts a lower bound of the distance in the period to one for the whole duration.
     pub(crate) fn lower(&self, distance: f64) -> f64 {
         greater(0.0, (distance - (self.change + self.rounding)).next_down())
     }
 
-    /// Returns a contact in the period with bounds that hold for the whole problem.
+    /// Widens the bounds of a contact in the period so that they hold for the whole problem.
     pub(crate) fn contact(&self, contact: Contact) -> Contact {
         loosened(contact, self.rounding)
     }
 }
 
-/// Returns the contact with bounds that allow for an error.
+/// Widens the bounds of a contact by an error.
 fn loosened(contact: Contact, rounding: f64) -> Contact {
     let Separation { lower, upper, .. } = contact.separation;
     Contact {
@@ -311,8 +312,8 @@ fn reaching<'p>(side: &'p Side<'_>) -> Reaching<'p> {
     }
 }
 
-/// Returns the period with the least time to search, for rounds that end once distances have changed by `change`;
-/// `None` without a gain.
+/// Returns the period that leaves the least time to search, if rounds end once distances have changed by `change`;
+/// `None` if no period saves time.
 fn cheapest(bodies: [Reaching<'_>; 2], change: f64) -> Option<Period> {
     let searched = |period: &Period| {
         let rounds = greater(1.0, period.change / (period.length * change));

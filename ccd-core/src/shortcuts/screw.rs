@@ -1,5 +1,5 @@
-//! Pairs of nodes of two bodies of which one turns about an axis that stands still for the other: a bolt in a nut, a
-//! shaft in a sleeve, a wheel, a hinge.
+//! Proves nodes apart if one body turns about an axis at rest relative to the other: a bolt in a nut, a shaft in a
+//! sleeve, a wheel, a hinge.
 //!
 //! With `r` the distance of a point from the axis, `φ` its azimuth, `z` its height along the axis
 //! and `p` the advance per radian, neither `r` nor `ζ = z − p φ` changes while the point moves. A
@@ -14,7 +14,7 @@ mod profile;
 
 use super::placed::Placed;
 use super::screw::profile::{Profile, ScrewAxis, Way, keep_apart};
-use crate::body::tree::{Below, Members, Named, NodeId};
+use crate::body::tree::{Below, Members, NodeId, NodeOrTriangle};
 use crate::engine::capacity::empty;
 use crate::math::order::lesser;
 use crate::math::vector::length;
@@ -24,16 +24,16 @@ use crate::tuning::{CLOSED_GAP, LEAST_ADVANCE, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// The motion of one body relative to the other, along a screw, and the profiles of their nodes.
+/// The screw motion of one body relative to the other, to prove pairs of nodes apart.
 #[derive(Debug)]
 pub(crate) struct Screw {
     turning: Which,
     axis: ScrewAxis,
-    /// The whole path. Two nodes that keep this distance on the screw are apart, whatever the drift.
+    /// The whole path along the screw, and the distance to keep on it. The distance includes the drift of the axis.
     way: Way,
 }
 
-/// The profiles of both bodies' nodes and triangles, computed at their first use.
+/// The profiles of both bodies' nodes and triangles, each computed when first needed.
 #[derive(Debug, Default)]
 pub(crate) struct Profiles([OfBody; 2]);
 
@@ -44,13 +44,13 @@ struct OfBody {
     known: Vec<Profile>,
 }
 
-/// The index of a profile that was not computed yet, and that of a node that has none.
+/// The value of `places` for a profile that is not computed yet.
 const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
 impl Screw {
-    /// Returns the screw, and removes all profiles; `None` unless one body turns, and the axis hardly moves for the
-    /// other.
+    /// Returns the screw motion of the problem, and clears all profiles; `None` unless one body turns, and the axis
+    /// hardly moves relative to the other.
     pub(crate) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
         let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
             (true, false) => Which::A,
@@ -93,8 +93,8 @@ impl Screw {
         })
     }
 
-    /// Returns whether two nodes, of A and of B, certainly stay apart by the gap of nodes from clock `s` to the end;
-    /// `None` if one of them surrounds the axis, or nearly.
+    /// Returns whether a node of A and a node of B certainly keep the gap of nodes, from clock `s` to the end; `None`
+    /// if one of them surrounds the axis, or nearly does.
     pub(crate) fn keeps_apart(
         &self,
         problem: &Problem<'_>,
@@ -150,7 +150,7 @@ impl OfBody {
         self.places.resize(count, UNKNOWN);
     }
 
-    /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly.
+    /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly does.
     fn of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
         let place = &mut self.places[id as usize];
         if *place == UNKNOWN {
@@ -166,7 +166,8 @@ impl OfBody {
     }
 }
 
-/// Returns the profile of a node at the start. The profile of a few triangles is smaller than that of their box.
+/// Computes the profile of a node at its pose at the start. A profile of a few triangles is smaller than that of their
+/// box.
 fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| Placed::new(side, id, 0.0);
     match triangles(side, id) {
@@ -175,12 +176,12 @@ fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     }
 }
 
-/// Returns the triangle of an id, or the triangles of a node of a few; `None` for other nodes.
+/// Returns the ids of the triangles of a node with few triangles; `None` for other nodes.
 fn triangles(side: &Side<'_>, id: NodeId) -> Option<Range<NodeId>> {
     let tree = side.body.tree();
     match tree.get(id) {
-        Named::Triangle(_) => Some(id..id + 1),
-        Named::Node(node) => match node.below {
+        NodeOrTriangle::Triangle(_) => Some(id..id + 1),
+        NodeOrTriangle::Node(node) => match node.below {
             Below::Triangles(group) => {
                 let &Members { first, count, .. } = tree.triangle_members(group);
                 Some(first..first + count)

@@ -1,4 +1,4 @@
-//! Planes that turn with one of the bodies.
+//! Free times of pairs of nodes by planes that turn with one of the bodies.
 //!
 //! For a fixed plane the full speed of a turning body's far rim counts, however small the other body is. For a plane
 //! that turns with the body it does not count: the body's own extent along the plane's normal is constant, and only
@@ -10,23 +10,23 @@
 
 use crate::engine::nodes::axis::Axis;
 use crate::engine::nodes::clock;
-use crate::engine::nodes::eight_pairs::{EightPairs, bending};
+use crate::engine::nodes::eight_pairs::{EightPairs, second_derivative_bound};
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::lanes::{Vec3x8, splat};
 use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
 use crate::tuning::ATTACHED_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// The node that sweeps towards a plane attached to the other body.
+/// A node of one body in the frame of a plane that turns with the other body.
 struct SweepingNode<L: Simd> {
-    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus the share of the
+    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus a bound for the
     /// points around it.
     rate: f32x8<L>,
     /// The largest distance of the node's points from the turning body's centre.
     distance: f32x8<L>,
-    /// An upper bound of the speeds of the node's points due to its own turning.
+    /// An upper bound of the speeds of the node's points due to its own body's rotation.
     speed: f32x8<L>,
-    /// The `|ω|` of the node's own turning.
+    /// The angular speed `|ω|` of the node's own body.
     own_rate: f32,
 }
 
@@ -43,7 +43,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let own = motion.other.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.split.rate, splat(level, 1.0)),
+            second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
             &SweepingNode {
                 rate: axis.n.dot(velocity) + other.reach(own - across),
@@ -66,7 +66,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let own = motion.split.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.other.rate, splat(level, 1.0)),
+            second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
             &SweepingNode {
                 rate: axis.n.dot(velocity) + children.reach(own - across),

@@ -1,4 +1,4 @@
-//! A plane that turns with the body of one of the pieces.
+//! Free times of pairs of pieces by a plane that turns with one of the bodies.
 //!
 //! For a fixed plane the full speed of a turning piece's far rim counts, however small the other piece is. For a
 //! plane that turns with the body it does not count: the heights of the body's own piece are constant, and only the
@@ -20,20 +20,20 @@ use crate::tuning::{ATTACHED_TIME, AXIS_ROUNDS};
 use glam::DVec3;
 use std::cell::Cell;
 
-/// A piece of a body, and the body's position at a clock.
+/// A piece with the pose and the motion of its body at a clock.
 pub(crate) struct Member<'p> {
     pub(crate) side: &'p Side<'p>,
     pub(crate) frame: &'p Frame,
     pub(crate) piece: Piece<'p>,
     pub(crate) clock: f64,
-    /// An upper bound of the rate at which any point rises relative to the first one, along any fixed axis.
+    /// An upper bound of the rate at which any point moves relative to the first one, along any fixed axis.
     pub(crate) swing: f64,
 }
 
 impl<'p> Member<'p> {
     pub(crate) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
         let swing = if side.path.turns() {
-            side.path.rate * piece.farthest_from(piece.points[0])
+            side.path.rate * piece.max_distance_from(piece.points[0])
         } else {
             0.0
         };
@@ -46,45 +46,45 @@ impl<'p> Member<'p> {
         }
     }
 
-    /// Returns the bound of `swing` along one axis.
+    /// Returns the upper bound `swing` for one axis.
     pub(crate) fn swing_about(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
         self.swing * path.spin.cross(normal).length() / path.rate
     }
 }
 
-/// The moving piece of one body, seen from a plane that turns with the other body.
+/// A piece of one body in the frame of a plane that turns with the other body.
 pub(crate) struct SweepingPiece<'p> {
-    /// The vector `n`, and the `ω` at which it turns.
+    /// The plane's normal `n`, which turns at `ω`.
     normal: Spinning,
     unit: DVec3,
     omega: f64,
-    /// The vectors `D` and `V` now, and a bound of `|V|` at all times.
-    way: DVec3,
+    /// The vector `D` at the present time.
+    offset: DVec3,
     velocity: DVec3,
     speed: f64,
-    /// The vector `V'`, which is constant.
+    /// The derivative `V'` of `V`, which is constant.
     acceleration: DVec3,
-    /// The vector `ω_s`.
+    /// The direction of the angular velocity `ω_s` of the piece's own body.
     own_unit: DVec3,
     own_omega: f64,
-    /// The vector `Δ`.
+    /// The relative angular velocity `Δ`.
     relative: DVec3,
     piece: Piece<'p>,
     frame: &'p Frame,
-    /// The end of `D` in the points' frame, and the largest distance of the points from it.
+    /// The point at the end of `D`, in the frame of the piece's body.
     reference: DVec3,
     radius: f64,
-    /// An upper bound of the points' distances from the turning body's centre, at any time.
+    /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
     reach: f64,
-    /// The displacement of points by rounding, for both bodies together.
+    /// A bound of the displacement of points by rounding, for both bodies together.
     misplaced: f64,
-    /// The number of times that the plane was followed past a point.
+    /// The number of evaluations of the plane against a point.
     pub(crate) looks: Cell<u64>,
 }
 
-/// The terms of the points' heights and rates after some time: `height + axis·arm` and `rate +
-/// closing·arm`, with arms in their body's frame.
+/// The terms of heights and rates after some time. A point with the vector `arm` in its body's frame has the height
+/// `height + axis·arm` and the rate `rate + closing·arm`.
 struct Turned {
     height: f64,
     axis: DVec3,
@@ -93,8 +93,8 @@ struct Turned {
 }
 
 impl<'p> SweepingPiece<'p> {
-    /// Creates the piece that sweeps past a plane which turns with the body of `holder`. The `normal` points from
-    /// that body to the other piece, and `rounding` is the problem's.
+    /// Creates the view of a piece that moves past a plane which turns with the body of `holder`. The `normal` points
+    /// from that body to the piece, and `rounding` is the problem's.
     pub(crate) fn new(
         holder: &Member<'_>,
         other: &Member<'p>,
@@ -108,16 +108,16 @@ impl<'p> SweepingPiece<'p> {
         } else {
             other.piece.points[0]
         };
-        let way = other.frame.point(reference) - holder.frame.point(path.centre);
+        let offset = other.frame.point(reference) - holder.frame.point(path.centre);
         let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
-        let radius = other.piece.farthest_from(reference);
+        let radius = other.piece.max_distance_from(reference);
         SweepingPiece {
             normal: Spinning::new(path.axis, normal),
             unit: path.axis,
             omega: path.rate,
-            way,
+            offset,
             velocity,
             speed,
             acceleration,
@@ -128,14 +128,14 @@ impl<'p> SweepingPiece<'p> {
             frame: other.frame,
             reference,
             radius,
-            reach: way.length() + speed + radius,
+            reach: offset.length() + speed + radius,
             misplaced: rounding,
             looks: Cell::new(0),
         }
     }
 
-    /// Returns a time for which the plane certainly keeps the required gap; `None` if it does up to the horizon. The
-    /// `slack` is the excess over that gap now.
+    /// Returns a time for which the plane certainly keeps the required gap; `None` if it does up to the horizon.
+    /// `slack` is the present excess over that gap.
     pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least();
@@ -163,7 +163,7 @@ impl<'p> SweepingPiece<'p> {
         })
     }
 
-    /// Bounds the rounding of changes of height, and of rates.
+    /// Returns bounds of the rounding of height changes, and of rates.
     fn allowances(&self) -> (f64, f64) {
         let turns = self.omega + self.own_omega;
         let rounding = attached_rounding(turns);
@@ -174,13 +174,13 @@ impl<'p> SweepingPiece<'p> {
         )
     }
 
-    /// Returns the least of the points' initial heights.
+    /// Returns the least height of the points at the start.
     fn least(&self) -> f64 {
         let Turned { height, axis, .. } = self.turned(0.0);
         height + self.lowest(axis)
     }
 
-    /// Returns the least height of the arms along a direction.
+    /// Returns the least height along a direction over the vectors to the points.
     fn lowest(&self, direction: DVec3) -> f64 {
         if self.piece.ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
@@ -190,7 +190,7 @@ impl<'p> SweepingPiece<'p> {
         heights.fold(f64::INFINITY, lesser)
     }
 
-    /// Returns the vectors from the point of reference to the points.
+    /// Returns the vectors from the point `reference` to the piece's points.
     fn arms(&self) -> impl Iterator<Item = DVec3> {
         let reference = self.reference;
         self.piece.points.iter().map(move |&y| y - reference)
@@ -200,7 +200,7 @@ impl<'p> SweepingPiece<'p> {
         let angle = Angle::new(self.omega * tau);
         let own = Angle::new(self.own_omega * tau);
         let axis = self.normal.at(angle);
-        let (way, velocity) = self.moved(tau);
+        let (offset, velocity) = self.moved(tau);
         let turning = self.normal.slope_at(angle) * self.omega;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
@@ -208,26 +208,26 @@ impl<'p> SweepingPiece<'p> {
             self.frame.inverse_vector(turned)
         };
         Turned {
-            height: axis.dot(way),
+            height: axis.dot(offset),
             axis: back(axis),
-            rate: turning.dot(way) + axis.dot(velocity),
+            rate: turning.dot(offset) + axis.dot(velocity),
             closing: back(self.relative.cross(axis)),
         }
     }
 
-    /// Returns `D` and `V` after some time.
+    /// Returns the vectors `D` and `V` after a time `tau`.
     fn moved(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);
         (
-            self.way + velocity * tau,
+            self.offset + velocity * tau,
             self.velocity + self.acceleration * tau,
         )
     }
 
-    /// Bounds the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
+    /// Returns a bound of the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
     fn bend(&self, tau: f64) -> f64 {
-        let (way, _) = self.moved(tau);
-        let arm = self.unit.cross(way).length() + self.speed * f64::from(ATTACHED_TIME);
+        let (offset, _) = self.moved(tau);
+        let arm = self.unit.cross(offset).length() + self.speed * f64::from(ATTACHED_TIME);
         let across = self.omega * (self.normal.slope() + RATE_F64);
         let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
         let bend = across * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)

@@ -1,4 +1,4 @@
-//! Answers with and without each shortcut: they agree, and each shortcut saves work in its scene.
+//! Tests that answers with and without each shortcut agree, and that each shortcut saves work in its scene.
 
 use super::*;
 use crate::answer::{Answer, Outcome};
@@ -19,7 +19,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// Checks that bodies come as near at the earlier of two times as the proof of the later one allows.
+/// Checks that at the earlier of two times of contact the bodies are still as far apart as the later answer proves.
 fn agree(problem: &Problem<'_>, earlier: f64, number: usize) {
     let near = distance(problem, earlier);
     assert!(
@@ -68,7 +68,7 @@ fn answers_without_a_shortcut_agree_with_those_of_all() {
     assert!(changed > 150, "{changed}");
 }
 
-/// Two bodies, their motions and the tolerance.
+/// Two bodies with their motions, and the tolerance of the query.
 type Pair = ([Body; 2], [Motion; 2], f64);
 
 fn at(place: [f64; 3]) -> Pose {
@@ -79,7 +79,7 @@ fn moving(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
     Motion::new(at(place), velocity, spin).unwrap()
 }
 
-/// Returns two triangles for each square of a sheet with corners at `point(i, j)`.
+/// Returns two triangles for each square of a grid with corners at `point(i, j)`.
 fn sheet(rows: usize, columns: usize, point: impl Fn(f64, f64) -> [f64; 3]) -> Vec<Triangle> {
     let point = |i: usize, j: usize| {
         DVec3::from_array(point(i as f64 / rows as f64, j as f64 / columns as f64))
@@ -109,7 +109,7 @@ fn tube(radius: f64, segments: usize) -> Body {
     body(&tube)
 }
 
-/// Returns a disc of triangles that all have a corner in its middle.
+/// Creates a disc of triangles that all share the centre.
 fn disc(segments: usize) -> Body {
     let rim = |k: usize| {
         let (sin, cos) = (TAU * k as f64 / segments as f64).sin_cos();
@@ -121,7 +121,7 @@ fn disc(segments: usize) -> Body {
     body(&fan)
 }
 
-/// Returns the scene that a shortcut is made for.
+/// Returns the scene for which a shortcut is made.
 fn scene_of(shortcut: Shortcut) -> Pair {
     let still = Motion::STILL;
     match shortcut {
@@ -166,7 +166,7 @@ fn scene_of(shortcut: Shortcut) -> Pair {
     }
 }
 
-/// The last two columns of the README's row of each shortcut: the work without any and with it alone.
+/// Reads from the README for each shortcut the work without any shortcut, and with this one alone.
 fn documented() -> Vec<[u64; 2]> {
     let rows = include_str!("README.md")
         .lines()

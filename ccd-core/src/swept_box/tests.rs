@@ -1,4 +1,4 @@
-//! Tests that boxes contain sampled points, that bodies with separate boxes are free, and that boxes are not much
+//! Tests that boxes contain sampled points, that bodies with separate boxes do not touch, and that boxes are not much
 //! larger than necessary.
 
 use super::*;
@@ -92,7 +92,7 @@ fn room_of(scene: &Scene, k: usize) -> f64 {
     room(&side, &scene.config.terms())
 }
 
-/// Two bodies move apart by the gap between their boxes, and by a little less.
+/// Tests that bodies do not touch if their boxes are apart, also if the boxes are hardly apart.
 #[test]
 fn bodies_whose_boxes_are_apart_are_free() {
     let mut rng = rng(2);

@@ -1,5 +1,5 @@
-//! Double-double arithmetic: the reference for samples of the allowances for rounding. A number is the unevaluated
-//! sum of two f64, with a relative error of about 1e-31.
+//! Double-double arithmetic, the reference for tests of rounding. A number is the unevaluated sum of two f64, with a
+//! relative error of about 1e-31.
 //!
 //! A separate crate of tests could not provide it: that crate would depend on this one, which would be built twice.
 
@@ -8,7 +8,7 @@ use crate::motion::Motion;
 use glam::{DQuat, DVec3};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The sum `high + low`, with `|low|` at most half a unit in the last place of `high`.
+/// A number `high + low`, with `|low|` at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Double {
     high: f64,
@@ -46,7 +46,7 @@ impl Double {
         (root + self / root) * Double::from(0.5)
     }
 
-    /// Returns the angle with this sine and cosine, both at least 0.
+    /// Returns the angle with this sine and the given cosine, both at least 0.
     pub(crate) fn atan2(self, cosine: Double) -> Double {
         let angle = Double::from(self.high.atan2(cosine.high));
         // One Newton step doubles the digits of the f64 angle.
@@ -54,7 +54,7 @@ impl Double {
         angle + (self * cos - cosine * sin) / (self * sin + cosine * cos)
     }
 
-    /// Returns sine and cosine, by Taylor's series of a small fraction of the angle, which is doubled repeatedly.
+    /// Returns the sine and cosine, by Taylor's series of a small fraction of the angle, which is doubled repeatedly.
     pub(crate) fn sin_cos(self) -> (Double, Double) {
         let mut halvings = 0;
         let mut angle = self;
@@ -146,7 +146,7 @@ impl Div for Double {
     }
 }
 
-/// A vector of doubles.
+/// A vector of three double-double numbers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Double3(pub(crate) [Double; 3]);
 
@@ -214,8 +214,7 @@ impl Sub for Double3 {
     }
 }
 
-/// Returns the position of a point of the body at `s · duration`, in the world: the formula of
-/// [`Motion`] term by term.
+/// Returns the world position of a body's point at time `s · duration`, by the formula of [`Motion`] term by term.
 pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
     let centre = Double3::from(motion.centre());
@@ -225,7 +224,7 @@ pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Dou
     start + Double3::from(motion.velocity()).scale(time) + arm
 }
 
-/// Returns a vector of the body, rotated into the world.
+/// Returns a vector of the body's frame in the world's frame, at time `s · duration`.
 fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
     let vector = vector.rotated(motion.start().rotation());
@@ -236,17 +235,17 @@ fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     vector.turned(spin.unit(), spin.length() * time)
 }
 
-/// The given poses at both ends of a motion, with quaternions of any length.
+/// The given poses of a body at both ends of a motion, with quaternions of any length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub(crate) places: [DVec3; 2],
     pub(crate) turned: [DQuat; 2],
-    /// The centre, in the body's frame, which moves on a straight line.
+    /// The centre of rotation in the body's frame, which moves on a straight line.
     pub(crate) centre: DVec3,
 }
 
 impl Ends {
-    /// Returns the position of a point of the body at a share of the duration.
+    /// Returns the world position of a body's point after a share of the duration.
     pub(crate) fn place(&self, share: Double, point: DVec3) -> Double3 {
         let centre = Double3::from(self.centre);
         let [start, end] =

@@ -1,5 +1,5 @@
-//! Motions between poses far from the world's origin: answers hold for the motion between the given
-//! poses, not for the rounded one.
+//! Tests motions between poses far from the world's origin. Answers hold for the motion between the given poses, not
+//! for the rounded one.
 
 use super::double::{Double, Double3, Ends};
 use super::oracle::Exhaustive;
@@ -15,7 +15,7 @@ use crate::schedule::{BestFirst, Naive};
 use crate::settings::Settings;
 use glam::DVec3;
 
-/// Returns poses at both ends about a point in the world, with quaternions of any length, sometimes equal.
+/// Draws poses at both ends near a point in the world, with quaternions of any length, sometimes equal.
 pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
     let at = |rng: &mut R| world + within(rng, size);
     let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
@@ -32,13 +32,13 @@ pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
     }
 }
 
-/// Returns the engine's motion between two poses.
+/// Creates the engine's motion between two poses.
 pub(crate) fn between(ends: &Ends, duration: f64) -> Motion {
     let [start, end] = [0, 1].map(|k| Pose::new(ends.places[k], ends.turned[k]).unwrap());
     Motion::between(start, end, ends.centre, duration).unwrap()
 }
 
-/// Two balls, each away from its body's origin.
+/// Two balls, each with its centre off its body's origin.
 struct Scene {
     ends: [Ends; 2],
     centres: [DVec3; 2],
@@ -55,7 +55,7 @@ impl Scene {
         }
     }
 
-    /// Returns the exact distance at a share of the duration.
+    /// Returns the exact distance of the balls after a share of the duration.
     fn distance(&self, share: Double) -> Double {
         let [a, b] = [0, 1].map(|k| self.ends[k].place(share, self.centres[k]));
         let way: Double3 = b - a;

@@ -1,4 +1,4 @@
-//! Closed meshes.
+//! Closed meshes for tests: cubes and tori.
 
 use super::nearest::Triangle;
 use glam::{DVec2, DVec3};
@@ -31,7 +31,7 @@ pub(crate) fn cube(half: f64, n: usize) -> Vec<Triangle> {
     out
 }
 
-/// Returns a torus about the z axis of radii 1 and 0.3, of `2 n m` triangles, with outward normals.
+/// Returns a torus about the z axis with radii 1 and 0.3, of `2 n m` triangles with outward normals.
 pub(crate) fn torus(n: usize, m: usize) -> Vec<Triangle> {
     let at = |i: usize, j: usize| {
         let (around, about) = (turn(i, n), turn(j, m));
@@ -51,7 +51,7 @@ fn turn(k: usize, n: usize) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * (k % n) as f64 / n as f64)
 }
 
-/// Returns the same surface with opposite normals.
+/// Returns the same surface with reversed orientation.
 pub(crate) fn inside_out(triangles: &[Triangle]) -> Vec<Triangle> {
     triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
 }

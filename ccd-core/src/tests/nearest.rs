@@ -1,5 +1,5 @@
-//! The nearest points of two triangles by brute force: every edge with every edge, every corner
-//! with the other's plane, and whether an edge pierces the other triangle.
+//! Finds the nearest points of two triangles by brute force: every edge with every edge, every corner with the other's
+//! plane, and whether an edge pierces the other triangle.
 //!
 //! A separate crate of tests could not provide it: that crate would depend on this one, which would be built twice.
 
@@ -8,7 +8,7 @@ use glam::DVec3;
 
 pub(crate) type Triangle = [DVec3; 3];
 
-/// A pair of points as weights of the corners, and the distance of the points.
+/// The nearest points of two triangles as weights of the corners, and their distance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) a: [f64; 3],
@@ -16,7 +16,7 @@ pub(crate) struct Nearest {
     pub(crate) distance: f64,
 }
 
-/// Returns the nearest pair of points; also for triangles that are segments or points.
+/// Finds the nearest points of two triangles, which may be segments or points.
 ///
 /// Every candidate is a pair of points of the two triangles, so that rounding can only make the
 /// distance too large.
@@ -89,7 +89,7 @@ fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     (s, t)
 }
 
-/// Returns the weights of a point's foot in the plane of a triangle, if the foot is within the triangle.
+/// Projects a point onto a triangle, and returns the weights of its corners; `None` if the projection is outside.
 fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     let (u, v) = (t[1] - t[0], t[2] - t[0]);
     let normal = u.cross(v);
@@ -100,7 +100,7 @@ fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     inside(weights_u, weights_v)
 }
 
-/// Returns the place where a segment meets a triangle.
+/// Returns the point where a segment meets a triangle, as a parameter and weights.
 fn pierce(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]);
     let (from, to) = (normal.dot(p - t[0]), normal.dot(q - t[0]));

@@ -1,4 +1,4 @@
-//! A slow oracle for pieces of up to three points, and a dishonest one.
+//! Oracles for tests: a slow one for pieces of up to three points, and one that returns false claims.
 
 use super::nearest::{Triangle, nearest, point};
 use crate::body::combination::Combination;
@@ -6,7 +6,7 @@ use crate::distance::oracle::{Claim, DistanceOracle, GiveUp, PiecePair};
 use crate::distance::separation::support_gap;
 use glam::DVec3;
 
-/// A slow oracle that compares every feature with every other one. Balls and capsules are represented by their cores.
+/// A slow oracle that compares all pairs of features of two pieces. Balls and capsules are represented by their cores.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Exhaustive;
 
@@ -28,8 +28,8 @@ impl DistanceOracle for Exhaustive {
     }
 }
 
-/// Returns the axis of widest gap among these: the vector between the witnesses, its components across an edge, the
-/// normals, and the products of edges.
+/// Returns the axis of widest gap among these: the vector between the nearest points, its components perpendicular to
+/// an edge, the normals, and the products of edges.
 fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let normal = |t: &Triangle| (t[1] - t[0]).cross(t[2] - t[0]);
@@ -52,7 +52,7 @@ fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3
         .unwrap_or(DVec3::X)
 }
 
-/// Returns up to three points as a triangle, with the last one repeated.
+/// Converts up to three points to a triangle, with the last point repeated.
 fn corners(points: &[DVec3]) -> Option<Triangle> {
     let last = points.len().checked_sub(1)?;
     (points.len() <= 3).then(|| std::array::from_fn(|k| points[k.min(last)]))

@@ -1,10 +1,10 @@
-//! Fractions: the exact values of sums and products, at any size of the numbers.
+//! Exact fractions for sums and products of numbers of any magnitude.
 //!
 //! Other crates of the workspace include this file by its path.
 
 use dashu_ratio::Relaxed;
 
-/// Three fractions.
+/// A vector of three fractions.
 #[derive(Clone, Debug)]
 pub(crate) struct Exact3(pub(crate) [Relaxed; 3]);
 
@@ -13,7 +13,7 @@ pub(crate) fn exact(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite number")
 }
 
-/// Returns the difference of a number from an exact one.
+/// Returns how much a number differs from an exact one.
 pub(crate) fn error_of(x: f64, truth: &Relaxed) -> f64 {
     (exact(x) - truth).to_f64().value().abs()
 }

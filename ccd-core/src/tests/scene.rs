@@ -1,4 +1,4 @@
-//! Random bodies and motions of every shape and size, the same for the same seed.
+//! Random bodies and motions of every shape and size; the same seed gives the same scene.
 
 use super::nearest::{Triangle, nearest};
 use super::worst::Tape;
@@ -18,7 +18,7 @@ pub(crate) use rand::{RngExt, SeedableRng};
 pub(crate) use rand_pcg::Pcg64;
 use std::convert::Infallible;
 
-/// The shapes of a soup's triangles.
+/// The shapes and sizes of a soup's triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Look {
     Plump,
@@ -46,7 +46,7 @@ pub(crate) fn rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
 
-/// The functions that draw random scenes also draw those of a search.
+/// Draws random numbers from the tape of a search, so that scenes can be searched too.
 impl TryRng for Tape {
     type Error = Infallible;
 
@@ -66,12 +66,12 @@ impl TryRng for Tape {
     }
 }
 
-/// Returns a power of ten with a random exponent.
+/// Draws a power of ten with a random exponent between `low` and `high`.
 pub(crate) fn magnitude(rng: &mut impl RngExt, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..=high))
 }
 
-/// Returns a unit vector.
+/// Draws a unit vector.
 pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
     let mut cube = || DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
     let inside = (0..64)
@@ -80,7 +80,7 @@ pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
     inside.unwrap_or(DVec3::X).normalize()
 }
 
-/// Returns a point within the ball of a radius.
+/// Draws a point in a ball about the origin.
 pub(crate) fn within(rng: &mut impl RngExt, radius: f64) -> DVec3 {
     direction(rng) * radius * rng.random_range(0.0..1.0f64).cbrt()
 }
@@ -89,7 +89,7 @@ pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
     DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
 }
 
-/// Returns the corners of a box with half lengths of up to 1: long, flat, or any.
+/// Draws the corners of a box with half extents of up to 1: long, flat, or any.
 pub(crate) fn long_box(tape: &mut Tape) -> Vec<DVec3> {
     let frame = glam::DMat3::from_quat(rotation(tape));
     let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
@@ -100,7 +100,7 @@ pub(crate) fn long_box(tape: &mut Tape) -> Vec<DVec3> {
     (0..8).map(corner).collect()
 }
 
-/// Returns triangles about the origin, none of which extends much beyond `size`.
+/// Draws triangles about the origin, none of which extends much beyond `size`.
 pub(crate) fn soup(rng: &mut impl RngExt, look: Look, count: usize, size: f64) -> Vec<Triangle> {
     let frame = rotation(rng);
     (0..count)
@@ -125,7 +125,7 @@ pub(crate) fn soup(rng: &mut impl RngExt, look: Look, count: usize, size: f64) -
         .collect()
 }
 
-/// Returns two triangles of any look, or two plump ones that often cross.
+/// Draws two triangles of any shape, or two plump ones that often cross.
 pub(crate) fn couple(rng: &mut Pcg64) -> [Triangle; 2] {
     if rng.random_bool(0.5) {
         return [(); 2].map(|()| [(); 3].map(|()| within(rng, 1.0)));
@@ -148,7 +148,7 @@ pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
     Pieces::triangles(&points, &faces, &ids).unwrap()
 }
 
-/// The motion of a body about the clock at which it has its given pose.
+/// The motion of a body, given by its pose at some clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passage {
     pub(crate) clock: f64,
@@ -156,10 +156,10 @@ pub(crate) struct Passage {
     /// The position of the body's point `middle` at that clock.
     pub(crate) place: DVec3,
     pub(crate) middle: DVec3,
-    /// The displacement of the centre over the whole duration.
+    /// The displacement of the centre of rotation over the whole duration.
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
-    /// The centre in the body's frame.
+    /// The centre of rotation in the body's frame.
     pub(crate) centre: DVec3,
 }
 
@@ -172,7 +172,7 @@ impl Passage {
         Motion::about(pose, self.velocity, self.spin, self.centre).unwrap()
     }
 
-    /// Returns the velocity of the body's middle at the clock.
+    /// Returns the velocity of the point `middle` at the clock.
     fn velocity_of_middle(&self) -> DVec3 {
         self.velocity + self.spin.cross(self.rotation * (self.middle - self.centre))
     }
@@ -198,7 +198,7 @@ impl Scene {
         Problem::accelerated(bodies, self.accelerations, 1.0, &self.config.terms()).unwrap()
     }
 
-    /// Returns the scene, in every third case with accelerations of the bodies.
+    /// Adds accelerations of the bodies in every third case.
     pub(crate) fn at_times_accelerating(self, rng: &mut Pcg64) -> Self {
         match rng.random_range(0..3) {
             0 => self.accelerating(rng),
@@ -206,8 +206,8 @@ impl Scene {
         }
     }
 
-    /// Returns the scene with accelerations of the bodies, of the order of the scene's size or of the bodies'
-    /// displacements. The bodies have the same poses and velocities at the clock.
+    /// Adds accelerations of the bodies, of the order of the scene's size or of the bodies' displacements. The bodies
+    /// have the same poses and velocities at the clock.
     pub(crate) fn accelerating(mut self, rng: &mut Pcg64) -> Self {
         let clock = self.clock;
         let size = self.bodies[0].tree().span() + self.bodies[1].tree().span();
@@ -242,7 +242,7 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// The behaviour of two bodies near each other.
+/// How two bodies move while they are near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     /// Any behaviour: still, translating, turning, one or both, about any centre.
@@ -255,7 +255,7 @@ pub(crate) enum Kind {
     Rim,
 }
 
-/// Returns a scene of up to `most` triangles per body.
+/// Draws a scene of up to `most` triangles per body.
 pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let size = magnitude(rng, -6.0, 6.0);
     let ratio = match kind {
@@ -312,7 +312,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     }
 }
 
-/// Returns no offset, some, or up to a million sizes; never beyond 1e6 for small bodies.
+/// Draws an offset of 0, of about the size, or of up to a million sizes; never beyond 1e6 for small bodies.
 fn offset(rng: &mut Pcg64, size: f64) -> f64 {
     match rng.random_range(0..4) {
         0 | 1 => 0.0,
@@ -373,7 +373,7 @@ fn set_moving(
 }
 
 impl<'a> Problem<'a> {
-    /// Returns the problem of a query about two motions.
+    /// Creates the problem of a query about two motions.
     pub(crate) fn about(
         a: impl Into<Moving<'a>>,
         b: impl Into<Moving<'a>>,

@@ -1,4 +1,4 @@
-//! Needles whose widths have no square in f64: bodies that approach along their normals keep the margin.
+//! Tests needles whose widths have squares that underflow: bodies that approach along their normals keep the margin.
 
 use super::nearest::nearest;
 use super::oracle::Exhaustive;
@@ -16,13 +16,13 @@ use crate::schedule::BestFirst;
 use crate::settings::Settings;
 use glam::DVec3;
 
-/// Returns a vector of small integers.
+/// Draws a vector of small integers.
 fn whole(rng: &mut Pcg64) -> DVec3 {
     let v = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-2..3))));
     if v == DVec3::ZERO { DVec3::X } else { v }
 }
 
-/// Returns needles that share a corner, and the normal of the first one.
+/// Draws needles that share a corner, and returns the normal of the first one too.
 fn needles(rng: &mut Pcg64) -> (Vec<[DVec3; 3]>, DVec3) {
     let width = magnitude(rng, -162.0, -161.0);
     let count = rng.random_range(1..4);

@@ -1,4 +1,4 @@
-//! Smooth trajectories to test with.
+//! Smooth trajectories for tests.
 
 use crate::error::InputError;
 use crate::motion::Motion;
@@ -7,8 +7,8 @@ use crate::motion::trajectory::{Acceleration, Accelerations, Smooth};
 use crate::tests::scene::{Pcg64, RngExt, direction, rotation, within};
 use glam::{DQuat, DVec3};
 
-/// A swing about a place and about an axis: `centre + drift t + Σ along sin(rate t + phase)`, turned by `turn
-/// sin(rate t + phase)` about a fixed axis.
+/// A trajectory that swings: `centre + drift t + Σ along sin(rate t + phase)`, turned by `turn sin(rate t + phase)`
+/// about a fixed axis.
 #[derive(Clone, Debug)]
 pub(crate) struct Swing {
     pub(crate) place: DVec3,
@@ -20,12 +20,12 @@ pub(crate) struct Swing {
     turn: f64,
     start: DQuat,
     centre: DVec3,
-    /// True if the swing provides its acceleration.
+    /// True if the trajectory provides the acceleration of its centre.
     tells: bool,
 }
 
 impl Swing {
-    /// Draws a swing of this size.
+    /// Draws a trajectory of this size.
     pub(crate) fn draw(rng: &mut Pcg64, size: f64) -> Self {
         Swing {
             place: within(rng, size),

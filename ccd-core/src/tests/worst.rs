@@ -1,4 +1,4 @@
-//! A search for the cases in which an error takes the largest share of an allowance for rounding.
+//! Searches for the cases in which a rounding error takes the largest share of its bound.
 //!
 //! Random cases come nowhere near a bound that adds up the worst of every operation. Here each case is a tape of
 //! words, which become numbers when it is read. The search changes the words of the worst case so far, and keeps each
@@ -12,14 +12,14 @@
 
 use std::ops::RangeInclusive;
 
-/// A case, as words that are drawn as far as the case is read.
+/// A random case, as a list of random words that grows as the case reads them.
 pub(crate) struct Tape {
     words: Vec<u64>,
     read: usize,
     dice: Dice,
 }
 
-/// The search for the worst case of one allowance.
+/// A search for the worst case of one error bound.
 pub(crate) struct Worst {
     name: &'static str,
     cases: f64,
@@ -28,20 +28,20 @@ pub(crate) struct Worst {
 /// The worst case that a search found.
 pub(crate) struct Found {
     name: &'static str,
-    /// The largest share of the allowance that an error took.
+    /// The largest error, as a share of the bound.
     share: f64,
-    /// True if the search was not cut short.
+    /// True if the search was run in full length.
     whole: bool,
 }
 
-/// The number of cases without a worse one after which a search starts again, and the number added for each word.
+/// The number of cases without a worse one after which a search restarts, and the number added for each word.
 const PATIENCE: [u64; 2] = [200, 10];
 
 /// The number of random cases at the start of a climb, which continues from the worst of them.
 const DRAWN: u64 = 24;
 
 impl Worst {
-    /// Creates a search of this many cases, times `CCD_TEST_CASES`.
+    /// Creates a search of this many cases, multiplied by `CCD_TEST_CASES`.
     pub(crate) fn of(name: &'static str, cases: u32) -> Self {
         let given = std::env::var("CCD_TEST_CASES").ok();
         let times: f64 = given.and_then(|text| text.parse().ok()).unwrap_or(1.0);
@@ -51,8 +51,8 @@ impl Worst {
         }
     }
 
-    /// Searches for the case with the largest share; `judge` returns the share of a case, or `None` if the allowance
-    /// is not for such a case.
+    /// Searches for the case with the largest share. `judge` returns the share of a case, or `None` if the bound is not
+    /// for such a case.
     ///
     /// # Panics
     /// If a share is NaN, or if most cases give `None`.
@@ -116,7 +116,7 @@ impl Worst {
 }
 
 impl Found {
-    /// Asserts that no error exceeded the allowance, and that one came within this factor of it.
+    /// Checks that no error exceeded its bound, and that one came within this factor of it.
     pub(crate) fn is_within(&self, looseness: f64) {
         let (name, ratio) = (self.name, 1.0 / self.share);
         assert!(self.share <= 1.0, "{name}: only {ratio:e} of an error");
@@ -126,7 +126,7 @@ impl Found {
     }
 }
 
-/// Returns the share of an allowance that an error takes. If the allowance is 0, any error takes an infinite share.
+/// Returns an error as a share of an allowance. If the allowance is 0, any error takes an infinite share.
 pub(crate) fn share(error: f64, allowance: f64) -> f64 {
     match allowance > 0.0 {
         true => error / allowance,
@@ -137,7 +137,7 @@ pub(crate) fn share(error: f64, allowance: f64) -> f64 {
 }
 
 impl Tape {
-    /// Returns the next word.
+    /// Reads the next word, and draws it if necessary.
     pub(crate) fn word(&mut self) -> u64 {
         if self.read == self.words.len() {
             self.words.push(self.dice.next());
@@ -146,7 +146,7 @@ impl Tape {
         self.words[self.read - 1]
     }
 
-    /// Returns a number of any sign and mantissa, and of an exponent of two within a range; sometimes 0.
+    /// Draws a number of any sign and mantissa, with a binary exponent in a range; sometimes 0.
     pub(crate) fn any(&mut self, exponents: RangeInclusive<i32>) -> f64 {
         let word = self.word();
         let (field, mantissa) = (word >> 52 & 0x7ff, word & MANTISSA);
@@ -162,12 +162,12 @@ impl Tape {
         signed * 2f64.powi(half) * 2f64.powi(exponent - half)
     }
 
-    /// Returns three such numbers.
+    /// Draws three numbers of any sign and mantissa, with binary exponents in a range.
     pub(crate) fn vector(&mut self, exponents: RangeInclusive<i32>) -> [f64; 3] {
         [(); 3].map(|()| self.any(exponents.clone()))
     }
 
-    /// Returns a positive number.
+    /// Draws a positive number with a binary exponent in a range.
     pub(crate) fn size(&mut self, exponents: RangeInclusive<i32>) -> f64 {
         let least = 2f64.powi(*exponents.start());
         match self.any(exponents).abs() {
@@ -176,17 +176,17 @@ impl Tape {
         }
     }
 
-    /// Returns a number that differs from another one by anything from nothing to its own size.
+    /// Draws a number that differs from `x` by anything from nothing to its own size.
     pub(crate) fn near(&mut self, x: f64) -> f64 {
         x + x * self.any(-54..=0)
     }
 
-    /// Returns a number from 0 to 1, the latter excluded.
+    /// Draws a number in [0, 1).
     pub(crate) fn fraction(&mut self) -> f64 {
         (self.word() >> 11) as f64 * 0.5f64.powi(53)
     }
 
-    /// Returns a whole number below another one.
+    /// Draws a whole number below `count`.
     pub(crate) fn pick(&mut self, count: usize) -> usize {
         (self.word() % count as u64) as usize
     }
@@ -195,7 +195,7 @@ impl Tape {
 const MANTISSA: u64 = (1 << 52) - 1;
 const ONE: u64 = 1023 << 52;
 
-/// The Splitmix generator, which suffices for a search.
+/// The Splitmix random number generator, which suffices for a search.
 struct Dice(u64);
 
 impl Dice {
@@ -208,7 +208,7 @@ impl Dice {
         (self.next() % count as u64) as usize
     }
 
-    /// Returns a case with one or a few words changed.
+    /// Returns a copy of a case with one or a few words changed.
     fn changed(&mut self, words: &[u64]) -> Vec<u64> {
         let mut words = words.to_vec();
         if words.is_empty() {
@@ -222,7 +222,7 @@ impl Dice {
         words
     }
 
-    /// Returns another word in the place of one.
+    /// Returns a word to replace `word` with.
     fn other(&mut self, word: u64, all: &[u64]) -> u64 {
         let digits = self.next() & MANTISSA;
         // The change is a few units in the last place if the word is a number.

@@ -1,4 +1,4 @@
-//! Separating axes of features, for pieces so near that the difference of their witnesses is mostly rounding.
+//! Separating axes of pieces that are so near that the vector between their nearest points is mostly rounding.
 
 use super::nearest::Corners;
 use crate::lanes::{Lanes3, reciprocal, splat};
@@ -15,7 +15,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// No axis: worse than any other.
+    /// The absence of an axis, which any axis is better than.
     pub(crate) const NONE: Axis = Axis {
         direction: DVec3::ZERO,
         gap: f64::NEG_INFINITY,
@@ -30,7 +30,7 @@ pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
     lesser(lesser(d, e), f) - greater(greater(a, b), c)
 }
 
-/// Candidates for separating axes of two triangles.
+/// Candidates for the separating axis of two triangles, with the gaps along them.
 ///
 /// The difference `w` of the nearest points is rounded, so that it may leave the cone of normals that it belongs to.
 /// The borders of that cone are also candidates: for a vertex and an edge, `w` made perpendicular to the edge; for two
@@ -38,14 +38,14 @@ pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
 #[derive(Debug)]
 pub(crate) struct Candidates<L: Simd> {
     directions: [Lanes3<L>; GROUPS],
-    /// Support gaps along unit vectors, −∞ for directions that are zero.
+    /// The support gaps along the unit vectors, −∞ for directions that are zero.
     gaps: [f64x4<L>; GROUPS],
 }
 
 const GROUPS: usize = 8;
 
 impl<L: Simd> Candidates<L> {
-    /// Computes all axes of two triangles whose nearest points differ by about `w`.
+    /// Computes the candidates of two triangles whose nearest points differ by about `w`.
     #[inline(always)]
     pub(crate) fn new(level: L, p: &Corners, q: &Corners, w: DVec3) -> Self {
         let (edges_p, edges_q) = (edges(p), edges(q));
@@ -77,7 +77,7 @@ impl<L: Simd> Candidates<L> {
         out
     }
 
-    /// Returns the axis with the largest gap.
+    /// Returns the candidate with the largest gap.
     pub(crate) fn best(&self) -> Axis {
         let gap = |k: usize| self.gaps[k / 4][k % 4];
         let best = (0..4 * GROUPS).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
@@ -96,7 +96,7 @@ impl<L: Simd> Candidates<L> {
     }
 }
 
-/// Orients each direction towards the larger gap, and returns that gap along the unit vector.
+/// Orients each direction towards the larger support gap, and returns the gaps along the unit vectors.
 #[inline(always)]
 fn oriented<L: Simd>(p: &Corners, q: &Corners, n: Lanes3<L>) -> (Lanes3<L>, f64x4<L>) {
     let level = n.level();
@@ -132,7 +132,7 @@ fn normal(edges: &[DVec3; 3]) -> DVec3 {
     }
 }
 
-/// Returns axes along and across the longest edge of all, for segments on one line, and for points.
+/// Returns axes along and perpendicular to the longest edge of both triangles, for segments on one line and for points.
 #[inline(always)]
 fn frame<L: Simd>(level: L, edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3<L> {
     let edge = longest(&[longest(edges_p), longest(edges_q)]);

@@ -1,14 +1,14 @@
-//! Nearest points of two triangles that do not intersect: edge against edge, corner against face.
+//! Computes the nearest points of two triangles that do not intersect: edge against edge, corner against face.
 
 use crate::lanes::{Lanes3, clamp_unit, reciprocal, splat};
 use ccd_core::fearless_simd::{Level, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::vectorize;
 
-/// The corners of a triangle, a segment or a point, the last one repeated.
+/// The corners of a triangle, a segment or a point; fewer than three repeat the last.
 pub(crate) type Corners = [DVec3; 3];
 
-/// A point of each triangle, by the weights of its corners.
+/// The nearest points of two triangles, by the weights of their corners.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) a: [f64; 3],
@@ -16,15 +16,15 @@ pub(crate) struct Nearest {
 }
 
 impl Nearest {
-    /// Returns the point of the second triangle minus that of the first.
+    /// Returns the vector from the first triangle's point to the second's.
     #[inline(always)]
     pub(crate) fn difference(&self, p: &Corners, q: &Corners) -> DVec3 {
         at(q, self.b) - at(p, self.a)
     }
 }
 
-/// Returns the nearest points of two triangles that do not intersect `[ERICSON05 §5.1]`: those of their
-/// boundaries, and of corners and faces.
+/// Returns the nearest points of two triangles that do not intersect `[ERICSON05 §5.1]`: those of their boundaries, or
+/// of a corner and a face.
 ///
 /// Every candidate is a valid pair of points, however ill-conditioned; the least distance decides.
 pub(crate) fn nearest(level: Level, p: &Corners, q: &Corners) -> Nearest {
@@ -52,14 +52,14 @@ fn nearest_at<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
     }
 }
 
-/// The nearest edge of the first triangle for every edge of the second.
+/// For every edge of the second triangle, the nearest edge of the first one.
 struct EdgeEdge<L: Simd> {
     square: f64x4<L>,
-    /// The edge of the first triangle.
+    /// The index of the first triangle's edge.
     edge: f64x4<L>,
-    /// The parameter along that edge.
+    /// The parameter of the nearest point along the first triangle's edge.
     s: f64x4<L>,
-    /// The parameter along the second triangle's edge.
+    /// The parameter of the nearest point along the second triangle's edge.
     t: f64x4<L>,
 }
 
@@ -112,7 +112,7 @@ fn edges_to_edges<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
     best
 }
 
-/// Returns `s e − w`.
+/// Returns the vectors `s e − w`.
 #[inline(always)]
 fn e_minus_w<L: Simd>(e: Lanes3<L>, s: f64x4<L>, w: Lanes3<L>) -> Lanes3<L> {
     Lanes3 {
@@ -122,16 +122,16 @@ fn e_minus_w<L: Simd>(e: Lanes3<L>, s: f64x4<L>, w: Lanes3<L>) -> Lanes3<L> {
     }
 }
 
-/// The corners of one triangle over the face of the other.
+/// For every corner of one triangle, its projection onto the face of the other.
 struct CornerFace<L: Simd> {
-    /// Infinite if the corner's foot is outside of the face.
+    /// The squared distance; infinite if the corner's projection is outside of the face.
     square: f64x4<L>,
     u: f64x4<L>,
     v: f64x4<L>,
 }
 
 impl<L: Simd> CornerFace<L> {
-    /// Returns the weights of the face's corners, and of the other triangle's.
+    /// Returns the weights of the face's corners, and of the other triangle's corners.
     #[inline(always)]
     fn weights(&self, lane: usize) -> ([f64; 3], [f64; 3]) {
         let (u, v) = (self.u[lane], self.v[lane]);
@@ -164,7 +164,7 @@ fn corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners) -> Corn
     }
 }
 
-/// Returns the least value and its lane.
+/// Returns the least of four values and its lane.
 #[inline(always)]
 fn least<L: Simd>(x: f64x4<L>) -> (f64, usize) {
     let low = if x[1] < x[0] { 1 } else { 0 };
@@ -181,7 +181,7 @@ fn on_edge(start: usize, t: f64) -> [f64; 3] {
     out
 }
 
-/// Returns the point with the given weights, of sum one.
+/// Returns the point with the given weights of the corners, of sum one.
 #[inline(always)]
 pub(crate) fn at(corners: &Corners, [u, v, w]: [f64; 3]) -> DVec3 {
     u * corners[0] + v * corners[1] + w * corners[2]

@@ -1,11 +1,11 @@
-//! Common points of two triangles, where an edge of one passes through the other.
+//! Finds common points of two triangles, where an edge of one passes through the other.
 
 use super::nearest::{Corners, Nearest, at};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Returns the pair of points with the least distance among `near` and the six places where an
-/// edge's line meets the other triangle's plane.
+/// Returns the pair of points with the least distance among `near` and the six points where an edge's line meets the
+/// other triangle's plane.
 ///
 /// Two non-coplanar triangles that intersect share a segment, which ends where an edge of one meets the other.
 /// Triangles in one plane have crossing edges or a corner inside, which `near` covers. Clamping to edge and face
@@ -26,7 +26,8 @@ pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
         })
 }
 
-/// Intersects the edges of `of` with the plane of `face`. Returns the weights of the edges' triangle and of the face.
+/// Intersects the edges of the triangle `of` with the plane of `face`. Returns the weights of both triangles' corners
+/// for each intersection.
 fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);
@@ -45,7 +46,7 @@ fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
     })
 }
 
-/// Returns the weights of a face's corners for the projection of `x`, clamped to the face.
+/// Projects `x` onto a face, clamped to it, and returns the weights of the face's corners.
 fn foot(e: DVec3, f: DVec3, n: DVec3, x: DVec3) -> [f64; 3] {
     let per = n.length_squared().recip();
     let part = |weight: f64| match weight {

@@ -1,4 +1,4 @@
-//! The named features, the refused pieces, and the common point of triangles that intersect inside.
+//! Tests the features of claims, the refused pieces, and the common points of intersecting triangles.
 
 use super::ClosedForm;
 use super::nearest::{Corners, Nearest};
@@ -32,7 +32,7 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// Only the features' points are named: a corner has weight one.
+/// Tests that claims name only the features' points: a corner has weight one.
 #[rstest]
 #[case::corner_above_face([v(1.0, 1.0, 1.0), v(1.0, 2.0, 3.0), v(2.0, 1.0, 3.0)], &[0, 1, 2], &[0])]
 #[case::corner_beside_edge([v(1.0, -1.0, 0.0), v(1.0, -2.0, 1.0), v(2.0, -2.0, 1.0)], &[0, 1], &[0])]
@@ -49,7 +49,7 @@ fn names_the_features(#[case] b: [DVec3; 3], #[case] of_a: &[u32], #[case] of_b:
     assert_eq!(sorted(claim.b.support()), of_b);
 }
 
-/// Indices are those of the piece, also where it has fewer than three points.
+/// Tests that indices are those of the piece if it has fewer than three points.
 #[test]
 fn segments_and_points_keep_their_indices() {
     let segment = [v(1.0, 1.0, 2.0), v(1.0, 1.0, 1.0)];
@@ -66,7 +66,7 @@ fn refuses_other_numbers_of_points() {
     assert_eq!(claim(&FLOOR, &[]), Err(GiveUp::TooManyPoints));
 }
 
-/// The triangles intersect although their boundaries are far apart.
+/// Tests triangles that intersect although their boundaries are far apart.
 #[test]
 fn finds_the_point_where_an_edge_passes_through() {
     let spear = [v(1.0, 1.0, 5.0), v(1.0, 1.0, -5.0), v(1.1, 1.1, 5.0)];
@@ -80,7 +80,7 @@ fn finds_the_point_where_an_edge_passes_through() {
     assert!(common.difference(&spear, &FLOOR).length() < 1e-15);
 }
 
-/// A point on the plane's far side, with its nearest boundary elsewhere, is no intersection.
+/// Tests a point behind the plane that is nearest to another part of the boundary, which is no intersection.
 #[test]
 fn does_not_pierce_outside_of_the_face() {
     let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];

@@ -1,4 +1,4 @@
-//! Axes spanned by a few vertices of the Minkowski difference.
+//! Finds separating axes that a few vertices of the Minkowski difference span.
 
 use super::search::Best;
 use super::simplex::{Simplex, Vertex};
@@ -7,16 +7,16 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use ccd_core::vector::unit;
 
-/// Vertices of the difference, relative to the one with the largest weight in the nearest point.
+/// Vertices of the Minkowski difference, relative to the vertex with the largest weight in the nearest point.
 pub(crate) struct Fan {
-    /// The nearest point.
+    /// The point of the difference that is nearest to the origin.
     point: DVec3,
     vertices: [Vertex; SHARPEN_CAP],
     len: usize,
 }
 
 impl Fan {
-    /// Takes the vertices of the nearest point; `None` if there are none.
+    /// Starts with the vertices of the nearest point; `None` if there are none.
     pub(crate) fn new(found: &Best) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = Fan {
@@ -40,7 +40,7 @@ impl Fan {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex. Returns `false` if it is a duplicate, or there are too many.
+    /// Adds a vertex. Returns `false` if it is a duplicate, or there are too many vertices.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| v.point == vertex.point;
         let room = self.len < SHARPEN_CAP && !self.vertices().iter().any(same);
@@ -51,7 +51,7 @@ impl Fan {
         room
     }
 
-    /// Returns the axis along which these vertices are farthest from the origin, and that distance.
+    /// Returns the axis along which the vertices are farthest from the origin, and that distance.
     ///
     /// The candidates are the nearest point, a known axis, and an arbitrary one, as they are or
     /// made perpendicular to an edge, and the perpendiculars of two edges.
@@ -92,7 +92,7 @@ impl Fan {
         best
     }
 
-    /// Returns the four vertices that are least along an axis.
+    /// Returns the four vertices with the least heights along an axis.
     pub(crate) fn least(mut self, axis: DVec3) -> Simplex {
         let height = |v: &Vertex| axis.dot(v.point);
         self.vertices[..self.len].sort_by(|v, w| height(v).total_cmp(&height(w)));

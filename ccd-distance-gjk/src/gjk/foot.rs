@@ -1,21 +1,21 @@
-//! The point of a simplex that is nearest to the origin.
+//! The point of a simplex that is nearest to the origin, called its foot.
 
 use ccd_core::glam::DVec3;
 
 /// A point of a simplex's hull, usually the nearest to the origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Foot {
-    /// One weight per vertex, none negative, of sum one.
+    /// The weights of the vertices, none negative, of sum one.
     pub(crate) weights: [f64; 4],
-    /// The vertices' combination by these weights.
+    /// The combination of the vertices with these weights.
     pub(crate) point: DVec3,
-    /// The direction of `point`, of any length; `None` if the origin is inside. It is computed from the feature, so
-    /// that it is accurate for a short `point`.
+    /// The direction of `point`, of any length; `None` if the origin is inside. It is computed from the nearest
+    /// feature, so that it is accurate for a short `point`.
     pub(crate) direction: Option<DVec3>,
 }
 
 impl Foot {
-    /// Creates the foot at a corner.
+    /// Creates the foot that is a vertex.
     pub(crate) fn corner(point: DVec3, index: usize) -> Self {
         let mut weights = [0.0; 4];
         weights[index] = 1.0;
@@ -26,7 +26,7 @@ impl Foot {
         }
     }
 
-    /// Converts the foot on a sub-simplex to the indices of the whole simplex: vertex `k` is `indices[k]`.
+    /// Converts the foot on a sub-simplex to one on the whole simplex, of which vertex `k` is `indices[k]`.
     pub(crate) fn lifted(self, indices: &[usize]) -> Self {
         let mut weights = [0.0; 4];
         for (&index, &weight) in indices.iter().zip(&self.weights) {
@@ -35,7 +35,7 @@ impl Foot {
         Foot { weights, ..self }
     }
 
-    /// Returns the nearer of two feet; `other` if they are equal.
+    /// Returns the foot that is nearer to the origin; `other` if they are equal.
     pub(crate) fn or_nearer(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if !(self.point.length_squared() < other.point.length_squared()) => other,

@@ -1,11 +1,11 @@
-//! The Minkowski difference of a pair's hulls: its vertices and its support.
+//! The Minkowski difference of a pair's hulls, with its support function.
 
 use super::simplex::Vertex;
 use crate::tolerance::SCANNED_POINTS;
 use ccd_core::glam::DVec3;
 use ccd_core::{Piece, PiecePair};
 
-/// The difference of a pair's hulls in A's axes.
+/// The Minkowski difference of a pair's hulls, along A's axes.
 ///
 /// Points are relative to the first one of their piece: rounding depends on the sizes and the distance of the pieces,
 /// not on their positions.
@@ -13,12 +13,12 @@ pub(crate) struct Difference<'a> {
     pair: &'a PiecePair<'a>,
     first_a: DVec3,
     first_b: DVec3,
-    /// The vector from the first point of A to that of B.
+    /// The vector from the first point of A's piece to that of B's.
     pub(crate) between: DVec3,
 }
 
 impl<'a> Difference<'a> {
-    /// Creates the difference of a pair; `None` if a piece has no points.
+    /// Creates the difference of a pair of pieces; `None` if a piece has no points.
     pub(crate) fn new(pair: &'a PiecePair<'a>) -> Option<Self> {
         let (&first_a, &first_b) = (pair.a.points.first()?, pair.b.points.first()?);
         Some(Difference {
@@ -29,20 +29,20 @@ impl<'a> Difference<'a> {
         })
     }
 
-    /// Returns a point of A's piece.
+    /// Returns a point of A's piece, relative to the piece's first point.
     #[inline]
     pub(crate) fn point_a(&self, index: u32) -> Option<DVec3> {
         Some(*self.pair.a.points.get(index as usize)? - self.first_a)
     }
 
-    /// Returns a point of B's piece.
+    /// Returns a point of B's piece, relative to the piece's first point.
     #[inline]
     pub(crate) fn point_b(&self, index: u32) -> Option<DVec3> {
         let turned = *self.pair.b.points.get(index as usize)? - self.first_b;
         Some(self.pair.b_to_a.rotation * turned + self.between)
     }
 
-    /// Returns the vertex that is least along `direction`.
+    /// Returns the vertex of the difference with the least height along `direction`.
     pub(crate) fn support(&self, direction: DVec3) -> Vertex {
         let a = farthest(&self.pair.a, self.first_a, direction);
         let turned = self.pair.b_to_a.inverse_vector(direction);
@@ -54,7 +54,7 @@ impl<'a> Difference<'a> {
         })
     }
 
-    /// Returns the vertex of the given points, if both pieces have them.
+    /// Returns the vertex for a point of A and a point of B; `None` if a piece lacks its point.
     #[inline]
     pub(crate) fn vertex(&self, a: u32, b: u32) -> Option<Vertex> {
         let point = self.point_b(b)? - self.point_a(a)?;
@@ -62,7 +62,7 @@ impl<'a> Difference<'a> {
     }
 }
 
-/// Returns the index of a point of a piece that is farthest along a direction; points are never empty.
+/// Returns the index of a point of a piece that is farthest along a direction.
 ///
 /// Scans up to [`SCANNED_POINTS`] points; for more, calls [`Piece::extremal`].
 #[inline]

@@ -1,4 +1,4 @@
-//! GJK as a backend.
+//! GJK as a distance oracle.
 
 use super::minkowski::Difference;
 use super::refine;
@@ -11,7 +11,7 @@ use crate::tolerance::{CERTIFIED_ULPS, KEEP, ROUND_CAP};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
-/// The distance of two hulls of any number of points, by GJK `[GJK88]`.
+/// An oracle for the distance of two hulls of any number of points, by GJK `[GJK88]`.
 ///
 /// # Guarantee
 /// For separated pieces of size s, both moved near the origin, the witnesses are within about 1e-13 s of the nearest
@@ -72,7 +72,7 @@ pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Best {
     }
 }
 
-/// Searches for the nearest point, repeatedly if rounding stalls the search.
+/// Searches for the nearest point, and again from other vertices if rounding stalls the search.
 ///
 /// A search that stalls before its axis certifies the distance continues from the vertices found by axes of features.
 pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Best {
@@ -101,12 +101,12 @@ pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Best {
     found
 }
 
-/// Returns whether the axis certifies the distance as well as rounding permits.
+/// Returns whether the axis certifies the distance as well as rounding allows.
 pub(crate) fn certified(found: &Best) -> bool {
     found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 
-/// Converts the result to a claim.
+/// Converts the result of a search to a claim.
 pub(crate) fn claim(found: &Best) -> Claim {
     let mut out = Claim {
         axis: found.axis,

@@ -1,4 +1,4 @@
-//! Refines the witnesses of the search in closed form.
+//! Improves the nearest points of a search by closed forms.
 
 use super::minkowski::Difference;
 use super::search::Best;
@@ -8,8 +8,7 @@ use ccd_core::Instructions;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Replaces the witnesses by the nearest points of the parts that a simplex spans on either side,
-/// if those are nearer.
+/// Replaces the nearest points by those of the parts of both pieces that a simplex spans, if these are nearer.
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.
@@ -29,7 +28,7 @@ pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &m
     }
 }
 
-/// Up to three points of a piece, the last one repeated.
+/// Up to three points of a piece; fewer repeat the last.
 struct Points {
     corners: Corners,
     indices: [u32; 3],
@@ -54,7 +53,7 @@ impl Points {
     }
 }
 
-/// Returns vertices of the difference and weights whose combination equals the points on both sides.
+/// Returns vertices of the difference, and weights, whose combination equals given combinations of both pieces' points.
 fn coupled(
     difference: &Difference<'_>,
     p: &Points,
@@ -71,7 +70,7 @@ fn coupled(
     (simplex, weights)
 }
 
-/// Couples the weights of two sides, in order.
+/// Combines the weights of two lists of points to weights of pairs, in order.
 ///
 /// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
 /// and edge.

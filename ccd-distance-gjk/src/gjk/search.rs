@@ -1,4 +1,4 @@
-//! The GJK search `[GJK88]`.
+//! The iteration of the GJK algorithm `[GJK88]`.
 
 use super::minkowski::Difference;
 use super::simplex::{Simplex, Vertex};
@@ -6,22 +6,22 @@ use super::termination::{Stop, meets, touches};
 use crate::tolerance::{CONVERGED_ULPS, STEP_CAP};
 use ccd_core::glam::DVec3;
 
-/// The best results for a pair so far.
+/// The best results for a pair so far: nearest point and axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Best {
-    /// The simplex of the nearest point, and its weights.
+    /// The simplex that contains the nearest point.
     pub(crate) simplex: Simplex,
     pub(crate) weights: [f64; 4],
-    /// The square of that point's distance from the origin.
+    /// The squared distance of the nearest point from the origin.
     pub(crate) square: f64,
-    /// The axis with the largest support gap, of any length.
+    /// The axis with the largest support gap so far, of any length.
     pub(crate) axis: DVec3,
-    /// The gap along the unit vector.
+    /// The gap along the unit vector of `axis`.
     pub(crate) gap: f64,
 }
 
 impl Best {
-    /// The start of a search: no simplex and no axis.
+    /// Creates the results before a search, without a simplex and an axis.
     pub(crate) fn nothing() -> Self {
         Best {
             simplex: Simplex::EMPTY,
@@ -32,7 +32,7 @@ impl Best {
         }
     }
 
-    /// Returns the nearer of two results, with the axis of the larger gap.
+    /// Combines two results: the nearer point, and the axis of the larger gap.
     pub(crate) fn better(self, other: Self) -> Self {
         let nearer = if other.square < self.square {
             other
@@ -47,7 +47,7 @@ impl Best {
         }
     }
 
-    /// Evaluates an axis; returns the vertex that is least along it, and the support gap.
+    /// Computes the support gap along an axis, and the vertex with the least height along it.
     pub(crate) fn probe(&mut self, difference: &Difference<'_>, axis: DVec3) -> (Vertex, f64) {
         let vertex = difference.support(axis);
         let gap = axis.dot(vertex.point) / axis.length_squared().sqrt();
@@ -58,8 +58,8 @@ impl Best {
     }
 }
 
-/// Searches for the point of the difference that is nearest to the origin, starting from `simplex`;
-/// each step gets nearer. `found` keeps the best, however the search stops.
+/// Searches for the point of the difference that is nearest to the origin, from an initial simplex. `found` keeps the
+/// best result, however the search stops.
 pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Best) -> Stop {
     for _ in 0..STEP_CAP {
         let Some(foot) = simplex.foot() else {

@@ -1,4 +1,5 @@
-//! Axes of the features that contain the nearest points: more accurate than the points' difference.
+//! Improves axes from the features that contain the nearest points, which are more accurate than the points'
+//! difference.
 
 use super::fan::Fan;
 use super::minkowski::Difference;
@@ -8,8 +9,8 @@ use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Searches for an axis that certifies the distance, among those spanned by the difference's
-/// vertices near the origin.
+/// Searches for an axis that certifies the distance, among those that vertices of the difference near the nearest point
+/// span.
 ///
 /// Returns the four vertices that are least along the best axis. The nearest point should be a combination of them.
 ///
@@ -40,7 +41,7 @@ pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Best) -> Simp
     fan.least(found.axis)
 }
 
-/// Tries the face normals of a simplex that encloses the origin, as axes of least penetration.
+/// Tries the face normals of a simplex that encloses the origin as axes of least penetration.
 pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Best) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {

@@ -1,10 +1,10 @@
-//! Up to four points of the Minkowski difference, and the point of their hull nearest to the origin.
+//! Simplices of up to four vertices of the Minkowski difference.
 
 use super::foot::Foot;
 use super::{segment, tetrahedron, triangle};
 use ccd_core::glam::DVec3;
 
-/// A point `b − a` of the Minkowski difference, with its two points.
+/// A vertex `b − a` of the Minkowski difference, with its points of both pieces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) point: DVec3,
@@ -12,7 +12,7 @@ pub(crate) struct Vertex {
     pub(crate) b: u32,
 }
 
-/// Up to four vertices, all with different pairs of points.
+/// A simplex of up to four vertices, all with different pairs of points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Simplex {
     vertices: [Vertex; 4],
@@ -30,12 +30,12 @@ impl Simplex {
         len: 0,
     };
 
-    /// Returns the vertices.
+    /// Returns the vertices of the simplex.
     pub(crate) fn vertices(&self) -> &[Vertex] {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex. Returns `false` if it is a duplicate, or there are four.
+    /// Adds a vertex. Returns `false` if it is a duplicate, or there are four already.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| (v.a, v.b) == (vertex.a, vertex.b);
         let room = self.len < 4 && !self.vertices().iter().any(same);
@@ -46,7 +46,7 @@ impl Simplex {
         room
     }
 
-    /// Returns the point of the hull that is nearest to the origin; `None` for the empty simplex.
+    /// Returns the point of the simplex that is nearest to the origin; `None` if it is empty.
     pub(crate) fn foot(&self) -> Option<Foot> {
         let point = |k: usize| self.vertices[k].point;
         match self.len {
@@ -58,7 +58,7 @@ impl Simplex {
         }
     }
 
-    /// Returns the vertices with positive weights, and those weights.
+    /// Returns the simplex of the vertices with positive weights, and those weights.
     pub(crate) fn reduced(&self, foot: &Foot) -> (Self, [f64; 4]) {
         let (mut kept, mut weights) = (Self::EMPTY, [0.0; 4]);
         for (&vertex, &weight) in self.vertices().iter().zip(&foot.weights) {

@@ -1,4 +1,4 @@
-//! The first simplex: that of the last call on the pair, or a support vertex.
+//! Chooses the simplex from which a search starts: that of the last call on the pair, or a support vertex.
 
 use super::minkowski::Difference;
 use super::search::Best;
@@ -6,7 +6,7 @@ use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// The result of a search, as a warm start for the next one on the same pair.
+/// The result of a search, from which the next search on the same pair starts.
 ///
 /// Its vertices are recomputed from the pieces' current positions. The end of another pair's
 /// search, or an index out of range, costs steps, not accuracy.
@@ -18,7 +18,7 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// Creates a cache from the end of a search.
+    /// Creates a cache from the result of a search.
     pub(crate) fn from_found(found: &Best) -> Self {
         let mut cache = Cache {
             axis: found.axis,
@@ -31,7 +31,7 @@ impl Cache {
         cache
     }
 
-    /// Returns the simplex to start from, never empty.
+    /// Returns the simplex to start from, which is never empty.
     pub(crate) fn simplex(&self, difference: &Difference<'_>) -> Simplex {
         let mut simplex = Simplex::EMPTY;
         for &[a, b] in self.pairs.iter().take(usize::from(self.len)) {

@@ -1,4 +1,4 @@
-//! Termination of a search: reasons and tests.
+//! The termination criteria of a GJK search.
 
 use super::foot::Foot;
 use super::simplex::Simplex;
@@ -10,13 +10,13 @@ use ccd_core::order::greater;
 pub(crate) enum Stop {
     /// The support gap equals the distance, up to rounding.
     Converged,
-    /// The nearest point does not differ from the origin by more than rounding.
+    /// The nearest point is the origin, up to rounding.
     Touching,
     /// The simplex encloses the origin: the hulls intersect.
     Enclosed,
-    /// No vertex brings the nearest point nearer.
+    /// No vertex decreases the distance from the origin.
     Stalled,
-    /// The search took too many steps.
+    /// The search reached its limit of steps.
     Capped,
 }
 
@@ -26,7 +26,7 @@ pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
     foot.point.length_squared() <= rounding * rounding * reach(simplex)
 }
 
-/// Returns whether a support gap equals the distance of the nearest point, whose square is given.
+/// Returns whether a support gap equals the distance whose square is given, up to a share of rounding.
 ///
 /// They may differ by `share` units in the last place of the distance, plus rounding.
 pub(crate) fn meets(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
@@ -35,7 +35,7 @@ pub(crate) fn meets(gap: f64, square: f64, simplex: &Simplex, share: f64) -> boo
     distance - gap <= share * f64::EPSILON * distance + rounding
 }
 
-/// Returns the square of the largest vertex, to which rounding is relative.
+/// Returns the square of the longest vertex, to which rounding is relative.
 fn reach(simplex: &Simplex) -> f64 {
     let squares = simplex.vertices().iter().map(|v| v.point.length_squared());
     squares.fold(f64::MIN_POSITIVE, greater)

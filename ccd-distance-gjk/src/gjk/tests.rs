@@ -1,4 +1,4 @@
-//! Each sub-simplex alone, and the recovery from a stalled search.
+//! Tests the nearest points of each kind of simplex, and the recovery from a stalled search.
 
 use super::fan::Fan;
 use super::foot::Foot;
@@ -17,7 +17,7 @@ use ccd_core::{Body, Frame, PiecePair};
 use rand::RngExt;
 use rstest::rstest;
 
-/// Corners of every kind: at random, on one line, in one plane, needles, coinciding, near the origin.
+/// Draws corners of every kind: at random, on one line, in one plane, needles, coinciding, near the origin.
 fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
     let [a, b, c, d]: [DVec3; 4] = std::array::from_fn(|_| scene::vector(rng));
     let (s, t) = (rng.random_range(-0.5..1.5), rng.random_range(-0.5..1.5));
@@ -39,8 +39,7 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
     out
 }
 
-/// Checks that a foot is a convex combination, and that no corner is nearer along it than the foot:
-/// it is then the nearest point.
+/// Checks that a foot is the nearest point: it is a convex combination, and no corner is nearer along it than the foot.
 fn is_nearest(corners: &[DVec3], foot: &Foot) {
     let size = corners
         .iter()
@@ -141,7 +140,7 @@ fn a_simplex_takes_no_pair_twice_and_no_fifth() {
     assert!(!simplex.push(vertex(2, 2)));
 }
 
-/// The axis allowed by all edges of a pyramid's apex is found edge by edge.
+/// Tests that the only axis that all edges of a pyramid's apex allow is found edge by edge.
 #[test]
 fn a_fan_finds_the_axis_between_its_edges() {
     let mut found = Best::nothing();
@@ -165,7 +164,7 @@ fn a_fan_finds_the_axis_between_its_edges() {
     assert!(low >= -1e-15 && axis.z > 0.99, "{axis} stands at {low}");
 }
 
-/// The search alone stalls on nearly parallel edges, and the next steps correct that.
+/// Tests that a search that stalls on nearly parallel edges is corrected by the next steps.
 #[test]
 fn stalled_searches_are_taken_up_again() {
     let (mut stalled, mut short) = (0, 0);
@@ -191,7 +190,7 @@ fn stalled_searches_are_taken_up_again() {
     );
 }
 
-/// A box that turns slowly above another one: faces that were parallel a moment ago.
+/// Tests a box that turns slowly above another one, with faces that were parallel a moment ago.
 #[test]
 fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
     let a = Body::cuboid([0.5, 0.5, 1.0]).unwrap();

@@ -6,7 +6,7 @@ use crate::tolerance::{INSIDE_ROUNDS, TOUCHING_ULPS, VOLUME_ULPS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Returns the foot of the origin on the tetrahedron, which may be flat.
+/// Returns the point of a tetrahedron, which may be flat, that is nearest to the origin.
 ///
 /// The origin counts as inside only if it is certainly on the inner side of every face, and is a
 /// combination of the corners. Otherwise all faces are examined: if the tetrahedron is flat, even a
@@ -27,10 +27,10 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> Foot {
         .fold(first, |best, foot| foot.or_nearer(Some(best)))
 }
 
-/// Each corner with the corners of the opposite face.
+/// The index of each corner, followed by those of the opposite face.
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
-/// Returns the foot at the origin with its weights; `None` if rounding prevents it.
+/// Returns the weights of the origin inside the tetrahedron; `None` if rounding prevents it.
 fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
     let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);
@@ -62,8 +62,7 @@ fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
     })
 }
 
-/// The heights of the origin and of the opposite corner over a face, both times the length of the
-/// face's normal.
+/// The heights of the origin and of the opposite corner above a face, both times the length of the face's normal.
 #[derive(Clone, Copy)]
 struct Height {
     normal: DVec3,
@@ -72,7 +71,7 @@ struct Height {
 }
 
 impl Height {
-    /// Measures both heights; `None` unless both are certainly on the same side of the face.
+    /// Computes both heights; `None` unless both are certainly on the same side of the face.
     fn certain(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);

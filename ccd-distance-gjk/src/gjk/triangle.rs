@@ -5,7 +5,7 @@ use super::segment;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// Returns the foot of the origin on the triangle `a`, `b`, `c`, which may be degenerate.
+/// Returns the point of the triangle `a`, `b`, `c`, which may be degenerate, that is nearest to the origin.
 ///
 /// The foot is inside of the face if the origin is inside of all three edges. Otherwise it is the
 /// nearest foot on the edges that the origin is outside of. A triangle so flat that rounding may
@@ -32,7 +32,7 @@ pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> Foot {
     best.unwrap_or(Foot::corner(a, 0))
 }
 
-/// Returns the foot inside of the face, by the area opposite of each corner.
+/// Returns the nearest point inside the face, from the areas opposite of each corner.
 fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     let square = |k: usize| (corners[(k + 1) % 3] - corners[k]).length_squared();
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
@@ -56,7 +56,8 @@ fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     }
 }
 
-/// Returns the normal, oriented from the origin to the face, or the foot: whichever rounding tilts less.
+/// Returns the direction to the nearest point that rounding tilts less: the normal, oriented away from the origin, or
+/// the vector to `point`.
 ///
 /// The tilt of the normal is inverse to the triangle's height relative to the longest edge, that of the foot to its
 /// length relative to the corners'.

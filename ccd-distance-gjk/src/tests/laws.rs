@@ -1,4 +1,4 @@
-//! The laws of every backend, each written once.
+//! Properties that hold for every backend, each written once.
 
 use super::scene::Scene;
 use super::twin;
@@ -6,15 +6,14 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, Combination, DistanceOracle};
 
-/// The checkable numbers of a claim: the distance of its witnesses, and the support gap of its
-/// axis.
+/// The numbers of a claim that can be checked: the distance of its points, and the support gap of its axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Checked {
     pub(super) distance: f64,
     pub(super) gap: f64,
 }
 
-/// Asks a new oracle with a new cache.
+/// Calls a new oracle with an empty cache.
 pub(super) fn cold<O: DistanceOracle + Default>(scene: &Scene) -> Claim {
     ask(&mut O::default(), scene, &mut O::Cache::default())
 }
@@ -43,7 +42,7 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
     }
 }
 
-/// The axis certifies the witnesses' distance of separated pieces: up to rounding if they are well apart, else at least
+/// Checks that the axis certifies the distance of separate pieces: up to rounding if they are well apart, else at least
 /// half of it.
 pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> Checked {
     let checked = check(scene, &cold::<O>(scene));
@@ -62,7 +61,7 @@ pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -
     checked
 }
 
-/// The witnesses of separated pieces are as near as those of brute force.
+/// Checks that the nearest points of separate pieces are as near as by brute force.
 pub(super) fn agrees_with_twin<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
     let (a, b) = scene.local();
@@ -74,7 +73,7 @@ pub(super) fn agrees_with_twin<O: DistanceOracle + Default>(scene: &Scene) {
     );
 }
 
-/// The combinations of pieces that intersect name the same point, to a share of the size.
+/// Checks that both combinations of intersecting pieces are the same point, to a share of the size.
 pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene, within: f64) {
     let checked = check(scene, &cold::<O>(scene));
     assert!(
@@ -83,7 +82,7 @@ pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene, w
     );
 }
 
-/// The axis separates the insides of pieces that only just touch.
+/// Checks that the axis separates the interiors of pieces that only just touch.
 pub(super) fn separates_touching<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
     assert!(
@@ -96,7 +95,7 @@ pub(super) fn separates_touching<O: DistanceOracle + Default>(scene: &Scene) {
     );
 }
 
-/// Exchanging the pieces exchanges the answer.
+/// Checks that exchanging the pieces exchanges the answer.
 pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
     let one = check(scene, &cold::<O>(scene));
     let swapped = scene.swapped();
@@ -108,8 +107,8 @@ pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
     );
 }
 
-/// The quality of the answer does not depend on the cache, and a used oracle gives the same answer
-/// as a new one.
+/// Checks that the quality of a claim does not depend on the cache, and that a used oracle gives the same claim as a
+/// new one.
 pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     let (mut used, mut cache) = (O::default(), O::Cache::default());
     for scene in scenes {
@@ -134,7 +133,7 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     }
 }
 
-/// Any finite input ends with points of the pieces, no nearer than the axis allows.
+/// Checks that any finite input gives points of the pieces, no nearer than the axis allows.
 pub(super) fn survives<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
     let sound = checked.gap <= checked.distance + 1e-13 * scene.size;

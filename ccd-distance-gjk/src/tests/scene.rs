@@ -1,4 +1,4 @@
-//! Pairs of pieces that are hard for distance routines, and their known distances.
+//! Pairs of pieces that are hard for distance algorithms, with known distances.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -7,18 +7,18 @@ use rand::RngExt;
 pub(crate) use rand::SeedableRng;
 pub(crate) use rand_pcg::Pcg64;
 
-/// A pair that owns its points.
+/// A pair of pieces that owns its points.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     pub(crate) a: Vec<DVec3>,
     pub(crate) b: Vec<DVec3>,
     pub(crate) b_to_a: Frame,
-    /// The size of the pieces and their distance, together.
+    /// The size of the pieces plus their distance.
     pub(crate) size: f64,
 }
 
 impl Scene {
-    /// Takes points in A's frame.
+    /// Creates a pair from points that are both in A's frame.
     fn new(a: Vec<DVec3>, b: Vec<DVec3>) -> Self {
         let reach = |x: DVec3| a.iter().chain(&b).map(|y| y.distance(x)).fold(0.0, greater);
         let size = greater(f64::MIN_POSITIVE, reach(a[0]));
@@ -38,7 +38,7 @@ impl Scene {
         }
     }
 
-    /// Both pieces' points in A's frame, relative to A's first point, without the rounding of far coordinates.
+    /// Returns both pieces' points in A's frame, relative to A's first point, without the rounding of far coordinates.
     pub(crate) fn local(&self) -> (Vec<DVec3>, Vec<DVec3>) {
         let between = self.b_to_a.point(self.b[0]) - self.a[0];
         let local = |y: &DVec3| self.b_to_a.rotation * (*y - self.b[0]) + between;
@@ -46,7 +46,7 @@ impl Scene {
         (a, self.b.iter().map(local).collect())
     }
 
-    /// The same pair with A and B exchanged.
+    /// Returns the pair with A and B exchanged.
     pub(crate) fn swapped(&self) -> Scene {
         Scene {
             a: self.b.clone(),
@@ -56,7 +56,7 @@ impl Scene {
         }
     }
 
-    /// The same pair, both bodies' coordinates scaled.
+    /// Scales the coordinates of both bodies.
     pub(crate) fn scaled(mut self, scale: f64) -> Scene {
         for point in self.a.iter_mut().chain(&mut self.b) {
             *point *= scale;
@@ -66,8 +66,7 @@ impl Scene {
         self
     }
 
-    /// The same pair in other frames, one for each body, with origins `far` away. The points move by the rounding of
-    /// that.
+    /// Moves both bodies to other frames, with origins `far` away. The points move by the rounding of that.
     pub(crate) fn reframed(self, rng: &mut Pcg64, far: f64) -> Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
@@ -83,7 +82,7 @@ impl Scene {
     }
 }
 
-/// Undoes `to_b`, then applies `to_a`.
+/// Returns the transform that applies the inverse of `to_b`, then `to_a`.
 fn to_b_then(to_a: &Frame, to_b: &Frame) -> Frame {
     let rotation = to_a.rotation * to_b.rotation.transpose();
     Frame {
@@ -115,25 +114,25 @@ pub(crate) fn odd_points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
         .collect()
 }
 
-/// Draws a number between two powers of ten, every order of magnitude as likely.
+/// Draws a number between two powers of ten, with every order of magnitude equally likely.
 pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
-/// Hulls of `a` and `b` random points at a random distance: apart or intersecting.
+/// Draws hulls of `a` and `b` random points at a random distance: apart or intersecting.
 pub(crate) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
     let b = points(rng, b).iter().map(|y| *y + offset).collect();
     Scene::new(points(rng, a), b).reframed(rng, 1.0)
 }
 
-/// Random hulls moved so that inner points of them coincide.
+/// Draws random hulls, moved so that an inner point of each coincides.
 pub(crate) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (a, b) = crossing(rng, a, b);
     Scene::new(a, b).reframed(rng, 1.0)
 }
 
-/// The same, flattened along one or two directions, down to 1e-12 of their size.
+/// Draws intersecting hulls, flattened along one or two directions, down to 1e-12 of their size.
 pub(crate) fn pressed(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (mut a, mut b) = crossing(rng, a, b);
     let thin = DVec3::new(1.0, magnitude(rng, -12.0, 0.0), magnitude(rng, -12.0, 0.0));
@@ -153,7 +152,7 @@ fn crossing(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
     (a, b)
 }
 
-/// The features that are nearest in [`near_contact`].
+/// The kinds of features that are nearest in [`near_contact`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Meeting {
     CornerFace,
@@ -163,8 +162,8 @@ pub(crate) enum Meeting {
     CornerCorner,
 }
 
-/// Triangles at the distance `gap` along z, whose other corners rise or fall at slopes of any
-/// magnitude down to 1e-12.
+/// Creates triangles at the distance `gap` along z, whose other corners rise or fall at slopes of any magnitude down to
+/// 1e-12.
 pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene {
     let slope = |rng: &mut Pcg64| magnitude(rng, -12.0, 0.0);
     let flat = |rng: &mut Pcg64| {
@@ -212,7 +211,7 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene
     Scene::new(a, b).reframed(rng, 1.0)
 }
 
-/// Triangles that share a corner, an edge, or a plane, and nothing else.
+/// Draws triangles that share a corner, an edge, or a plane, and nothing else.
 pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
     let flat = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let up = rng.random_range(0.1..1.0) * DVec3::Z;
@@ -232,7 +231,7 @@ pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
     Scene::new(base, b)
 }
 
-/// Degenerate points, segments and triangles: coinciding corners, corners on one line, needles.
+/// Draws degenerate points, segments and triangles: coinciding corners, corners on one line, needles.
 pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
     let offset = rng.random_range(0.5..3.0) * vector(rng).normalize();
     let piece = |rng: &mut Pcg64| -> Vec<DVec3> {
@@ -253,7 +252,7 @@ pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
     Scene::new(piece(rng), b).reframed(rng, 1.0)
 }
 
-/// Boxes whose faces are parallel up to a tilt below rounding, at the distance `gap`.
+/// Draws boxes at the distance `gap` whose faces are parallel up to a tilt below rounding.
 pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
     let cuboid = |half: DVec3| -> Vec<DVec3> {
         let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
@@ -273,7 +272,7 @@ pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
     Scene::new(cuboid(DVec3::ONE), b).reframed(rng, 1.0)
 }
 
-/// Hulls of points on spheres, at the distance of about `gap`.
+/// Draws hulls of points on spheres, at a distance of about `gap`.
 pub(crate) fn balls(rng: &mut Pcg64, count: usize, gap: f64) -> Scene {
     let ball = |rng: &mut Pcg64| -> Vec<DVec3> {
         (0..count)

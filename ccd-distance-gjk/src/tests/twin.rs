@@ -1,9 +1,10 @@
-//! Distances by brute force: every point, edge and triangle that the points of a piece span.
+//! Computes distances by brute force, as a reference: from every point, edge and triangle that the points of a piece
+//! span.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// The distance of two hulls of few points that do not intersect.
+/// Returns the distance of two hulls of few points that do not intersect.
 pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
     let mut best = f64::INFINITY;
     for &y in b {
@@ -20,7 +21,7 @@ pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
     best
 }
 
-/// The distance of a point from the nearest of the points, edges and triangles.
+/// Returns the distance of a point from the nearest of a hull's points, edges and triangles.
 fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
     let corners = points.iter().map(|p| p.distance(x));
     let feet = edges(points).into_iter().filter_map(|[p, q]| {
@@ -34,7 +35,7 @@ fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
     corners.chain(feet).chain(faces).fold(f64::INFINITY, lesser)
 }
 
-/// The height of `x` above the inside of a triangle.
+/// Returns the height of `x` above a triangle; `None` if its projection is outside.
 fn above(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> {
     let n = (q - p).cross(r - p);
     let foot = x - (x - p).dot(n) / n.length_squared() * n;
@@ -44,7 +45,7 @@ fn above(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> {
     inside.then(|| foot.distance(x))
 }
 
-/// The distance of two lines, where the common perpendicular meets both segments inside.
+/// Returns the distance of two lines, if their common perpendicular meets both segments inside.
 fn crossing(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> Option<f64> {
     let (d, e, w) = (q - p, s - r, r - p);
     let n = d.cross(e);

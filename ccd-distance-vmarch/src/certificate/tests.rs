@@ -1,4 +1,4 @@
-//! Support gaps of cubes, and axes where the difference vector is rounding.
+//! Tests support gaps of cubes, and axes if the difference vector is rounding.
 
 use super::{Axis, best_axis, gap};
 use crate::feature::{Feature, Pair};
@@ -28,8 +28,7 @@ fn gaps_are_those_of_the_supports() {
     assert!(!Axis::along(&placed, DVec3::ZERO).certifies(0.0, &placed));
 }
 
-/// Cubes that touch in a corner, an edge, a face, or nearly touch: the difference vector has no
-/// direction, but the axis separates.
+/// Tests cubes that touch in a corner, an edge, a face, or nearly touch: the difference vector has no direction.
 #[rstest]
 fn touching_features_have_an_axis(
     #[values(

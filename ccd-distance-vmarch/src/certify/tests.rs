@@ -1,4 +1,4 @@
-//! Tests of every recovery.
+//! Tests every recovery after a march that ended without a certain result.
 
 use super::certify;
 use crate::counters::Counters;
@@ -12,7 +12,7 @@ use crate::witness::Witness;
 use ccd_core::GiveUp;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// Every end at every pair is certified at the same distance.
+/// Checks that every kind of end, at every pair of features, is certified at the same distance.
 fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) {
     let place = |p: DVec3| placed.b.point(p - placed.b.shape().origin);
     for one in features(placed.a.0) {

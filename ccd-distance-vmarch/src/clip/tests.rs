@@ -1,4 +1,4 @@
-//! Lines over the top of a cube, and parallel to each other.
+//! Tests lines over the top of a cube, and lines parallel to each other.
 
 use super::{beside, to_prism};
 use crate::placed::{Line, Placed};
@@ -6,7 +6,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// The part of a needle over the cube's top: parameters, and the middles of the edges that cut it.
+/// Returns the part of a needle over the cube's top, by the parameters and the cutting edges of its ends.
 fn clipped(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);

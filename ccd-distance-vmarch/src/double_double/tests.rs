@@ -1,4 +1,4 @@
-//! Digits that f64 alone would lose.
+//! Tests digits that f64 alone would lose.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Needles around an edge of a cube, and nearest points of segments at every angle.
+//! Tests needles around an edge of a cube, and nearest points of segments at every angle.
 
 use super::{nearest, next};
 use crate::feature::Certainty::{Sure, Tied};
@@ -77,8 +77,8 @@ fn finds_edges_below_both_faces() {
     assert!(behind.point.distance(DVec3::new(0.0, 0.9, 0.9)) < 1e-15);
 }
 
-/// No other points of two segments are nearer by more than rounding, for angles from crossing to parallel up to the
-/// last bit.
+/// Tests that no other points of two segments are nearer by more than rounding, for angles from crossing to parallel up
+/// to the last bit.
 #[test]
 fn nearest_points_are_nearest_at_every_angle() {
     let mut rng = Pcg64::seed_from_u64(5);

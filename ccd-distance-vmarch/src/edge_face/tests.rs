@@ -1,4 +1,4 @@
-//! Needles over, through and next to the top of a cube.
+//! Tests needles over, through and next to the top of a cube.
 
 use super::next;
 use crate::feature::{Feature, Next, Which};

@@ -1,4 +1,4 @@
-//! Corners and needles behind a face of a cube.
+//! Tests corners and needles behind a face of a cube.
 
 use super::{Escape, escape, farthest};
 use crate::feature::{Behind, Feature};

@@ -1,4 +1,4 @@
-//! Every pair of features leads to the nearest one.
+//! Tests that a march from any pair of features ends at the nearest pair.
 
 use super::march;
 use crate::counters::Counters;
@@ -9,7 +9,7 @@ use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// Every start ends at the same distance.
+/// Tests that every start ends at the same distance.
 #[test]
 fn every_start_leads_to_the_nearest_features() {
     let shapes = [

@@ -1,4 +1,4 @@
-//! Features next to the nearest ones lead to these.
+//! Tests that features next to the nearest ones lead to these.
 
 use super::nearer;
 use crate::feature::{Feature, Pair};
@@ -20,8 +20,8 @@ fn the_nearest_pair_has_no_nearer_pair_around() {
     assert_eq!(nearer(&placed, pair, distance), None);
 }
 
-/// Two cubes almost face to face, tilted so that the corners at one end are nearer by less than their
-/// edges' directions show.
+/// Tests two cubes almost face to face, tilted so that the corners at one end are nearer by less than their edges'
+/// directions show.
 #[test]
 fn slow_approaches_are_found() {
     let (one, other) = (cube(), prepared(&shape::cuboid(DVec3::splat(0.9))));

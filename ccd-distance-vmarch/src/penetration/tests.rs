@@ -1,4 +1,4 @@
-//! Common points of needles, tetrahedra and cubes, to the last bit.
+//! Tests common points of needles, tetrahedra and cubes, to the last bit.
 
 use super::{contained, enclosed, passes, pierced, searched, weights};
 use crate::placed::Placed;
@@ -9,7 +9,7 @@ use rstest::rstest;
 
 const TRIANGLE: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
 
-/// The next larger number than 0.25, and the next smaller one.
+/// The next f64 above 0.25.
 const ABOVE: f64 = 0.25 + f64::EPSILON / 4.0;
 const BELOW: f64 = 0.25 - f64::EPSILON / 8.0;
 
@@ -39,7 +39,7 @@ fn signs_decide_to_the_last_bit(#[case] start: DVec3, #[case] end: DVec3, #[case
     }
 }
 
-/// Both combinations name one point, of slivers, too.
+/// Tests that both combinations are the same point, also for slivers.
 #[test]
 fn both_sides_name_the_same_point() {
     let mut rng = Pcg64::seed_from_u64(1);

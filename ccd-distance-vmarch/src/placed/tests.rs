@@ -7,14 +7,14 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{Frame, Piece};
 
-/// A piece of three points, far from its origin or not.
+/// Draws three points, far from their origin or not.
 fn corners(tape: &mut Tape) -> [DVec3; 3] {
     let (middle, small) = (DVec3::from(tape.vector(-8..=4)), tape.size(-30..=0));
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// The difference of two placed vertices against exact fractions. Errors of the rotation and translation are excluded:
-/// they move all vertices alike.
+/// Compares the difference of two transformed vertices with exact fractions. Errors of the rotation and translation are
+/// excluded: they move all vertices alike.
 #[test]
 fn worst_placing() {
     let found = Worst::of("PLACING", 6_000).search(|tape| {

@@ -5,7 +5,8 @@ use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Assembles a polytope from the outlines of a closed surface or, without faces, from the ends of an edge or a point.
+/// Assembles a polytope from the outlines of its faces, which close a surface. Without faces, `ends` are the ends of an
+/// edge, or a point.
 pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Polytope {
     let mut numbers: Vec<u32> = loops.iter().flatten().copied().collect();
     if numbers.is_empty() {
@@ -66,7 +67,7 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
     out
 }
 
-/// Returns the centre of the bounding box of some points.
+/// Returns the centre of the bounding box of some of the points.
 fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
     let used = numbers.iter().map(|&v| points[v as usize]);
     let low = used.clone().reduce(DVec3::min).unwrap_or_default();
@@ -74,7 +75,7 @@ fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
     low + 0.5 * (high - low)
 }
 
-/// Returns every edge once, from its lower to its higher vertex, in order.
+/// Returns every edge once, from its lower to its higher vertex, in ascending order.
 fn edges_of(loops: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> {
     let sides = loops.iter().flat_map(|outline| turn(outline));
     let mut edges: Vec<(u32, u32)> = sides.filter(|(v, w)| v < w).collect();

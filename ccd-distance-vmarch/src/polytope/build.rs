@@ -1,4 +1,4 @@
-//! Prepares a polytope from a piece.
+//! Prepares pieces for marching.
 
 use super::facets::{Facets, off_line};
 use super::support::DirectionTable;
@@ -9,7 +9,7 @@ use ccd_core::order::greater;
 use ccd_core::{GiveUp, Piece};
 
 impl Polytope {
-    /// Prepares a piece.
+    /// Prepares a piece for marching.
     ///
     /// # Errors
     /// [`GiveUp::BadFacets`] for a piece without points, or with points that are not finite. Also
@@ -55,7 +55,7 @@ impl Polytope {
     }
 }
 
-/// The dimension of points up to rounding: a point, a line, or more; with two points far from each other.
+/// The dimension of some points up to rounding: a point, a line, or more, with two points far from each other.
 enum Spread {
     Point,
     Line([u32; 2]),

@@ -28,9 +28,9 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
 struct Check<'a> {
     points: &'a [DVec3],
     polytope: &'a Polytope,
-    /// The allowed distance of rounded corners from each face's plane.
+    /// For each face, the distance from its plane that rounding of the corners allows.
     slacks: Vec<f64>,
-    /// The position of each edge among the sides of either of its faces.
+    /// For each edge, its position among the sides of its two faces.
     positions: Vec<[usize; 2]>,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Returns whether a face is planar, and turns left at every corner, once around.
+    /// Returns whether a face is a planar convex polygon that winds once.
     fn is_polygon(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         let sides = self.polytope.sides_of(face);
@@ -77,7 +77,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Returns whether the neighbours' vertices next to the common edges are behind a face.
+    /// Returns whether a face is convex towards its neighbours: their vertices next to the common edges are behind it.
     fn falls_away(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         self.polytope.sides_of(face).iter().all(|side| {
@@ -95,7 +95,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Returns whether every face is connected to the first one over edges.
+    /// Returns whether all faces are connected over edges.
     fn is_in_one(&self) -> bool {
         let mut reached = vec![false; self.polytope.faces.len()];
         reached[0] = true;
@@ -112,8 +112,8 @@ impl<'a> Check<'a> {
         reached.into_iter().all(|reached| reached)
     }
 
-    /// Returns whether a ray from the mean of all vertices leaves through at most one face, by exact signs; rays that
-    /// meet an edge are skipped.
+    /// Returns whether the surface winds once: a ray from the mean of all vertices leaves through at most one face, by
+    /// exact signs. Rays that meet an edge are skipped.
     fn goes_around_once(&self) -> bool {
         let vertices = 0..self.polytope.vertices.len() as u32;
         let middle =
@@ -132,7 +132,7 @@ impl<'a> Check<'a> {
         layers.is_none_or(|layers| layers <= 1)
     }
 
-    /// Counts the faces through which the ray from one point through another leaves; `None` if it meets an edge.
+    /// Counts the faces through which the ray from one point through another leaves; `None` if the ray meets an edge.
     fn left_through(&self, from: DVec3, to: DVec3) -> Option<usize> {
         let mut layers = 0;
         for face in 0..self.polytope.faces.len() as u32 {
@@ -157,7 +157,8 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Returns a face's area over its extent from its first vertex: at least a quarter of its width.
+/// Returns a lower estimate of a face's width, at least a quarter of it: the area over the extent from the first
+/// vertex.
 fn width(polytope: &Polytope, face: u32) -> f64 {
     let sides = polytope.sides_of(face);
     let first = polytope.vertex(sides[0].vertex).point;

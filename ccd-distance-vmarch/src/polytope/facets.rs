@@ -1,26 +1,26 @@
-//! The given facets of a piece: welded, with planes, and connected along their sides.
+//! The facets of a piece, welded and connected along their sides, with their planes.
 
 use crate::double_double::DoubleDoubleVector;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector;
 
-/// Polygons of a closed surface: every side has its twin.
+/// The polygons of a closed surface: every side occurs in reverse in another polygon.
 #[derive(Debug)]
 pub(crate) struct Facets {
     pub(crate) loops: Vec<Vec<u32>>,
     pub(crate) planes: Vec<Plane>,
-    /// The facets across the sides of every facet, in order.
+    /// For each facet, the facets across its sides, in order.
     pub(crate) across: Vec<Vec<u32>>,
 }
 
-/// The plane of a polygon.
+/// The plane and the width of a polygon.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
-    /// Outward, of length one; zero for a polygon without area.
+    /// The outward unit normal; zero for a polygon without area.
     pub(crate) normal: DVec3,
     pub(crate) area: f64,
-    /// Its area over its longest side.
+    /// The area of the polygon over its longest side.
     pub(crate) width: f64,
 }
 
@@ -81,7 +81,7 @@ impl Facets {
 }
 
 impl Plane {
-    /// Computes the plane from the polygon's area vector, with exact differences of corners.
+    /// Computes the plane from the area vector of a polygon, with exact differences of corners.
     pub(crate) fn new(points: &[DVec3], corners: &[u32]) -> Self {
         let at = |k: usize| points[corners[k] as usize];
         let mut sum = DoubleDoubleVector::default();
@@ -101,18 +101,18 @@ impl Plane {
     }
 }
 
-/// Iterates over the sides of a loop, as pairs of vertices.
+/// Returns the sides of a polygon, as pairs of vertices.
 pub(crate) fn turn(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(next.copied())
 }
 
-/// Returns the unit vector, or zero if there is none.
+/// Returns the unit vector along `v`, or zero if there is none.
 pub(crate) fn unit(v: DVec3) -> DVec3 {
     vector::unit(v).unwrap_or(DVec3::ZERO)
 }
 
-/// Returns the distance of a point from the line through two others, or from the first if they are equal.
+/// Returns the distance of a point from a line through two points, or from the first if they are equal.
 pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     let along = DoubleDoubleVector::difference(end, start);
     let area = DoubleDoubleVector::difference(p, start)
@@ -126,7 +126,7 @@ pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     }
 }
 
-/// Maps every point to the first one at the same position.
+/// Returns for every point the index of the first one at the same position.
 fn welded(points: &[DVec3]) -> Vec<u32> {
     // Zero is added so that -0 is 0.
     let key = |v: u32| {

@@ -3,7 +3,8 @@
 use super::facets::{Facets, off_line, turn};
 use ccd_core::glam::DVec3;
 
-/// Returns the outlines of the merged faces; `None` if a face has several outlines, or one of less than three corners.
+/// Merges coplanar facets, and returns the outlines of the faces; `None` if a face has several outlines, or one of
+/// fewer than three corners.
 ///
 /// A face grows from its largest facet over neighbours with all corners within `rounding` of that
 /// facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped. In
@@ -33,7 +34,7 @@ pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<
     polygons.then_some(outlines)
 }
 
-/// Assigns a face to every facet; returns the faces and their number.
+/// Groups coplanar facets: returns the face of each facet, and the number of faces.
 fn grouped(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) {
     const NONE: u32 = u32::MAX;
     let mut order: Vec<u32> = (0..facets.loops.len() as u32).collect();
@@ -69,7 +70,7 @@ fn grouped(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) 
     (faces, count)
 }
 
-/// Chains the sides between different faces to one loop for each face.
+/// Chains the sides between different faces to one outline for each face.
 fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option<Vec<Vec<u32>>> {
     const NONE: u32 = u32::MAX;
     let mut members = vec![Vec::new(); count as usize];
@@ -106,7 +107,7 @@ fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option
     Some(out)
 }
 
-/// Removes corners within `rounding` of the line between their neighbours.
+/// Removes corners from an outline that are within `rounding` of the line between their neighbours.
 fn without_straight(points: &[DVec3], outline: &[u32], rounding: f64) -> Vec<u32> {
     let at = |v: u32| points[v as usize];
     let mut kept: Vec<u32> = Vec::with_capacity(outline.len());

@@ -1,16 +1,16 @@
-//! Extremal corners: a table of directions, and hill climbing `[SWIFT01]`.
+//! Finds extremal corners by a table of directions and hill climbing `[SWIFT01]`.
 
 use super::Polytope;
 use ccd_core::glam::DVec3;
 
-/// The extremal vertices in directions all around.
+/// The extremal vertices in directions all around, arranged by squares on the sides of a cube.
 ///
 /// A direction belongs to one of sixteen squares on one of six sides of a cube. In most polytopes the vertex of the
 /// square is one or two edges from the extremal one.
 #[derive(Clone, Debug)]
 pub(crate) struct DirectionTable([u32; 6 * SQUARES * SQUARES]);
 
-/// The number of squares along the side of the cube.
+/// The number of squares along an edge of the cube.
 const SQUARES: usize = 4;
 
 impl DirectionTable {
@@ -25,13 +25,13 @@ impl DirectionTable {
         DirectionTable(corners)
     }
 
-    /// Returns the vertex for a direction of any length; any vertex if it is not finite.
+    /// Returns the vertex in the table for a direction of any length; any vertex if it is not finite.
     fn vertex_towards(&self, direction: DVec3) -> u32 {
         self.0[square_of(direction)]
     }
 }
 
-/// Returns the square of a direction.
+/// Returns the index of the square through which a direction passes.
 fn square_of(direction: DVec3) -> usize {
     let size = direction.abs();
     let axis = match (size.x >= size.y, size.x >= size.z, size.y >= size.z) {
@@ -66,7 +66,7 @@ fn middle_of(square: usize) -> DVec3 {
 }
 
 impl Polytope {
-    /// Returns a corner that is farthest along a direction, except for rounding.
+    /// Returns a corner that is farthest along a direction, up to rounding.
     pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(table) = &self.directions {
             return self.climbed(table.vertex_towards(direction), direction);
@@ -82,7 +82,7 @@ impl Polytope {
             .1
     }
 
-    /// Climbs to the highest neighbour until none is higher.
+    /// Climbs to the highest neighbour until no neighbour is higher.
     ///
     /// It may stop short of corners that are level up to rounding: a march goes on from there.
     fn climbed(&self, start: u32, direction: DVec3) -> u32 {

@@ -1,4 +1,4 @@
-//! Preparation of pieces, and refused pieces.
+//! Tests the preparation of pieces, and pieces that are refused.
 
 use super::{NO_FACE, Polytope};
 use crate::tests::setting::prepared;
@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{GiveUp, Piece};
 use rstest::rstest;
 
-/// The numbers of corners, edges and faces.
+/// Returns the numbers of corners, edges and faces.
 fn counts(polytope: &Polytope) -> [usize; 3] {
     [
         polytope.vertices.len(),
@@ -16,7 +16,7 @@ fn counts(polytope: &Polytope) -> [usize; 3] {
     ]
 }
 
-/// Checks the laws of every polytope.
+/// Checks the properties that every polytope has.
 fn is_sound(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
@@ -84,7 +84,7 @@ fn features_follow_from_points_and_facets(#[case] shape: Shape, #[case] expected
     is_sound(&polytope);
 }
 
-/// A cube with points inside its edges and faces, as in meshes: 26 points, 48 triangles.
+/// Creates a cube with points inside its edges and faces, as in meshes: 26 points, 48 triangles.
 fn subdivided() -> Shape {
     let cube = shape::cuboid(DVec3::ONE);
     let mut points = Vec::new();
@@ -128,7 +128,7 @@ fn coplanar_facets_are_one_face_and_corners_within_are_none() {
     }
 }
 
-/// Duplicate points, degenerate facets along an edge, and inner points are all dropped.
+/// Tests that duplicate points, degenerate facets along an edge, and inner points are dropped.
 #[test]
 fn superfluous_points_are_left_out() {
     let mut cube = shape::cuboid(DVec3::ONE);
@@ -146,7 +146,7 @@ fn superfluous_points_are_left_out() {
     is_sound(&polytope);
 }
 
-/// Slivers down to where corners are rounded, and random affine images of everything.
+/// Tests slivers as thin as the rounding of corners, and random affine images of polytopes.
 #[test]
 fn thin_polytopes_are_sound() {
     let mut rng = Pcg64::seed_from_u64(2);
@@ -169,7 +169,7 @@ fn thin_polytopes_are_sound() {
     }
 }
 
-/// A plate thinner than rounding is flat.
+/// Tests that a plate thinner than rounding is flat.
 #[test]
 fn plates_are_flat_from_rounding_on() {
     for (thin, faces) in [(1e-12, 6), (1e-14, 6), (1e-16, 2), (0.0, 2)] {

@@ -1,4 +1,4 @@
-//! Caches of anything.
+//! Tests that any cache is harmless.
 
 use super::{Cache, extremal};
 use crate::feature::{Feature, Pair};
@@ -26,7 +26,7 @@ fn invalid_states_are_no_start(#[case] a: Feature, #[case] b: Feature) {
     assert_eq!(cache.start(&placed), corners);
 }
 
-/// One polytope is replaced by a part of it; the other's feature is reused.
+/// Tests a polytope that is replaced by a part of it, while the other's feature is reused.
 #[test]
 fn a_part_is_begun_with_along_the_last_axis() {
     let (cube, point) = (cube(), point());

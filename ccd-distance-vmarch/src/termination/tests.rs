@@ -1,4 +1,4 @@
-//! Repeated states are detected.
+//! Tests that repeated states are detected.
 
 use super::Brent;
 use crate::feature::{Feature, Pair};

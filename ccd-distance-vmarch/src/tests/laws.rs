@@ -1,4 +1,4 @@
-//! Laws of claims about pieces that touch, contain each other, spin, or make no sense.
+//! Tests claims about pieces that touch, contain each other, spin, or are invalid.
 
 use super::scene::{self, Body, Kind, Scene};
 use super::shape::{self, Pcg64, RngExt, SeedableRng, Shape, direction, magnitude};
@@ -10,7 +10,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
 use rstest::rstest;
 
-/// Claims about pieces that barely intersect, touch, or are barely apart are true up to rounding.
+/// Tests that claims about pieces that barely intersect, touch, or are barely apart are exact up to rounding.
 #[rstest]
 fn touching_is_exact_up_to_rounding(
     #[values(-1e-9, -1e-13, -1e-16, 0.0, 1e-16, 1e-13, 1e-9)] gap: f64,
@@ -64,7 +64,7 @@ fn touching_is_exact_up_to_rounding(
     }
 }
 
-/// A small polytope inside a large one has a common point with it, though the surfaces are apart.
+/// Tests a small polytope inside a large one: they have a common point, though the surfaces are apart.
 #[test]
 fn pieces_inside_intersect() {
     let (large, small) = (
@@ -120,7 +120,7 @@ fn ask_thrice(oracle: &mut Vmarch, scene: &Scene<'_>, cache: &mut Cache) {
     }
 }
 
-/// Coordinates far apart in size end with points of the pieces: zeros, units, the least and large numbers.
+/// Tests that searches of coordinates far apart in size end, and name points of the pieces.
 #[test]
 fn odd_coordinates_end() {
     const ODD: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e11, -1e11, f64::MIN_POSITIVE];
@@ -148,7 +148,7 @@ fn odd_coordinates_end() {
     }
 }
 
-/// Degenerate frames and empty pieces end like all others.
+/// Tests that degenerate frames and empty pieces do not make a march hang or fail.
 #[test]
 fn nonsense_ends() {
     let shapes = [
@@ -189,7 +189,7 @@ fn nonsense_ends() {
     assert_eq!(oracle.separation(&pair, &mut cache), Err(GiveUp::BadFacets));
 }
 
-/// A ball of triangles that spins over a plate: many features are almost as near as each other.
+/// Tests a ball of triangles that spins over a plate, so that many features are almost equally near.
 #[test]
 fn spinning_balls_are_as_near_as_their_lowest_corner() {
     let (ball, plate) = (
@@ -227,8 +227,8 @@ fn spinning_balls_are_as_near_as_their_lowest_corner() {
     assert!(counters.steps < 4 * counters.calls, "{counters:?}");
 }
 
-/// Cubes moved to and fro across the place where their nearest features change. The displacement is
-/// halved each time, until the last bit decides: V-Clip's own hardest test.
+/// Tests cubes moved to and fro across the place where their nearest features change. The displacement is halved each
+/// time, until the last bit decides: V-Clip's own hardest test.
 #[test]
 fn changes_of_features_are_exact_to_the_last_bit() {
     let mut rng = Pcg64::seed_from_u64(8);
@@ -273,7 +273,7 @@ fn changes_of_features_are_exact_to_the_last_bit() {
     assert!(tally.claims > cases() && tally.give_ups == 0, "{tally:?}");
 }
 
-/// Scaling by powers of two scales answers exactly.
+/// Tests that scaling by powers of two scales answers exactly.
 #[test]
 fn size_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(6);
@@ -302,7 +302,7 @@ fn size_does_not_matter() {
     }
 }
 
-/// Coordinates far from the origin bring the rounding they were given with, and no more.
+/// Tests that coordinates far from the origin add only the rounding of the coordinates themselves.
 #[test]
 fn place_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(7);
@@ -329,10 +329,10 @@ fn place_does_not_matter() {
     }
 }
 
-/// Another oracle answers where it gives up, and everything is counted.
+/// Tests that a second oracle answers if the march gives up, and that everything is counted.
 #[test]
 fn other_oracles_take_over_and_counts_are_kept() {
-    /// Claims the first points.
+    /// An oracle that claims the first points of both pieces.
     struct First;
     impl DistanceOracle for First {
         type Cache = ();
@@ -383,7 +383,7 @@ fn other_oracles_take_over_and_counts_are_kept() {
     assert_eq!(counted.counters().steps, before + 1);
 }
 
-/// The same call gives the same bits, independent of earlier calls.
+/// Tests that the same call gives the same bits, independent of earlier calls.
 #[test]
 fn answers_repeat() {
     let mut rng = Pcg64::seed_from_u64(12);

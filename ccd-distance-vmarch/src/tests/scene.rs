@@ -1,15 +1,15 @@
-//! Pairs of polytopes of every kind that is hard for Voronoi marching, with their known properties.
+//! Pairs of polytopes of every kind that is hard for Voronoi marching, with known properties.
 
 use super::shape::{self, Pcg64, RngExt, Shape, direction, magnitude, vector};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Frame, PiecePair, Pieces};
 
-/// A shape with the list that its piece is of.
+/// A shape as a list of one piece.
 pub(crate) struct Body {
     pub(crate) shape: Shape,
     pub(crate) pieces: Pieces,
-    /// A point well inside.
+    /// A point well inside the shape.
     middle: DVec3,
 }
 
@@ -24,7 +24,7 @@ impl Body {
     }
 }
 
-/// Kinds of pairs.
+/// The kinds of pairs from which tests draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Random,
@@ -39,7 +39,7 @@ pub(crate) enum Kind {
     Flat,
 }
 
-/// The bodies that a kind is drawn from.
+/// Draws the bodies from which pairs of a kind are made.
 pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
     let shapes = match kind {
         Kind::Random => hulls(rng, &[4, 4, 5, 6, 8, 8, 10, 12, 16, 20, 20, 24]),
@@ -147,7 +147,7 @@ pub(crate) fn rotation(rng: &mut Pcg64) -> DQuat {
     DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
 }
 
-/// One of the rotations that take the axes to axes.
+/// Draws a rotation that maps coordinate axes to coordinate axes.
 fn quarter_turns(rng: &mut Pcg64) -> DMat3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let k = rng.random_range(0..3);
@@ -157,12 +157,12 @@ fn quarter_turns(rng: &mut Pcg64) -> DMat3 {
     DMat3::from_cols(x, y, x.cross(y))
 }
 
-/// Two bodies and their relative pose.
+/// Two bodies, and the pose of one relative to the other.
 pub(crate) struct Scene<'a> {
     pub(crate) a: &'a Body,
     pub(crate) b: &'a Body,
     pub(crate) b_to_a: Frame,
-    /// The least distance; 0 if they were placed to intersect.
+    /// The least distance of the bodies; 0 if they were placed to intersect.
     pub(crate) gap: f64,
 }
 
@@ -175,7 +175,7 @@ impl Scene<'_> {
         }
     }
 
-    /// The largest coordinates, all together.
+    /// Returns the sum of the largest coordinates.
     pub(crate) fn reach(&self) -> f64 {
         let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, greater);
         largest(&self.a.shape.points)
@@ -184,7 +184,7 @@ impl Scene<'_> {
     }
 }
 
-/// Draws a pair of a kind: the orientation of B, its direction, and its distance.
+/// Draws a pair of a kind, with the orientation of B, its direction, and its distance.
 pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'a> {
     let (a, b) = (
         &pool[rng.random_range(0..pool.len())],
@@ -232,7 +232,7 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
     Scene { a, b, b_to_a, gap }
 }
 
-/// Returns a position of B apart from A along some direction, and the distance there.
+/// Returns a position of B at which it is apart from A, and the distance there.
 fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (DVec3, f64) {
     let whole = kind == Kind::Grid;
     let n = match rng.random_range(0..4) {

@@ -1,4 +1,4 @@
-//! Small polytopes at simple positions, and their features by position.
+//! Small polytopes at simple positions, whose features are found by position.
 
 use super::shape::{self, Shape};
 use crate::feature::Feature;
@@ -12,7 +12,7 @@ pub(crate) fn prepared(shape: &Shape) -> Polytope {
     Polytope::new(&pieces.get(0)).expect("a convex polytope")
 }
 
-/// The cube from −1 to 1 along every axis.
+/// Creates the cube from −1 to 1 along every axis.
 pub(crate) fn cube() -> Polytope {
     prepared(&shape::cuboid(DVec3::ONE))
 }
@@ -21,7 +21,7 @@ pub(crate) fn point() -> Polytope {
     prepared(&shape::few(&[DVec3::ZERO]))
 }
 
-/// One edge about the origin.
+/// Creates one edge about the origin.
 pub(crate) fn needle(half: DVec3) -> Polytope {
     prepared(&shape::few(&[-half, half]))
 }
@@ -38,18 +38,18 @@ pub(crate) fn turned<'a>(a: &'a Polytope, b: &'a Polytope, by: DQuat, to: DVec3)
     PlacedPair::new(a, b, &frame)
 }
 
-/// The corner nearest to a point, in the polytope's own coordinates.
+/// Returns the corner nearest to a point, in the polytope's own coordinates.
 pub(crate) fn vertex(polytope: &Polytope, at: DVec3) -> u32 {
     nearest(polytope.vertices.iter().map(|v| v.point), at)
 }
 
-/// The edge whose middle is nearest to a point.
+/// Returns the edge whose middle is nearest to a point.
 pub(crate) fn edge(polytope: &Polytope, at: DVec3) -> u32 {
     let middle = |e: &crate::polytope::Edge| e.start + 0.5 * e.length * e.along;
     nearest(polytope.edges.iter().map(middle), at)
 }
 
-/// The face that looks most along a direction.
+/// Returns the face whose normal is nearest to a direction.
 pub(crate) fn face(polytope: &Polytope, along: DVec3) -> u32 {
     nearest(polytope.faces.iter().map(|f| f.normal), along)
 }
@@ -60,7 +60,7 @@ fn nearest(points: impl Iterator<Item = DVec3>, at: DVec3) -> u32 {
     least.expect("a feature").1
 }
 
-/// Every feature that a march may be at.
+/// Returns every feature that can be a state of a march.
 pub(crate) fn features(polytope: &Polytope) -> Vec<Feature> {
     let vertices = (0..polytope.vertices.len() as u32).map(Feature::Vertex);
     let edges = (0..polytope.edges.len() as u32).map(Feature::Edge);

@@ -8,7 +8,7 @@ pub(crate) use rand_pcg::Pcg64;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
-/// Points and the facets of their hull.
+/// The corners and the facets of a convex hull.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) points: Vec<DVec3>,
@@ -16,7 +16,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// A list of this piece alone.
+    /// Returns a list of this piece alone.
     pub(crate) fn pieces(&self) -> Pieces {
         let facet = |corners: &Vec<u32>| Facet {
             origin: Origin::Virtual,
@@ -35,7 +35,7 @@ impl Shape {
         self
     }
 
-    /// Facets cut into triangles, as meshes have them.
+    /// Cuts the facets into triangles, as meshes have them.
     pub(crate) fn triangulated(mut self) -> Self {
         let fan = |l: &Vec<u32>| {
             (1..l.len() - 1)
@@ -50,7 +50,7 @@ impl Shape {
         self
     }
 
-    /// Edges, each once.
+    /// Returns the edges, each once.
     pub(crate) fn edges(&self) -> Vec<[u32; 2]> {
         if self.loops.is_empty() {
             let count = self.points.len() as u32;
@@ -80,12 +80,12 @@ pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
     }
 }
 
-/// Draws a number between two powers of ten, every order of magnitude as likely.
+/// Draws a number between two powers of ten, with every order of magnitude equally likely.
 pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
-/// The hull of a few points, by trying the plane of every three of them, with exact signs.
+/// Computes the hull of a few points by trying the plane of every three of them, with exact signs.
 pub(crate) fn hull(points: &[DVec3]) -> Shape {
     let count = points.len();
     let mut planes: Vec<Vec<u32>> = Vec::new();
@@ -236,7 +236,7 @@ pub(crate) fn bipyramid(corners: u32) -> Shape {
     }
 }
 
-/// Rings of corners between two poles: a finely tessellated ball.
+/// Creates a finely tessellated ball: rings of corners between two poles.
 pub(crate) fn globe(rings: u32, corners: u32) -> Shape {
     let mut points = vec![-DVec3::Z];
     for k in 1..=rings {
@@ -263,7 +263,7 @@ pub(crate) fn globe(rings: u32, corners: u32) -> Shape {
     Shape { points, loops }
 }
 
-/// The cyclic polytope, shrunk into the unit ball: slivers that all meet in two corners.
+/// Creates the cyclic polytope in the unit ball, whose slivers all meet in two corners.
 pub(crate) fn cyclic(count: u32) -> Shape {
     let curve = |t: u32| 2.0 * f64::from(t) / f64::from(count - 1) - 1.0;
     let point = |t: u32| DVec3::new(curve(t), curve(t).powi(2), curve(t).powi(3));
@@ -275,7 +275,7 @@ pub(crate) fn cyclic(count: u32) -> Shape {
     }
 }
 
-/// A flat polygon with a front and a back.
+/// Creates a flat polygon with a front and a back.
 pub(crate) fn polygon(corners: u32) -> Shape {
     Shape {
         points: ring(corners, 0.0, 0.0).collect(),
@@ -283,7 +283,7 @@ pub(crate) fn polygon(corners: u32) -> Shape {
     }
 }
 
-/// One, two or three points.
+/// Creates the shape of one, two or three points.
 pub(crate) fn few(points: &[DVec3]) -> Shape {
     Shape {
         points: points.to_vec(),
@@ -291,13 +291,13 @@ pub(crate) fn few(points: &[DVec3]) -> Shape {
     }
 }
 
-/// The hull of random points of the unit sphere.
+/// Computes the hull of random points of the unit sphere.
 pub(crate) fn random_hull(rng: &mut Pcg64, count: usize) -> Shape {
     let points: Vec<DVec3> = (0..count).map(|_| direction(rng)).collect();
     hull(&points)
 }
 
-/// The hull of random points of a small grid, with coplanar ones among them.
+/// Computes the hull of random points of a small grid, some of them coplanar.
 pub(crate) fn grid_hull(rng: &mut Pcg64, count: usize) -> Shape {
     loop {
         let mut whole = || f64::from(rng.random_range(-2i32..=2));

@@ -1,4 +1,4 @@
-//! Parts of cubes that are face to face: they touch without a common inside.
+//! Tests parts of cubes that are face to face: they touch, but their interiors do not meet.
 
 use super::scene::{Body, Scene};
 use super::shape;
@@ -8,7 +8,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::{DistanceOracle, Frame};
 use std::f64::consts::FRAC_PI_2;
 
-/// A cube and its triangles, each by itself.
+/// Returns a cube, and each of its triangles.
 fn parts() -> Vec<Body> {
     let cube = shape::cuboid(DVec3::ONE);
     let triangles = cube.clone().triangulated();
@@ -21,8 +21,8 @@ fn parts() -> Vec<Body> {
     parts
 }
 
-/// Another cube next to, above or in front of the first one, shifted along the common face, and
-/// turned by quarters, which are inexact in floating point.
+/// Returns frames that put another cube next to, above or in front of the first one. It is shifted along the common
+/// face, and turned by right angles, which are inexact in floating point.
 fn frames() -> Vec<Frame> {
     let mut frames = Vec::new();
     for (side, shift) in [
@@ -44,7 +44,7 @@ fn frames() -> Vec<Frame> {
     frames
 }
 
-/// The axis separates any two of their parts, in all kinds of contact.
+/// Tests that the axis separates any two parts of the cubes, in all kinds of contact.
 #[test]
 fn parts_of_flush_cubes_are_kept_apart() {
     let parts = parts();

@@ -1,4 +1,5 @@
-//! Distances by brute force: all corners, edges and faces of one polytope against all of the other.
+//! Computes distances by brute force, as a reference: all corners, edges and faces of one polytope against all of the
+//! other.
 
 use super::shape::Shape;
 use crate::double_double::DoubleDoubleVector;
@@ -6,7 +7,7 @@ use ccd_core::Frame;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// A polytope in A's frame, without any structure but its lists.
+/// A polytope in A's frame, as plain lists of features.
 pub(crate) struct Bare {
     pub(crate) points: Vec<DVec3>,
     edges: Vec<Segment>,
@@ -69,13 +70,13 @@ impl Bare {
     }
 }
 
-/// The support gap from A to B along a unit vector.
+/// Returns the support gap from A to B along a unit vector.
 pub(crate) fn gap(a: &Bare, b: &Bare, n: DVec3) -> f64 {
     -b.highest(-n) - a.highest(n)
 }
 
-/// The distance of the surfaces: that of the polytopes, if neither is inside the other one and they
-/// do not intersect.
+/// Returns the distance of the surfaces. It is that of the polytopes, if neither is inside the other one and they do
+/// not intersect.
 ///
 /// Every number that is compared is the distance of two points that the polytopes do have, so that it
 /// is never too small by more than the rounding of a point.
@@ -119,7 +120,7 @@ fn foot(p: DVec3, edge: &Segment) -> DVec3 {
     }
 }
 
-/// The distance of a point from its foot on a polygon's plane, if that is inside of the polygon.
+/// Returns the distance of a point from a polygon's plane; infinite if its projection is outside of the polygon.
 fn height(p: DVec3, face: &Polygon) -> f64 {
     let corners = &face.corners;
     let height = (p - corners[0]).dot(face.normal);
@@ -135,7 +136,7 @@ fn height(p: DVec3, face: &Polygon) -> f64 {
     }
 }
 
-/// The distance of two segments near where their lines come closest.
+/// Returns the distance of two segments near where their lines come closest.
 fn crossing(e: &Segment, f: &Segment) -> f64 {
     let [p, q] = e.ends;
     let [r, s] = f.ends;
@@ -153,7 +154,7 @@ fn crossing(e: &Segment, f: &Segment) -> f64 {
     on_f.distance(foot(on_f, e))
 }
 
-/// Brute force against closed forms, at distances down to a millionth of the size.
+/// Tests brute force against closed forms, at distances down to a millionth of the size.
 #[test]
 fn brute_force_is_right() {
     use super::shape::{cuboid, few, polygon};

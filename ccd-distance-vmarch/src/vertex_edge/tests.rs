@@ -1,4 +1,4 @@
-//! Points, and edges that rise or fall from them, around an edge of a cube.
+//! Tests points, and edges that rise or fall from them, around an edge of a cube.
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
@@ -56,7 +56,8 @@ fn goes_on_to_the_face_on_whose_side_it_is(#[case] at: DVec3, #[case] normal: DV
     );
 }
 
-/// The other edge's corner is nearest unless that edge falls towards the cube's, however slowly.
+/// Tests edges at a slope to the cube's edge: the corner is nearest unless the edge falls towards the cube's, however
+/// slowly.
 #[rstest]
 #[case(-0.5, Some(true))]
 #[case(0.5, None)]

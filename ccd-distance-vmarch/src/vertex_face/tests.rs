@@ -1,4 +1,4 @@
-//! Corners above the top of a cube.
+//! Tests corners above the top of a cube.
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
@@ -60,7 +60,7 @@ fn finds_features_behind(#[case] at: DVec3) {
     );
 }
 
-/// A corner above the face is nearest unless one of its edges falls, by more than rounding.
+/// Tests corners above the face: a corner is nearest unless one of its edges falls by more than rounding.
 #[rstest]
 #[case(-0.3, true)]
 #[case(-1e-14, true)]

@@ -1,4 +1,4 @@
-//! Cubes and points around a corner.
+//! Tests cubes and points around a corner.
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};

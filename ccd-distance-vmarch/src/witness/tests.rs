@@ -1,4 +1,4 @@
-//! Nearest points on features, and their combinations.
+//! Tests nearest points on features, and the combinations that represent them.
 
 use super::{Witness, foot};
 use crate::feature::{Feature, Pair};
@@ -6,7 +6,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle, point, prepared, ve
 use crate::tests::shape::{self, Pcg64, RngExt, SeedableRng, magnitude, vector};
 use ccd_core::glam::DVec3;
 
-/// The witness of a pair, after its combinations were found to name its points.
+/// Returns the nearest points of a pair, after a check that the combinations represent them.
 fn witness(
     a: &shape::Shape,
     b: &shape::Shape,
@@ -69,7 +69,7 @@ fn features_have_nearest_points() {
     );
 }
 
-/// The axis of nearest points next to each other is that of the edges, not of rounding.
+/// Tests that the axis of nearest points close to each other is that of the edges, not of rounding.
 #[test]
 fn axes_are_those_of_the_features() {
     let (one, other) = (
@@ -104,7 +104,7 @@ fn pairs_that_are_never_a_stop_have_points() {
     assert_eq!(point.reach, 0.0);
 }
 
-/// Feet on triangles of any shape are combined of the corners to rounding of their size.
+/// Tests that projections onto triangles of any shape are combinations of the corners, up to rounding of their size.
 #[test]
 fn feet_are_right_on_needles() {
     let mut rng = Pcg64::seed_from_u64(4);
@@ -155,8 +155,8 @@ fn feet_outside_of_the_triangle_are_clamped_into_it() {
     }
 }
 
-/// Needles that cross at a small angle, close by: rounding of the axis along them would cost a
-/// hundred times the rounding of their positions.
+/// Tests needles that cross at a small angle, close to each other. Rounding of the axis along them would cost a hundred
+/// times the rounding of their positions.
 #[test]
 fn axes_certify_edges_that_cross_at_any_angle() {
     let mut rng = Pcg64::seed_from_u64(9);

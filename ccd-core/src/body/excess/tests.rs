@@ -36,12 +36,21 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
     let exceeding = |excess| Body::ball(1.0).unwrap().with_excess(excess).unwrap();
     let exact = Excess::of(&exceeding(0.0), &exceeding(0.0));
     // Exact bodies keep their bits.
-    assert_eq!((exact.above(0.3), exact.below(0.3)), (0.3, 0.3));
+    assert_eq!(
+        (
+            exact.upper_bound_of_shapes(0.3),
+            exact.certainly_nearer_below(0.3)
+        ),
+        (0.3, 0.3)
+    );
     let both = Excess::of(&exceeding(0.1), &exceeding(0.2));
-    assert!(both.of_overlap() > 0.1 + 0.2);
-    assert!(both.above(0.3) > 0.3 + both.of_overlap());
-    assert!(both.above(both.below(1.0)) >= 1.0 - 1e-15 && both.below(1.0) < 0.7);
-    assert_eq!(both.above(f64::INFINITY), f64::INFINITY);
+    assert!(both.distance_of_overlap() > 0.1 + 0.2);
+    assert!(both.upper_bound_of_shapes(0.3) > 0.3 + both.distance_of_overlap());
+    assert!(
+        both.upper_bound_of_shapes(both.certainly_nearer_below(1.0)) >= 1.0 - 1e-15
+            && both.certainly_nearer_below(1.0) < 0.7
+    );
+    assert_eq!(both.upper_bound_of_shapes(f64::INFINITY), f64::INFINITY);
     // A surface that exceeds the shape makes its body exceed it.
     let about = Round::cylinder(1.0, 1.0).unwrap().enclosed(0.1).unwrap();
     let whole = Body::polytope(about.polytope().clone()).unwrap();

@@ -1,4 +1,4 @@
-//! Tests that the outward side is found face by face, for any winding of the shells.
+//! Tests that the outward side is found for every face, whatever the winding of the shells.
 
 use super::Facing;
 use crate::body::{Body, Volume};
@@ -11,7 +11,7 @@ fn solid(triangles: &[Triangle]) -> Body {
     Body::new(&pieces(triangles), Volume::Solid).unwrap()
 }
 
-/// Compares the normal of every face with the outward direction from the middle of its shell.
+/// Checks the normal of every face against the direction away from the middle of its shell.
 fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
     for piece in 0..body.pieces().len() as u32 {
         let out = out_of(body.middle(piece));
@@ -46,7 +46,7 @@ fn a_cavity_faces_inward_however_the_whole_is_wound() {
     }
 }
 
-/// A cube as thin as a few units in the last place of its coordinates.
+/// Tests a cube as thin as a few units in the last place of its coordinates.
 #[test]
 fn a_thin_wall_has_two_sides() {
     let thin = |p: DVec3| DVec3::new(p.x, p.y, 1e-11 * p.z) + DVec3::splat(1e3);
@@ -75,7 +75,7 @@ fn faces_back_to_back_and_surfaces_face_neither_way() {
     assert_eq!(surface.facing(0), Facing::Neither);
 }
 
-/// Two lobes of one shell have opposite windings: the cross section is an eight.
+/// Tests two lobes of one shell with opposite windings: the cross section is a figure of eight.
 #[test]
 fn a_face_on_which_the_sides_change_is_unclear() {
     let eight = [(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)];

@@ -1,11 +1,11 @@
-//! The lookup by the facets of a corner, compared with a scan of all facets.
+//! Compares the lookup by a table of facets with a scan of all facets.
 
 use super::*;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, Polytope};
 use crate::tests::scene::{RngExt, rng};
 
-/// A prism of 60 sides, of which every third one is virtual.
+/// Creates a prism of 60 sides, every third of which is virtual.
 fn prism() -> Pieces {
     let count = 60;
     let rim = |height: f64| {

@@ -1,4 +1,4 @@
-//! Properties of every hierarchy, and all faults of nodes.
+//! Tests properties of hierarchies, and that invalid nodes are refused.
 
 use super::{Hierarchy, HierarchyNode::Inner, HierarchyNode::Leaf};
 use crate::body::{Body, Volume};
@@ -89,7 +89,7 @@ fn depth(nodes: &[super::HierarchyNode], at: u32) -> u32 {
     }
 }
 
-/// Chains of a hundred thousand nodes must not exhaust any stack, nor make a body fail.
+/// Tests that chains of a hundred thousand nodes exhaust no stack, and make bodies.
 #[test]
 fn a_chain_is_a_hierarchy_too() {
     let count = 100_000;

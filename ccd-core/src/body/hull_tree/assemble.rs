@@ -1,4 +1,4 @@
-//! The check and the assembly of nodes, children before their parents.
+//! Checks the input nodes of a hull tree and assembles the tree, children before parents.
 
 use super::bottom_up::bottom_up;
 use super::edges::check_facets;
@@ -21,7 +21,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 impl HullTree {
-    /// Builds a tree over pieces; node 0 is the root.
+    /// Builds a hull tree over pieces from nodes, the root first.
     ///
     /// # Errors
     /// [`HullTreeError`] names the node, and the part of the [guarantee](HullTree) that fails
@@ -32,9 +32,9 @@ impl HullTree {
     pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
         let hierarchy = hierarchy(pieces, nodes)?;
         let done = bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
-            (HullNode::Leaf(piece), _) => leaf(at, pieces.polytope(*piece as usize)),
+            (HullNode::Leaf(piece), _) => leaf_node(at, pieces.polytope(*piece as usize)),
             (HullNode::Inner(names, hull), [left, right]) => {
-                inner(at, hull, [(names[0], left), (names[1], right)])
+                inner_node(at, hull, [(names[0], left), (names[1], right)])
             }
         })?;
         let mut classes = Vec::new();
@@ -42,7 +42,7 @@ impl HullTree {
         for node in &done {
             // A bridge between thick and thin pieces is level with neither.
             classes.extend(node.facet_data.iter().map(|facet| {
-                if node.evenly_rounded {
+                if node.has_uniform_radius {
                     facet.class
                 } else {
                     FacetClass::Free
@@ -50,15 +50,15 @@ impl HullTree {
             }));
             class_ends.push(classes.len() as u32);
         }
-        let (meeting, meeting_ends) = meeting(&done);
+        let (facets_by_point, facets_by_point_ends) = facets_by_point(&done);
         let hulls = Hulls {
-            meeting,
-            meeting_ends,
+            facets_by_point,
+            facets_by_point_ends,
             classes,
             class_ends,
-            evenly_rounded: done.iter().map(|node| node.evenly_rounded).collect(),
+            has_uniform_radius: done.iter().map(|node| node.has_uniform_radius).collect(),
             sizes: done.iter().map(|node| node.size).collect(),
-            pieces: flattened(done)?,
+            pieces: flatten_hulls(done)?,
         };
         Ok(HullTree {
             hierarchy,
@@ -67,8 +67,8 @@ impl HullTree {
     }
 }
 
-/// Returns the hulls of all nodes; each node's memory is freed once its hull is copied.
-fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
+/// Moves the hulls of all nodes to one list, and frees each node's memory once its hull is copied.
+fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     let mut capacity = Capacity::default();
     for node in &nodes {
         capacity.pieces += 1;
@@ -93,13 +93,12 @@ fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     builder.into_pieces()
 }
 
-/// Returns the facets that meet in each point of all hulls, in ascending order, and the end of each
-/// point's facets.
-fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
-    let (mut meeting, mut ends) = (Vec::new(), Vec::new());
+/// Returns the facets that meet in each point of all hulls, in ascending order, and the end of each point's list.
+fn facets_by_point(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
+    let (mut facets_by_point, mut ends) = (Vec::new(), Vec::new());
     for Node { points, loops, .. } in nodes {
         let start = ends.len();
-        let first = meeting.len() as u32;
+        let first = facets_by_point.len() as u32;
         // The entries are first counts, then the next free positions, and finally the ends.
         ends.resize(start + points.len(), 0);
         let next = &mut ends[start..];
@@ -109,39 +108,39 @@ fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
         for next in next.iter_mut() {
             end += std::mem::replace(next, end);
         }
-        meeting.resize(end as usize, 0);
+        facets_by_point.resize(end as usize, 0);
         for (k, corners) in (0..).zip(loops.iter()) {
             for &corner in corners {
-                meeting[next[corner as usize] as usize] = k;
+                facets_by_point[next[corner as usize] as usize] = k;
                 next[corner as usize] += 1;
             }
         }
     }
-    (meeting, ends)
+    (facets_by_point, ends)
 }
 
-/// Returns the node of a piece.
-fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
+/// Creates the leaf for a piece.
+fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     if let Some(point) = too_fine(&piece.points) {
         let point = point as u32;
         return Err(HullFault::TooFine { point }.at(at));
     }
-    let facet_data = FacetData::of_piece(&piece);
+    let facet_data = FacetData::facets_of_piece(&piece);
     let loops = piece.facets.into_iter().map(|facet| facet.corners);
     Ok(Node {
         facet_data,
-        evenly_rounded: true,
+        has_uniform_radius: true,
         size: size(&piece.points, piece.radius),
         loops: Cow::Owned(loops.collect()),
         points: Cow::Owned(piece.points),
         vertex_ids: piece.vertex_ids,
-        own_faces: Some(piece.faces),
+        leaf_faces: Some(piece.faces),
         radius: piece.radius,
     })
 }
 
-/// Returns the node of a hull over its two children.
-fn inner<'a>(
+/// Creates the inner node with a given hull over two children.
+fn inner_node<'a>(
     at: usize,
     hull: &'a Hull,
     children: [(u32, &Node<'_>); 2],
@@ -152,24 +151,24 @@ fn inner<'a>(
     check_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
 
     let [left, right] = children.map(|(_, child)| child);
-    let even = |child: &Node<'_>| child.evenly_rounded && child.radius == left.radius;
-    let evenly_rounded = even(left) && even(right);
+    let even = |child: &Node<'_>| child.has_uniform_radius && child.radius == left.radius;
+    let has_uniform_radius = even(left) && even(right);
     let of_left = Child::new(left, &identity.of_left);
     let of_right = Child::new(right, &identity.of_right);
     let radius = greater(left.radius, right.radius);
     Ok(Node {
-        facet_data: inherit(hull, &identity.places, [of_left, of_right]),
-        evenly_rounded,
+        facet_data: inherit(hull, &identity.positions, [of_left, of_right]),
+        has_uniform_radius,
         size: size(&hull.points, radius),
         loops: Cow::Borrowed(&hull.facets),
         points: Cow::Borrowed(&hull.points),
         vertex_ids: identity.vertex_ids,
-        own_faces: None,
+        leaf_faces: None,
         radius,
     })
 }
 
-/// Checks that the hull contains all points of its children.
+/// Checks that the hull of a node contains all points of its children.
 fn check_inside(
     hull: &Hull,
     identity: &Identity,
@@ -179,8 +178,8 @@ fn check_inside(
     for (&(child, node), ids) in children.iter().zip([&identity.of_left, &identity.of_right]) {
         let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
         let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();
-        let places: Vec<DVec3> = hidden.iter().map(|&k| node.points[k as usize]).collect();
-        if let Some(k) = container.left_out(&places) {
+        let positions: Vec<DVec3> = hidden.iter().map(|&k| node.points[k as usize]).collect();
+        if let Some(k) = container.first_outside(&positions) {
             let point = hidden[k];
             return Err(HullFault::ChildOutside { child, point });
         }

@@ -1,13 +1,13 @@
-//! A parallel traversal of nodes, children first, with subtrees on all cores.
+//! A parallel traversal of a binary tree, children before parents.
 
 use super::error::HullTreeError;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
-use crate::body::threads::{WORTHWHILE, join};
+use crate::body::threads::{MIN_PARALLEL_WORK, join};
 use std::num::NonZero;
 use std::ops::Range;
 use std::thread::available_parallelism;
 
-/// Computes a value for every node from the values of its children. Leaves get two arbitrary ones.
+/// Computes a value for every node from the values of its two children. Leaves receive two arbitrary values.
 ///
 /// # Guarantee
 /// The result does not depend on the number of cores. Of several errors, that of the first node in sequential order
@@ -31,20 +31,20 @@ fn bottom_up_in<T: Default + Send>(
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
     let order = children_first(hierarchy);
-    let mut below = vec![1; order.len()];
+    let mut subtree_sizes = vec![1; order.len()];
     for &at in &order {
         if let HierarchyNode::Inner(left, right) = hierarchy.nodes()[at] {
-            below[at] += below[left as usize] + below[right as usize];
+            subtree_sizes[at] += subtree_sizes[left as usize] + subtree_sizes[right as usize];
         }
     }
-    let row = Row {
+    let row = Postorder {
         hierarchy,
         order: &order,
-        below: &below,
+        subtree_sizes: &subtree_sizes,
         make,
     };
     let mut done: Vec<T> = order.iter().map(|_| T::default()).collect();
-    row.fill(0..order.len(), &mut done, parts)?;
+    row.compute_subtree(0..order.len(), &mut done, parts)?;
     let mut sorted: Vec<T> = order.iter().map(|_| T::default()).collect();
     for (&at, made) in order.iter().zip(done) {
         sorted[at] = made;
@@ -52,19 +52,19 @@ fn bottom_up_in<T: Default + Send>(
     Ok(sorted)
 }
 
-/// Nodes in postorder: the subtree of the first child, then that of the second, then the node.
-struct Row<'a, F> {
+/// The nodes in postorder: the first child's subtree, the second child's subtree, then the node.
+struct Postorder<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
     /// The number of nodes in each node's subtree.
-    below: &'a [usize],
+    subtree_sizes: &'a [usize],
     make: F,
 }
 
-impl<F> Row<'_, F> {
-    /// Computes a range of the row that is one subtree, in at most `parts` parts. The parts are divided by size, and
+impl<F> Postorder<'_, F> {
+    /// Computes the values of one subtree, in at most `parts` parts at a time. The parts are divided by size, and
     /// either side gets fewer, so that the depth of recursion is at most their number.
-    fn fill<T: Default + Send>(
+    fn compute_subtree<T: Default + Send>(
         &self,
         range: Range<usize>,
         done: &mut [T],
@@ -75,22 +75,22 @@ impl<F> Row<'_, F> {
     {
         let root = self.order[range.end - 1];
         match self.hierarchy.nodes()[root] {
-            HierarchyNode::Inner(left, _) if parts > 1 && range.len() >= WORTHWHILE => {
-                let middle = range.start + self.below[left as usize];
+            HierarchyNode::Inner(left, _) if parts > 1 && range.len() >= MIN_PARALLEL_WORK => {
+                let middle = range.start + self.subtree_sizes[left as usize];
                 let (first, others) = done.split_at_mut(middle - range.start);
                 let (second, _) = others.split_at_mut(range.end - 1 - middle);
                 let ranges = [range.start..middle, middle..range.end - 1];
                 let of_first = parts * ranges[0].len() / range.len();
                 let of_first = of_first.clamp(1, parts - 1);
-                self.fill_both(ranges, [first, second], [of_first, parts - of_first])?;
-                self.fill_one(range.end - 1, range.start, done)
+                self.compute_two_subtrees(ranges, [first, second], [of_first, parts - of_first])?;
+                self.compute_node(range.end - 1, range.start, done)
             }
-            _ => (range.clone()).try_for_each(|at| self.fill_one(at, range.start, done)),
+            _ => (range.clone()).try_for_each(|at| self.compute_node(at, range.start, done)),
         }
     }
 
-    /// Computes two subtrees, in parallel if both are worth it and a thread is free.
-    fn fill_both<T: Default + Send>(
+    /// Computes two subtrees, in parallel if both are large enough and a thread is free.
+    fn compute_two_subtrees<T: Default + Send>(
         &self,
         [one, other]: [Range<usize>; 2],
         [first, second]: [&mut [T]; 2],
@@ -101,21 +101,24 @@ impl<F> Row<'_, F> {
     {
         let (first, second) = join(
             one.len().min(other.len()),
-            || self.fill(one, first, of_first),
-            || self.fill(other, second, of_second),
+            || self.compute_subtree(one, first, of_first),
+            || self.compute_subtree(other, second, of_second),
         );
         first.and(second)
     }
 
-    /// Computes a node of the row after its children; `done` has the values from the position `start` of the row on.
-    fn fill_one<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
+    /// Computes the value of one node after its children's. `done` has the values from position `start` of the
+    /// postorder on.
+    fn compute_node<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
     {
         let node = self.order[at];
         let here = at - start;
         let children = match self.hierarchy.nodes()[node] {
-            HierarchyNode::Inner(_, right) => [here - 1 - self.below[right as usize], here - 1],
+            HierarchyNode::Inner(_, right) => {
+                [here - 1 - self.subtree_sizes[right as usize], here - 1]
+            }
             HierarchyNode::Leaf(_) => [here; 2],
         };
         done[here] = (self.make)(node, children.map(|child| &done[child]))?;
@@ -123,7 +126,7 @@ impl<F> Row<'_, F> {
     }
 }
 
-/// Returns all nodes, each after its children; every subtree is contiguous.
+/// Returns all nodes in postorder, so that every subtree is contiguous.
 fn children_first(hierarchy: &Hierarchy) -> Vec<usize> {
     let mut order = Vec::with_capacity(hierarchy.nodes().len());
     let mut stack = vec![0];

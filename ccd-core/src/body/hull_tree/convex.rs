@@ -1,4 +1,4 @@
-//! An exact decision whether facets are those of a convex polytope.
+//! Decides exactly whether facets are those of a convex polytope.
 
 use super::edges::edges_of;
 use crate::body::piece::Piece;
@@ -7,8 +7,8 @@ use crate::math::exact::{side, too_fine};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Prepares the search for extremal points of a hull of many points. Edges are climbed if they are proven to be those
-/// of the hull. Otherwise a tree is searched, which uses no facets.
+/// Builds the search structure for extremal points of a hull of many points. Edges are climbed if they are proven to be
+/// those of the hull. Otherwise a tree is searched, which uses no facets.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     if is_convex(hull) {
         Support::new(hull.points, hull.facets)
@@ -17,7 +17,7 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     }
 }
 
-/// Returns whether the facets close a convex polytope that has all points as corners.
+/// Returns whether the facets bound a convex polytope of which every point is a corner.
 ///
 /// # Guarantee
 /// A positive answer is exact. The facets are treated as fans of triangles, no two of which have a side in the same
@@ -36,35 +36,35 @@ fn is_convex(hull: &Piece<'_>) -> bool {
     for corners in hull.facets.iter() {
         corners.iter().for_each(|&v| on_facets[v as usize] = true);
         triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
-        if !is_plane(hull.points, corners) || !turns_one_way(hull.points, corners, middle) {
+        if !are_coplanar(hull.points, corners) || !is_convex_polygon(hull.points, corners, middle) {
             return false;
         }
     }
-    let place = |triangle: &[u32; 3]| triangle.map(|v| hull.points[v as usize]);
-    let behind = |triangle: &[u32; 3]| side(place(triangle), middle).is_lt();
+    let position = |triangle: &[u32; 3]| triangle.map(|v| hull.points[v as usize]);
+    let behind = |triangle: &[u32; 3]| side(position(triangle), middle).is_lt();
     on_facets.into_iter().all(|on| on)
         && triangles.iter().all(behind)
-        && bends_outward(&triangles, place)
-        && covers_once(&triangles, place, middle)
+        && is_locally_convex(&triangles, position)
+        && winds_once(&triangles, position, middle)
 }
 
-/// Returns whether the corners are in the plane of the first three.
-fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
-    let place = |&v: &u32| points[v as usize];
-    let first = [0, 1, 2].map(|k| place(&corners[k]));
-    let mut others = corners[3..].iter().map(place);
+/// Returns whether all corners are in the plane of the first three.
+fn are_coplanar(points: &[DVec3], corners: &[u32]) -> bool {
+    let position = |&v: &u32| points[v as usize];
+    let first = [0, 1, 2].map(|k| position(&corners[k]));
+    let mut others = corners[3..].iter().map(position);
     others.all(|p| side(first, p).is_eq())
 }
 
-/// Returns whether no corner of a facet is reflex, seen from a point behind it.
-fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
-    let place = |k: usize| points[corners[k % corners.len()] as usize];
-    let fan = |k: usize| [place(k), place(k + 1), place(k + 2)];
+/// Returns whether a facet is convex: it has no reflex corner, seen from a point behind it.
+fn is_convex_polygon(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
+    let position = |k: usize| points[corners[k % corners.len()] as usize];
+    let fan = |k: usize| [position(k), position(k + 1), position(k + 2)];
     (0..corners.len()).all(|k| side(fan(k), middle).is_le())
 }
 
-/// Returns whether each triangle's neighbours across its edges are not in front of its plane.
-fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
+/// Returns whether the surface is locally convex: no triangle's neighbour across an edge rises in front of its plane.
+fn is_locally_convex(triangles: &[[u32; 3]], position: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
     let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
         .iter()
         .flat_map(|triangle| edges_of(triangle).map(move |side| (side, triangle)))
@@ -78,26 +78,26 @@ fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]
     let bends = |(edge, triangle): &((u32, u32), &[u32; 3])| {
         let next = across(edge);
         next.is_some_and(|next| {
-            let mut corners = place(next).into_iter();
-            corners.all(|p| side(place(triangle), p).is_le())
+            let mut corners = position(next).into_iter();
+            corners.all(|p| side(position(triangle), p).is_le())
         })
     };
     once && sides.iter().all(bends)
 }
 
-/// Returns whether a ray from the middle that avoids all edges meets exactly one triangle.
-fn covers_once(
+/// Returns whether some ray from the middle that avoids all edges meets exactly one triangle.
+fn winds_once(
     triangles: &[[u32; 3]],
-    place: impl Fn(&[u32; 3]) -> [DVec3; 3],
+    position: impl Fn(&[u32; 3]) -> [DVec3; 3],
     middle: DVec3,
 ) -> bool {
     let Some(first) = triangles.first() else {
         return false;
     };
-    let target = place(first).into_iter().sum::<DVec3>() / 3.0;
+    let target = position(first).into_iter().sum::<DVec3>() / 3.0;
     let mut met = 0;
     for triangle in triangles {
-        let [a, b, c] = place(triangle);
+        let [a, b, c] = position(triangle);
         let sides = [[a, b], [b, c], [c, a]];
         let past = sides.map(|[from, to]| side([middle, to, from], target));
         if past.into_iter().all(Ordering::is_lt) {

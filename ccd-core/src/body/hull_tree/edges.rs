@@ -1,16 +1,16 @@
-//! The edges of loops of corners, and a lookup of them without hashing.
+//! The edges of polygons, and maps keyed by edges without hashing.
 
 use super::error::HullFault;
 use super::hull::Hull;
 use std::collections::HashSet;
 
-/// Returns the edges of a loop of corners.
+/// Returns the directed edges of a loop of corners.
 pub(super) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
     let next = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(next.copied())
 }
 
-/// Checks that the facets are loops of corners that close a surface. The check takes O(n log n).
+/// Checks that the facets are polygons that close a surface. The check takes O(n log n).
 pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     if is_closed(hull) {
         Ok(())
@@ -19,7 +19,7 @@ pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     }
 }
 
-/// Returns whether every edge of the facets occurs once in either direction.
+/// Returns whether every edge of the facets occurs exactly once in each direction.
 fn is_closed(hull: &Hull) -> bool {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges: Vec<u64> = Vec::with_capacity(hull.facets.corners().len());
@@ -44,7 +44,7 @@ fn is_closed(hull: &Hull) -> bool {
         && edges.iter().all(proper)
 }
 
-/// Finds the first fault of the facets.
+/// Finds the first fault of facets that do not close a surface.
 fn find_fault(hull: &Hull) -> Result<(), HullFault> {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges = HashSet::new();
@@ -66,19 +66,19 @@ fn find_fault(hull: &Hull) -> Result<(), HullFault> {
     Ok(())
 }
 
-/// Values by directed edge, between points numbered from 0.
+/// A map from directed edges to values, for points numbered from 0.
 pub(super) struct EdgeMap {
-    /// The start of each point's edges, and finally the end of those of the last point.
+    /// The start of each point's edges in `edges`; the last entry is the end.
     starts: Vec<u32>,
-    /// The end point of each edge, and its value; in ascending order if there are many.
+    /// The end point and the value of each edge; sorted by end point if the start has many edges.
     edges: Vec<(u32, u32)>,
 }
 
-/// Edges from one point are sorted if there are more of them than this.
-const MANY: usize = 8;
+/// The number of edges from one point above which they are sorted.
+const SORT_THRESHOLD: usize = 8;
 
 impl EdgeMap {
-    /// Creates the map. The last of repeated edges counts. This takes O(n log n).
+    /// Creates the map in O(n log n). Of repeated edges the last one counts.
     pub(super) fn new(
         points: usize,
         edges: impl Iterator<Item = ((u32, u32), u32)> + Clone,
@@ -99,7 +99,7 @@ impl EdgeMap {
         }
         for range in starts.windows(2) {
             let from = &mut sorted[range[0] as usize..range[1] as usize];
-            if from.len() > MANY {
+            if from.len() > SORT_THRESHOLD {
                 from.sort_by_key(|edge| edge.0);
             }
         }
@@ -111,13 +111,13 @@ impl EdgeMap {
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
         let [start, end] = [from, from + 1].map(|k| self.starts[k as usize] as usize);
         let from = &self.edges[start..end];
-        let up_to = if from.len() > MANY {
+        let up_to = if from.len() > SORT_THRESHOLD {
             from.partition_point(|edge| edge.0 <= to)
         } else {
             from.len()
         };
         let mut found = from[..up_to].iter().rev();
-        if from.len() > MANY {
+        if from.len() > SORT_THRESHOLD {
             found.next().filter(|edge| edge.0 == to)
         } else {
             found.find(|edge| edge.0 == to)

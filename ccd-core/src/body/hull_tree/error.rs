@@ -1,40 +1,40 @@
-//! The reasons why nodes do not make a hull tree.
+//! The reasons why nodes are refused as a hull tree.
 
 use crate::error::InputError;
 use std::fmt;
 
-/// The reason why there is no hull tree, with the invalid node.
+/// The reason why nodes are refused as a hull tree, with the invalid node.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HullTreeError {
-    /// The nodes are no hierarchy over the pieces, or too many.
+    /// The nodes form no hierarchy over the pieces, or there are too many of them.
     Input(InputError),
     /// A node is invalid.
     Node {
         /// The index of the node.
         node: u32,
-        /// The fault.
+        /// What is wrong with the node.
         fault: HullFault,
     },
 }
 
-/// The faults of a node.
+/// What is wrong with a node of a hull tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HullFault {
-    /// A corner of the hull is not one of its children's points.
+    /// A corner of the hull is not a point of either child.
     ForeignPoint {
         /// The index of the corner.
         point: u32,
     },
-    /// A facet has fewer than three corners, or names one that the hull does not have.
+    /// A facet has fewer than three corners, or refers to a point that the hull does not have.
     BadFacet {
         /// The index of the facet.
         facet: u32,
     },
-    /// An edge of a facet does not occur exactly once in reverse in another facet.
+    /// The facets do not close a surface: an edge does not occur exactly once in reverse in another facet.
     Open {
-        /// The index of the facet.
+        /// The index of the facet with that edge.
         facet: u32,
     },
     /// A point of a child is outside of the hull, or the hull's facets do not prove that it is inside.

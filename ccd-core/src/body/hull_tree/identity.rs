@@ -1,36 +1,36 @@
-//! The identification of points of two children and of their parent's hull that are at the same place.
+//! Identifies equal points of two children and of their parent's hull.
 
 use super::error::HullFault;
 use super::hull::Hull;
 use super::node::Node;
 use glam::DVec3;
 
-/// The identified points of the children and of the hull.
+/// Common numbers for the points of two children and of their parent's hull: equal points have one number.
 ///
 /// Numbers below the hull's count of points name the hull's points. The others name hidden points.
 pub(super) struct Identity {
     pub(super) of_left: Vec<u32>,
     pub(super) of_right: Vec<u32>,
-    /// The position of each identified point.
-    pub(super) places: Vec<DVec3>,
-    /// The numbers of the hull's points in the mesh.
+    /// The position of each number.
+    pub(super) positions: Vec<DVec3>,
+    /// The mesh's vertex number of each point of the hull.
     pub(super) vertex_ids: Vec<u32>,
 }
 
 impl Identity {
-    /// Identifies the points, in O(n log n).
+    /// Numbers the points, in O(n log n).
     pub(super) fn new(hull: &Hull, [left, right]: [&Node<'_>; 2]) -> Result<Self, HullFault> {
         let own = hull.points.len();
         let all = [&hull.points[..], &left.points, &right.points];
         let same = representatives(all, own);
         let mut numbers = same.clone();
-        let mut places = hull.points.clone();
+        let mut positions = hull.points.clone();
         let points = left.points.iter().chain(right.points.iter());
         for (k, point) in (own..).zip(points) {
             numbers[k] = match same[k] as usize {
                 first if first == k => {
-                    places.push(*point);
-                    places.len() as u32 - 1
+                    positions.push(*point);
+                    positions.len() as u32 - 1
                 }
                 first => numbers[first],
             };
@@ -51,14 +51,14 @@ impl Identity {
         Ok(Identity {
             of_left: numbers[own..middle].to_vec(),
             of_right: numbers[middle..].to_vec(),
-            places,
+            positions,
             vertex_ids,
         })
     }
 }
 
-/// Returns the representative of each point of some concatenated lists: the last of the first `own` points that is at
-/// the same place, or otherwise the first point there.
+/// Returns for each point of the concatenated lists the index of an equal point that represents it. This is the last
+/// equal one among the first `own` points, or otherwise the first equal one.
 fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
     // Adding zero turns −0 into 0.
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());

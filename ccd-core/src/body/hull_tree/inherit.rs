@@ -1,11 +1,11 @@
-//! The facets that an inner hull inherits from its children.
+//! Finds the origin of an inner hull's facets in those of its children.
 //!
 //! A child's hull meets the plane of a facet of its parent in at most one facet of the child. A facet of the parent
 //! is therefore a facet of a child, or is tiled by one facet of each child, or is a bridge.
 
 use super::edges::{EdgeMap, edges_of};
 use super::hull::{FacetClass, Hull};
-use super::inside::{is_coplanar, spanning};
+use super::inside::{is_coplanar, non_collinear_corners};
 use super::node::{FacetData, Node};
 use crate::body::polytope::{Face, Origin, Polytope};
 use crate::math::exact::is_degenerate;
@@ -19,15 +19,15 @@ impl FacetData {
         faces: Vec::new(),
     };
 
-    /// Returns the data of a piece's facets.
-    pub(super) fn of_piece(piece: &Polytope) -> Vec<FacetData> {
+    /// Returns the origin, class and mesh faces of each facet of a piece.
+    pub(super) fn facets_of_piece(piece: &Polytope) -> Vec<FacetData> {
         let mut facet_data = Vec::with_capacity(piece.facets.len());
         let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
         let tree = PointTree::new(&starts);
         for facet in &piece.facets {
             let corners: Vec<DVec3> = points_of(piece, &facet.corners);
             let mut near = Vec::new();
-            if let Some(plane) = spanning(&corners) {
+            if let Some(plane) = non_collinear_corners(&corners) {
                 tree.for_each_not_behind(plane, |k| near.push(k));
             }
             near.sort_unstable();
@@ -45,8 +45,8 @@ impl FacetData {
         facet_data
     }
 
-    /// Returns the data of a facet that two others tile.
-    fn joined(parts: [&Part<'_>; 2]) -> FacetData {
+    /// Merges the data of two facets that together tile a third.
+    fn merge_facets(parts: [&ChildFacet<'_>; 2]) -> FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
             origin: match class {
@@ -59,11 +59,11 @@ impl FacetData {
     }
 }
 
-/// A child whose points are numbered together with those of its parent, which come first.
+/// A child of a node, with its points numbered as in [`Identity`](super::identity::Identity).
 #[derive(Clone, Copy)]
 pub(super) struct Child<'a> {
     node: &'a Node<'a>,
-    /// The common numbers of the child's points.
+    /// The common number of each of the child's points.
     ids: &'a [u32],
 }
 
@@ -73,16 +73,21 @@ impl<'a> Child<'a> {
     }
 }
 
-/// Returns the data of a hull's facets, given its children and the positions of all their points.
-pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<FacetData> {
+/// Returns the origin, class and mesh faces of each facet of a hull, taken from the children's facets.
+pub(super) fn inherit(
+    hull: &Hull,
+    positions: &[DVec3],
+    children: [Child<'_>; 2],
+) -> Vec<FacetData> {
     let triangles = children.map(|child| lone_triangle(&child));
-    let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
+    let sides =
+        [0, 1].map(|k| ChildFacets::new(children[k], triangles[k].as_ref(), positions.len()));
     let facet = |corners: &[u32]| {
         let parts = sides.each_ref().map(|side| side.sharing_an_edge(corners));
         match parts {
             [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.facet.clone(),
-            [Some(one), Some(other)] if tile(places, corners, [&one, &other]) => {
-                FacetData::joined([&one, &other])
+            [Some(one), Some(other)] if tiles_facet(positions, corners, [&one, &other]) => {
+                FacetData::merge_facets([&one, &other])
             }
             _ => FacetData::BRIDGE,
         }
@@ -90,16 +95,16 @@ pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -
     hull.facets.iter().map(facet).collect()
 }
 
-/// A facet of a child.
-struct Part<'a> {
+/// One facet of a child.
+struct ChildFacet<'a> {
     child: Child<'a>,
-    /// The corners, by the child's numbers.
+    /// The corners, as indices of the child's points.
     corners: &'a [u32],
     facet: &'a FacetData,
 }
 
-impl Part<'_> {
-    /// Returns the part's corners, by the common numbers.
+impl ChildFacet<'_> {
+    /// Returns the corners of the facet by their common numbers.
     fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
         self.corners.iter().map(|&v| self.child.ids[v as usize])
     }
@@ -126,62 +131,65 @@ impl Part<'_> {
     }
 }
 
-/// The facets of a child.
-struct Side<'a> {
+/// The facets of a child, with a lookup by edge.
+struct ChildFacets<'a> {
     child: Child<'a>,
-    /// The data of each side of a child that is a single triangle.
-    lone: Option<&'a FacetData>,
-    /// The index of the part at each edge.
-    by_edge: EdgeMap,
+    /// The data of the front and the back, if the child is a single triangle.
+    single_triangle: Option<&'a FacetData>,
+    /// The index of the facet at each directed edge.
+    facet_at_edge: EdgeMap,
 }
 
-/// The two sides of a single triangle.
-const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
+/// The corners of the front and the back of a single triangle.
+const TRIANGLE_SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
-impl<'a> Side<'a> {
-    /// Creates the side of a child whose points have numbers below `places`.
-    fn new(child: Child<'a>, lone: Option<&'a FacetData>, places: usize) -> Self {
-        let sides = SIDES.iter().map(|corners| &corners[..]);
+impl<'a> ChildFacets<'a> {
+    /// Creates the lookup for a child whose points have common numbers below `positions`.
+    fn new(child: Child<'a>, single_triangle: Option<&'a FacetData>, positions: usize) -> Self {
+        let sides = TRIANGLE_SIDES.iter().map(|corners| &corners[..]);
         let loops = child
             .node
             .loops
             .iter()
-            .chain(sides.filter(|_| lone.is_some()));
+            .chain(sides.filter(|_| single_triangle.is_some()));
         let edges = loops.zip(0..).flat_map(|(corners, k)| {
             let id = |v: u32| child.ids[v as usize];
             edges_of(corners).map(move |(from, to)| ((id(from), id(to)), k))
         });
-        Side {
+        ChildFacets {
             child,
-            lone,
-            by_edge: EdgeMap::new(places, edges),
+            single_triangle,
+            facet_at_edge: EdgeMap::new(positions, edges),
         }
     }
 
-    fn part(&self, k: usize) -> Option<Part<'a>> {
+    fn part(&self, k: usize) -> Option<ChildFacet<'a>> {
         let node = self.child.node;
         let (corners, facet) = match node.loops.get(k) {
             Some(corners) => (corners, node.facet_data.get(k)?),
-            None => (&SIDES.get(k - node.loops.len())?[..], self.lone?),
+            None => (
+                &TRIANGLE_SIDES.get(k - node.loops.len())?[..],
+                self.single_triangle?,
+            ),
         };
-        Some(Part {
+        Some(ChildFacet {
             child: self.child,
             corners,
             facet,
         })
     }
 
-    fn sharing_an_edge(&self, corners: &[u32]) -> Option<Part<'a>> {
-        let mut known = edges_of(corners).filter_map(|edge| self.by_edge.get(edge));
+    fn sharing_an_edge(&self, corners: &[u32]) -> Option<ChildFacet<'a>> {
+        let mut known = edges_of(corners).filter_map(|edge| self.facet_at_edge.get(edge));
         self.part(known.next()? as usize)
     }
 }
 
-/// Returns the data of the front and back of a single triangle, which lists no facets.
+/// Returns the data of a child that is a single triangle, which lists no facets.
 fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
-        origin: match child.node.own_faces.as_deref().unwrap_or_default() {
+        origin: match child.node.leaf_faces.as_deref().unwrap_or_default() {
             [face] => Origin::Face(face.id),
             _ => Origin::Virtual,
         },
@@ -190,7 +198,7 @@ fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     })
 }
 
-/// Returns the number of a point in the mesh.
+/// Returns the mesh's vertex number of a point of a node.
 fn vertex_of(node: &Node<'_>, point: u32) -> u32 {
     let known = node.vertex_ids.get(point as usize);
     known.copied().unwrap_or(point)
@@ -201,8 +209,8 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Returns whether two loops are the same up to the choice of their first corner.
-fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
+/// Returns whether two cyclic lists of corners are equal up to rotation.
+fn same_loop(part: &ChildFacet<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
     }
@@ -214,12 +222,12 @@ fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     part.ids().eq(begin.iter().chain(end).copied())
 }
 
-/// Returns whether two convex polygons together are a facet of the hull. Edges that run both ways are dropped. The
+/// Returns whether two convex polygons together tile a facet of the hull. Edges that run both ways are dropped. The
 /// remaining edges have to be the facet's loop, except for corners within its edges.
 ///
 /// A part has at most the facet's corners and the two ends of the cut. A part of many more is
 /// skipped, as it may share an edge with each of many facets.
-fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
+fn tiles_facet(positions: &[DVec3], corners: &[u32], parts: [&ChildFacet<'_>; 2]) -> bool {
     let most = 2 * corners.len() + 8;
     if parts.iter().any(|part| part.corners.len() > most) {
         return false;
@@ -239,7 +247,7 @@ fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
     };
     let mut used = 0;
     for (from, to) in edges_of(corners) {
-        let place = |v: u32| places[v as usize];
+        let place = |v: u32| positions[v as usize];
         let between = |v: u32| is_degenerate([place(from), place(to), place(v)]);
         let mut at = from;
         while at != to {

@@ -1,4 +1,4 @@
-//! An exact test whether a point is in a hull `[SHE97]`.
+//! Tests exactly whether points are in a convex hull `[SHE97]`.
 
 use super::loops::Loops;
 use crate::math::exact::{is_degenerate, side, turn_along};
@@ -6,7 +6,7 @@ use crate::math::point_tree::PointTree;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A hull, prepared for tests whether it contains points.
+/// A convex hull, prepared for tests whether it contains points.
 pub(super) struct Container<'a> {
     points: &'a [DVec3],
     /// The facets as fans of triangles.
@@ -16,7 +16,7 @@ pub(super) struct Container<'a> {
 }
 
 impl<'a> Container<'a> {
-    /// Creates the container. Every edge of the facets must occur exactly once in reverse in another facet.
+    /// Prepares the hull. Every edge of the facets must occur exactly once in reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
         let at = |&v: &u32| points[v as usize];
         let fan = |corners: &[u32]| {
@@ -33,7 +33,7 @@ impl<'a> Container<'a> {
         }
     }
 
-    /// Returns the index of the first point that is not certainly in the hull of the container's points.
+    /// Returns the index of the first point that is not certainly inside the hull.
     ///
     /// # Guarantee
     /// The test is exact, and sound for any facets. A closed surface with its corners in the hull winds 0 times about
@@ -42,32 +42,32 @@ impl<'a> Container<'a> {
     ///
     /// # Complexity
     /// O(n log n) for n points and facets in all, if few points are near each facet.
-    pub(super) fn left_out(&self, places: &[DVec3]) -> Option<usize> {
+    pub(super) fn first_outside(&self, positions: &[DVec3]) -> Option<usize> {
         if self.fans.is_empty() {
-            return places.iter().position(|&p| !in_simplex(self.points, p));
+            return positions.iter().position(|&p| !in_simplex(self.points, p));
         }
-        if places.is_empty() {
+        if positions.is_empty() {
             return None;
         }
-        let tree = PointTree::new(places);
-        let mut outside = vec![false; places.len()];
+        let tree = PointTree::new(positions);
+        let mut outside = vec![false; positions.len()];
         // The facets whose planes contain the point, which is behind all others.
-        let mut level = vec![0; places.len()];
+        let mut level = vec![0; positions.len()];
         for &triangle in &self.fans {
-            tree.for_each_not_behind(triangle, |k| match side(triangle, places[k as usize]) {
+            tree.for_each_not_behind(triangle, |k| match side(triangle, positions[k as usize]) {
                 Ordering::Less => {}
                 Ordering::Equal => level[k as usize] += 1,
                 Ordering::Greater => outside[k as usize] = true,
             });
         }
-        (0..places.len()).find(|&k| {
+        (0..positions.len()).find(|&k| {
             let behind = level[k] < self.fans.len();
-            outside[k] || !(behind || in_polygon(&self.first, places[k]))
+            outside[k] || !(behind || in_polygon(&self.first, positions[k]))
         })
     }
 }
 
-/// Returns whether a point is one of up to three points, between two of them, or in their triangle.
+/// Returns whether a point is in the simplex of up to three points.
 fn in_simplex(points: &[DVec3], point: DVec3) -> bool {
     match *points {
         [a] => a == point,
@@ -85,9 +85,9 @@ fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
     between && is_degenerate([a, b, point])
 }
 
-/// Returns whether a triangle is in the plane of a polygon and is seen from the same side.
+/// Returns whether a triangle is in the plane of a polygon, with the same orientation.
 pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
-    plane(polygon).is_some_and(|(fan, axis)| {
+    projectable_corners(polygon).is_some_and(|(fan, axis)| {
         let in_plane = |&p: &DVec3| side(fan, p).is_eq();
         let turn = |[a, b, c]: [DVec3; 3]| turn_along(axis, [a, b], c);
         let same_side = turn(fan).is_gt() == turn(triangle).is_gt();
@@ -96,13 +96,12 @@ pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
 }
 
 /// Returns three corners of a polygon that are not on one line.
-pub(super) fn spanning(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
-    plane(polygon).map(|(corners, _)| corners)
+pub(super) fn non_collinear_corners(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
+    projectable_corners(polygon).map(|(corners, _)| corners)
 }
 
-/// Returns three corners of a polygon that are not on one line, even when seen along a coordinate axis, and the index
-/// of that axis.
-fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
+/// Returns three corners of a polygon whose projection along a coordinate axis is not degenerate, and that axis.
+fn projectable_corners(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     (1..polygon.len().saturating_sub(1)).find_map(|k| {
         let fan = [0, k, k + 1].map(|k| polygon[k]);
         let [a, b, c] = fan;
@@ -111,10 +110,9 @@ fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     })
 }
 
-/// Returns whether a point is in the plane of a polygon and in the hull of its corners: on the outer side of no edge
-/// and on the inner side of one, by the same count of windings.
+/// Returns whether a point is in the plane of a polygon and in the convex hull of its corners.
 fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
-    let Some((fan, axis)) = plane(corners) else {
+    let Some((fan, axis)) = projectable_corners(corners) else {
         return false;
     };
     let [a, b, c] = fan;

@@ -1,6 +1,6 @@
-//! Loops of corners, flat in memory.
+//! Lists of polygons, stored contiguously.
 
-/// Loops of corners, such as the facets of a [hull](super::Hull), each by indices into a list of points.
+/// A list of polygons, such as the facets of a [hull](super::Hull). Each is a loop of indices into a list of points.
 ///
 /// ```
 /// use ccd_core::Loops;
@@ -14,12 +14,12 @@
 #[cfg_attr(feature = "serde", serde(from = "Vec<Vec<u32>>"))]
 pub struct Loops {
     corners: Vec<u32>,
-    /// The end of each loop.
+    /// The end of each polygon's corners.
     ends: Vec<usize>,
 }
 
 impl Loops {
-    /// Creates an empty list with capacity for this many loops, with this many corners in all.
+    /// Creates an empty list with capacity for this many polygons, and this many corners in total.
     pub fn with_capacity(loops: usize, corners: usize) -> Self {
         Loops {
             corners: Vec::with_capacity(corners),
@@ -27,40 +27,40 @@ impl Loops {
         }
     }
 
-    /// Adds a loop.
+    /// Adds a polygon.
     pub fn push(&mut self, corners: &[u32]) {
         self.corners.extend_from_slice(corners);
         self.ends.push(self.corners.len());
     }
 
-    /// Returns the number of loops.
+    /// Returns the number of polygons.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// Returns whether there are no loops.
+    /// Returns whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// Returns one loop.
+    /// Returns the corners of polygon `k`.
     pub fn get(&self, k: usize) -> Option<&[u32]> {
         let end = *self.ends.get(k)?;
         let start = if k == 0 { 0 } else { self.ends[k - 1] };
         Some(&self.corners[start..end])
     }
 
-    /// Returns the loops in order.
+    /// Returns the corners of each polygon.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> + DoubleEndedIterator + Clone {
         (0..self.len()).map(|k| self.get(k).unwrap_or_default())
     }
 
-    /// Returns the corners of all loops in order.
+    /// Returns the corners of all polygons, one after the other.
     pub fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// Returns the corners of all loops, to be renumbered.
+    /// Returns the corners of all polygons for renumbering.
     pub fn corners_mut(&mut self) -> &mut [u32] {
         &mut self.corners
     }
@@ -82,7 +82,7 @@ impl From<Vec<Vec<u32>>> for Loops {
     }
 }
 
-/// Serialises as a list of lists.
+/// Serialises the polygons as a list of lists.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Loops {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -6,19 +6,19 @@ use crate::body::polytope::{Face, Origin};
 use glam::DVec3;
 use std::borrow::Cow;
 
-/// A checked node.
+/// A node whose hull and children have been checked.
 #[derive(Debug, Default)]
 pub(super) struct Node<'a> {
     pub(super) points: Cow<'a, [DVec3]>,
-    /// The numbers of the node's points in the mesh.
+    /// The mesh's vertex number of each point of the hull.
     pub(super) vertex_ids: Vec<u32>,
     pub(super) loops: Cow<'a, Loops>,
-    /// The data of the node's facets.
+    /// The origin, class and mesh faces of each facet.
     pub(super) facet_data: Vec<FacetData>,
-    /// The mesh's faces on a leaf; the faces of an inner node are those of its facets.
-    pub(super) own_faces: Option<Vec<Face>>,
+    /// The mesh's faces on a leaf; `None` for an inner node, which has those of its facets.
+    pub(super) leaf_faces: Option<Vec<Face>>,
     pub(super) radius: f64,
-    pub(super) evenly_rounded: bool,
+    pub(super) has_uniform_radius: bool,
     pub(super) size: f64,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Node<'a> {
 pub(super) struct FacetData {
     pub(super) origin: Origin,
     pub(super) class: FacetClass,
-    /// The mesh's triangles in the facet, unless it is one face by itself.
+    /// The mesh's triangles in the facet; empty if the facet is one face.
     pub(super) faces: Vec<Face>,
 }
 
@@ -35,7 +35,7 @@ impl Node<'_> {
     /// Returns the mesh's faces on the node's surface.
     pub(super) fn faces(&self) -> impl Iterator<Item = &Face> {
         let of_skins = self.facet_data.iter().flat_map(|facet| &facet.faces);
-        let (own, of_skins) = match &self.own_faces {
+        let (own, of_skins) = match &self.leaf_faces {
             Some(own) => (&own[..], None),
             None => (&[][..], Some(of_skins)),
         };

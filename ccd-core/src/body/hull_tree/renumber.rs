@@ -1,4 +1,4 @@
-//! The renumbering of leaves for another list of the same pieces.
+//! Renumbers the leaves of a hull tree for a reordered list of pieces.
 
 use super::HullTree;
 use super::error::{HullFault, HullTreeError};
@@ -7,32 +7,32 @@ use crate::body::pieces::Pieces;
 use std::cmp::Ordering;
 
 impl HullTree {
-    /// Returns the tree with leaves that name the same pieces in another list.
+    /// Renumbers the leaves so that they refer to the same pieces in another list.
     ///
     /// # Errors
     /// [`HullFault::NotAPiece`] at a leaf that is not in the list.
-    pub(crate) fn renumbered(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
-        let hierarchy = renumber(&self, pieces)?;
+    pub(crate) fn renumber_leaves(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
+        let hierarchy = renumbered_hierarchy(&self, pieces)?;
         Ok(HullTree { hierarchy, ..self })
     }
 }
 
-/// Returns the tree's hierarchy, with leaves that name the pieces of a list that are equal to the bit. Among equal
-/// pieces, the first leaf names the first.
-fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
+/// Returns the hierarchy with leaves renumbered for `pieces`, which must be bitwise equal to the tree's pieces. Among
+/// equal pieces, the first leaf gets the first.
+fn renumbered_hierarchy(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
     let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
     let nodes = (0..renamed.len()).filter(|&at| matches!(renamed[at], HierarchyNode::Leaf(_)));
-    let leaves = sorted(nodes.collect(), |one, other| {
-        order([hulls, hulls], [one, other])
+    let leaves = sort_by_content(nodes.collect(), |one, other| {
+        compare_pieces([hulls, hulls], [one, other])
     });
-    let known = sorted((0..pieces.len()).collect(), |one, other| {
-        order([pieces, pieces], [one, other])
+    let known = sort_by_content((0..pieces.len()).collect(), |one, other| {
+        compare_pieces([pieces, pieces], [one, other])
     });
     let mut known = known.into_iter().peekable();
     let mut found = Vec::with_capacity(leaves.len());
     for at in leaves {
-        let to_leaf = |&k: &usize| order([pieces, hulls], [k, at]);
+        let to_leaf = |&k: &usize| compare_pieces([pieces, hulls], [k, at]);
         // A piece that is less than this leaf is not a leaf.
         while known.next_if(|k| to_leaf(k) == Ordering::Less).is_some() {}
         let same = known.next_if(|k| to_leaf(k) == Ordering::Equal);
@@ -47,14 +47,17 @@ fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError
     Ok(Hierarchy::new(renamed, pieces.len())?)
 }
 
-/// Sorts pieces by content, then by number.
-fn sorted(mut numbers: Vec<usize>, order: impl Fn(usize, usize) -> Ordering) -> Vec<usize> {
+/// Returns the piece numbers sorted by content, then by number.
+fn sort_by_content(
+    mut numbers: Vec<usize>,
+    order: impl Fn(usize, usize) -> Ordering,
+) -> Vec<usize> {
     numbers.sort_unstable_by(|&one, &other| order(one, other).then(one.cmp(&other)));
     numbers
 }
 
-/// Orders by points, rounding and numbers in the mesh, bit by bit.
-fn order(of: [&Pieces; 2], at: [usize; 2]) -> Ordering {
+/// Compares two pieces bit by bit: their points, radii and mesh numbers.
+fn compare_pieces(of: [&Pieces; 2], at: [usize; 2]) -> Ordering {
     let [one, other] = [0, 1].map(|k| of[k].get(at[k]));
     let bits = |p: &glam::DVec3| p.to_array().map(f64::to_bits);
     let points = || {

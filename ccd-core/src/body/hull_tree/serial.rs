@@ -1,4 +1,4 @@
-//! Stored hull trees. A tree that is read is checked like one that is built.
+//! Serialisation of hull trees. A tree that is read is checked like one that is built.
 
 use super::{HullNode, HullTree, HullTreeError};
 use crate::body::hierarchy::HierarchyNode;

@@ -1,4 +1,4 @@
-//! Small trees made by hand: inherited data, and refused nodes.
+//! Tests small trees made by hand: data that facets inherit, and nodes that are refused.
 
 use super::*;
 use crate::body::feature::Feature;
@@ -25,7 +25,7 @@ fn corners(lo: DVec3, hi: DVec3) -> Vec<DVec3> {
         .collect()
 }
 
-/// A box from one x to another, 1 high and 1 wide. Its faces are numbered from `first` on.
+/// Creates a box between two values of x, 1 high and 1 wide. Its faces are numbered from `first` on.
 fn block(from: f64, to: f64, first: u32) -> Polytope {
     let facet = |(k, corners): (usize, &[u32; 4])| Facet {
         origin: Origin::Face(first + k as u32),

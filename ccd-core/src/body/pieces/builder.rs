@@ -1,4 +1,4 @@
-//! A builder of a list of pieces, one by one.
+//! Builds a list of pieces, one by one.
 
 use super::{Pieces, Radii, Shape, Surfaces};
 use crate::body::polytope::{Face, Origin, Polytope};
@@ -6,7 +6,7 @@ use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
 
-/// The parts of a polytope, as in [`Polytope`](crate::Polytope).
+/// The data of a polytope, as in [`Polytope`](crate::Polytope).
 pub(crate) struct PolytopeParts<'a, A, B> {
     pub(crate) points: &'a [DVec3],
     pub(crate) vertex_ids: &'a [u32],
@@ -16,7 +16,7 @@ pub(crate) struct PolytopeParts<'a, A, B> {
     pub(crate) radius: f64,
 }
 
-/// The pieces so far.
+/// A list of pieces under construction.
 pub(crate) struct PiecesBuilder {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
@@ -25,13 +25,13 @@ pub(crate) struct PiecesBuilder {
     surfaces: Surfaces,
 }
 
-/// The numbers of elements in each list of the pieces.
+/// The total numbers of elements in the lists of the pieces.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Capacity {
     pub(crate) pieces: usize,
     pub(crate) points: usize,
     pub(crate) facets: usize,
-    /// The corners of all facets.
+    /// The number of corners of all facets.
     pub(crate) corners: usize,
     pub(crate) faces: usize,
 }
@@ -88,7 +88,7 @@ impl PiecesBuilder {
         }
     }
 
-    /// Adds a piece.
+    /// Adds a piece to the list.
     ///
     /// # Errors
     /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`].
@@ -130,7 +130,7 @@ impl PiecesBuilder {
         Ok(())
     }
 
-    /// Returns all pieces.
+    /// Returns the finished list of pieces.
     ///
     /// # Errors
     /// The errors of [`Pieces::polytopes`].

@@ -1,4 +1,4 @@
-//! Refused pieces, and the features of pieces.
+//! Tests pieces that are refused, and the features of pieces.
 
 use super::*;
 use crate::body::Body;
@@ -143,7 +143,7 @@ fn balls_and_capsules_name_their_points() {
 }
 
 proptest! {
-    /// Pieces in another order are the same pieces, with the same names.
+    /// Tests that reordered pieces keep their points and their mesh numbers.
     #[test]
     fn order_changes_nothing_but_the_order(seed in any::<u64>(), count in 1usize..12) {
         use rand::seq::SliceRandom;
@@ -228,7 +228,7 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
     assert_eq!(weighted(&[(0, 0.5), (7, 0.5)]), Feature::Piece(0));
 }
 
-/// The polytope's corners are not vertices of the mesh.
+/// Tests a polytope whose corners are not vertices of the mesh.
 #[test]
 fn a_polytope_of_virtual_facets_has_no_names() {
     let loops = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];

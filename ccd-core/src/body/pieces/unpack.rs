@@ -1,10 +1,10 @@
-//! The conversion of pieces back to polytopes.
+//! Converts pieces back to polytopes.
 
 use super::{Pieces, Shape};
 use crate::body::polytope::{Face, Facet, Polytope};
 
 impl Pieces {
-    /// Returns a piece as an input for [`Pieces::polytopes`]; a triangle lists its face.
+    /// Converts a piece to an input of [`Pieces::polytopes`]; a triangle lists its face.
     ///
     /// # Panics
     /// When `index` is not below [`Pieces::len`].
@@ -31,12 +31,12 @@ impl Pieces {
         }
     }
 
-    /// Returns the numbers of all points in the mesh.
+    /// Returns the mesh's vertex numbers of all points.
     pub(crate) fn all_vertex_ids(&self) -> &[u32] {
         &self.vertex_ids
     }
 
-    /// Returns the numbers of a piece's points in the mesh.
+    /// Returns the mesh's vertex numbers of a piece's points.
     pub(crate) fn vertex_ids(&self, index: usize) -> &[u32] {
         &self.vertex_ids[self.point_range(index)]
     }

@@ -10,7 +10,7 @@ fn both(radius: f64, half_height: f64) -> [Round; 2] {
     ]
 }
 
-/// Checks exactly that a polygon winds once about the origin, and that no edge crosses the disc.
+/// Checks exactly that a polygon winds once about the origin, and that no edge enters the disc.
 fn assert_about_the_disc(corners: &[DVec3], radius: f64) {
     let squared = |x: f64| exact(x) * exact(x);
     let corners: Vec<[Relaxed; 2]> = corners

@@ -1,6 +1,6 @@
-//! Tests that parts are connected if they share a point, and only then.
+//! Tests that parts are connected exactly if they share a point.
 
-use super::{Parts, Shell, shells};
+use super::{DisjointSets, Shell, shells};
 use crate::body::pieces::Pieces;
 use crate::tests::meshes::{cube, moved};
 use crate::tests::scene::{RngExt, direction, pieces, rng};
@@ -51,10 +51,10 @@ fn a_chain_of_many_is_one_part_in_any_order() {
     assert_eq!(shells(&pieces(&every_other)).len(), 1_000);
 }
 
-/// Finds the shells by comparing every point with every other one, as a reference.
+/// Finds the connected parts by comparing all pairs of points, as a reference.
 fn slowly(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
-    let mut parts = Parts((0..points.len() as u32).collect());
+    let mut parts = DisjointSets((0..points.len() as u32).collect());
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
         (range.start..range.end).for_each(|k| _ = parts.join(range.start, k));

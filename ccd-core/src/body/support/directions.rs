@@ -1,4 +1,4 @@
-//! Directions at steps of 22.5 degrees in latitude and longitude `[SWIFT01]`.
+//! A fixed set of directions, at steps of 22.5 degrees in latitude and longitude `[SWIFT01]`.
 
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_8;
@@ -14,7 +14,7 @@ const COS_SQUARED: [f64; 4] = [
     0.038060233744357,
 ];
 
-/// The tangents of the same angles, which are halfway between meridians.
+/// The tangents of the angles halfway between meridians, which are the same.
 const TAN: [f64; 4] = [
     0.198912367379658,
     0.668178637919299,
@@ -22,7 +22,7 @@ const TAN: [f64; 4] = [
     5.027339492125846,
 ];
 
-/// Returns all directions, by their numbers.
+/// Returns all directions in the order of their numbers.
 pub(super) fn all() -> impl Iterator<Item = DVec3> {
     let circle = |latitude: u32| {
         let (sin, cos) = (f64::from(latitude) * FRAC_PI_8).sin_cos();
@@ -36,8 +36,8 @@ pub(super) fn all() -> impl Iterator<Item = DVec3> {
     north.chain((1..8).flat_map(circle)).chain(south)
 }
 
-/// Returns the number of the direction with the nearest latitude and longitude, for a vector of any length; an
-/// arbitrary number if it is not finite.
+/// Returns the number of the direction that is nearest in latitude and longitude to a vector of any length. The number
+/// is arbitrary if the vector is not finite.
 #[inline]
 pub(super) fn nearest(v: DVec3) -> usize {
     let square = v.length_squared();

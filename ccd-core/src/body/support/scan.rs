@@ -1,21 +1,21 @@
-//! A scan of all points, several at once.
+//! Finds extremal points by evaluating all points, eight at once.
 
 use crate::math::order::greater;
 use glam::DVec3;
 
-/// The number of points that are scanned together: two vectors of 256 bits hold as many.
+/// The number of points that are evaluated together, in two vectors of 256 bits.
 const LANES: usize = 8;
 
-/// The points of a piece in a layout for vector units: slow for many points, fast for few.
+/// The points of a piece in a layout for vector instructions. A scan is slow for many points, fast for few.
 #[derive(Clone, Debug)]
 pub struct SupportScan {
-    /// x, y and z of eight points; the last point is repeated to fill the last block.
+    /// The x, y and z of eight points each; the last point is repeated to fill the last block.
     blocks: Vec<[[f64; LANES]; 3]>,
     last: u32,
 }
 
 impl SupportScan {
-    /// Creates the scan of at least one point, and at most as many as an index can name.
+    /// Creates the layout for one or more points.
     pub fn new(points: &[DVec3]) -> Self {
         let last = points.len().saturating_sub(1);
         let point = |k: usize| points.get(k.min(last)).copied().unwrap_or_default();
@@ -28,7 +28,7 @@ impl SupportScan {
         }
     }
 
-    /// Returns the index of a point that is farthest along a direction, and of several the first.
+    /// Returns the index of a point that is farthest along a direction; the first of several.
     ///
     /// # Guarantee
     /// The guarantee of [`Support::extremal`](crate::Support::extremal).

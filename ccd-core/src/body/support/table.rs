@@ -1,4 +1,4 @@
-//! A table of starts for a climb along edges.
+//! Finds extremal corners by climbing along edges, from a start in a table of directions.
 
 use super::directions::{self, DIRECTIONS};
 use super::tree::ball_about;
@@ -16,17 +16,17 @@ use glam::DVec3;
 #[derive(Clone, Debug)]
 pub struct SupportTable {
     points: Vec<DVec3>,
-    /// The largest coordinate.
+    /// The largest absolute coordinate.
     reach: f64,
     ball: (DVec3, f64),
     neighbours: Vec<u32>,
-    /// The end of each point's neighbours.
+    /// The end of each point's neighbours in the list of neighbours.
     ends: Vec<u32>,
     starts: [u32; DIRECTIONS],
 }
 
 impl SupportTable {
-    /// Prepares points with the facets of their hull; `None` if no facets are known.
+    /// Builds the table for points with the facets of their hull; `None` if no facets are known.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Option<Self> {
         let first = *facets.iter().next()?.first()?;
         let edges = facets.iter().flat_map(|corners| {
@@ -66,8 +66,8 @@ impl SupportTable {
         self.climb(self.starts[directions::nearest(direction)], direction)
     }
 
-    /// Like `SupportTable::extremal`, from a known corner, e.g. the last answer. If that corner is on no facet, the
-    /// start is taken from the table.
+    /// Like `SupportTable::extremal`, but starts at a given corner, such as the last answer. If that corner is on no
+    /// facet, the start is taken from the table.
     #[inline]
     pub fn extremal_from(&self, start: u32, direction: DVec3) -> u32 {
         match self.neighbours(start) {
@@ -76,7 +76,7 @@ impl SupportTable {
         }
     }
 
-    /// Returns the corners that share an edge with a corner; empty for a point that is on no facet.
+    /// Returns the corners that share an edge with a corner; empty for a point on no facet.
     #[inline]
     pub fn neighbours(&self, corner: u32) -> &[u32] {
         let at = corner as usize;
@@ -87,13 +87,13 @@ impl SupportTable {
         &self.neighbours[start as usize..end as usize]
     }
 
-    /// Returns a ball about the points.
+    /// Returns the centre and radius of a ball around the points.
     #[inline]
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         self.ball
     }
 
-    /// Moves to the highest neighbour repeatedly, until no neighbour is higher.
+    /// Moves to the highest neighbour until no neighbour is higher.
     ///
     /// In exact arithmetic, edges lead upward from every corner to the highest one: a corner without a higher
     /// neighbour is the highest. Heights are rounded: on such a path a corner may seem lower than an earlier one, by
@@ -115,7 +115,7 @@ impl SupportTable {
                 if !(highest >= height - slack) {
                     return at;
                 }
-                match self.beyond_level(at, height, slack, direction) {
+                match self.higher_across_plateau(at, height, slack, direction) {
                     Some(higher) => (next, highest) = higher,
                     None => return at,
                 }
@@ -125,8 +125,8 @@ impl SupportTable {
         at
     }
 
-    /// Returns a corner that is higher, reached across corners that are level up to rounding.
-    fn beyond_level(
+    /// Returns a higher corner that is reached across corners of equal height up to rounding; `None` if there is none.
+    fn higher_across_plateau(
         &self,
         at: u32,
         height: f64,

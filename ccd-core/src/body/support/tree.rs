@@ -1,4 +1,5 @@
-//! A tree over the points of a piece. A search visits only the parts that may contain the farthest point.
+//! Finds extremal points by a tree, and visits only parts that may contain them. A search visits only the parts that
+//! may contain the farthest point.
 
 use crate::math::order::{greater, lesser};
 use crate::math::principal::principal_axes;
@@ -9,9 +10,9 @@ use glam::{DMat3, DVec3, Vec3};
 /// The number of points in a block, and of children in a group.
 const LANES: usize = 8;
 
-/// The points of a piece in blocks of eight. There are discs about the points of every block, of every eight blocks,
-/// and so on up to one group. On a curved surface, discs shrink with the square of their width, so that few of them
-/// extend beyond the farthest point.
+/// The points of a piece in blocks of eight, under a tree of discs. There are discs around the points of every block,
+/// of every eight blocks, and so on up to one group. On a curved surface, discs shrink with the square of their width,
+/// so that few of them extend beyond the farthest point.
 ///
 /// # Memory
 /// About 70 bytes for each point.
@@ -19,7 +20,7 @@ const LANES: usize = 8;
 pub struct SupportTree {
     blocks: Vec<Block>,
     groups: Vec<Discs>,
-    /// The start of each level's groups, those over blocks first. The last level is one group.
+    /// The start of each level's groups, from the blocks upward. The last level is one group.
     levels: Vec<usize>,
     ball: (DVec3, f64),
 }
@@ -29,12 +30,12 @@ pub struct SupportTree {
 #[repr(align(32))]
 struct Block {
     points: [[f64; LANES]; 3],
-    /// The numbers of the points.
+    /// The indices of the block's points.
     numbers: [u32; LANES],
 }
 
-/// Eight discs. Each contains the points below it: those at most `thickness` to either side of `centre` along
-/// `normal`, and at most `radius` across.
+/// Eight discs that bound points. Each contains the points below it: those at most `thickness` to either side of
+/// `centre` along `normal`, and at most `radius` across.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 struct Discs {
@@ -42,12 +43,13 @@ struct Discs {
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     thickness: [f32; LANES],
-    /// The allowance for rounding. In lanes without a disc it is so low that the lane is never visited.
+    /// The allowance for rounding; so low in lanes without a disc that these are never visited. In lanes without a disc
+    /// it is so low that the lane is never visited.
     rounding: [f32; LANES],
 }
 
 impl SupportTree {
-    /// Creates the tree of at least one point, all finite, and at most as many as an index can name.
+    /// Builds the tree over one or more finite points.
     ///
     /// # Complexity
     /// O(n log n).
@@ -56,7 +58,7 @@ impl SupportTree {
         let scale = power_of_two_above(reach).recip();
         let placed: Vec<DVec3> = points.iter().map(|&p| (p - middle) * scale).collect();
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        arrange(&placed, &mut order);
+        sort_spatially(&placed, &mut order);
         let sorted: Vec<DVec3> = order.iter().map(|&k| placed[k as usize]).collect();
         let mut tree = SupportTree {
             blocks: order
@@ -86,71 +88,71 @@ impl SupportTree {
     /// # Complexity
     /// About logarithmic in the number of points of a curved surface; linear if all are equally far.
     pub fn extremal(&self, direction: DVec3) -> u32 {
-        let mut look = Look::new(direction);
-        self.descend(self.levels.len(), 0, &mut look);
-        look.found
+        let mut search = Search::new(direction);
+        self.descend(self.levels.len(), 0, &mut search);
+        search.found
     }
 
-    /// Returns a ball about the points.
+    /// Returns the centre and radius of a ball around the points.
     #[inline]
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         self.ball
     }
 
-    /// Returns the number of nodes visited for the farthest point.
+    /// Returns the number of nodes that a search along a direction visits.
     #[cfg(test)]
     pub(super) fn visits(&self, direction: DVec3) -> usize {
-        let mut look = Look::new(direction);
-        self.descend(self.levels.len(), 0, &mut look);
-        look.visits
+        let mut search = Search::new(direction);
+        self.descend(self.levels.len(), 0, &mut search);
+        search.visits
     }
 
     /// Visits the children of a node of a level, in descending order of their bounds.
-    fn descend(&self, level: usize, at: usize, look: &mut Look) {
+    fn descend(&self, level: usize, at: usize, search: &mut Search) {
         #[cfg(test)]
         {
-            look.visits += 1;
+            search.visits += 1;
         }
         let Some(below) = level.checked_sub(1) else {
-            return look.at(&self.blocks[at]);
+            return search.at(&self.blocks[at]);
         };
-        let mut bounds = self.groups[self.levels[below] + at].bounds(look.unit);
+        let mut bounds = self.groups[self.levels[below] + at].bounds(search.unit);
         for _ in 0..LANES {
-            let lane = highest(&bounds);
+            let lane = index_of_highest(&bounds);
             // Written so that NaN ends the loop.
-            if !(bounds[lane] > look.floor) {
+            if !(bounds[lane] > search.min_height) {
                 return;
             }
             bounds[lane] = f32::NEG_INFINITY;
-            self.descend(below, LANES * at + lane, look);
+            self.descend(below, LANES * at + lane, search);
         }
     }
 }
 
-/// A search: its direction, and the farthest point so far.
-struct Look {
+/// The state of a search: its direction, and the farthest point so far.
+struct Search {
     direction: DVec3,
-    /// The direction, scaled so that its largest component is 1.
+    /// The direction of the search, scaled so that its largest component is 1.
     unit: Vec3,
     size: f64,
     highest: f64,
     /// The height above which a disc is visited.
-    floor: f32,
+    min_height: f32,
     found: u32,
     #[cfg(test)]
     visits: usize,
 }
 
-impl Look {
+impl Search {
     #[inline]
     fn new(direction: DVec3) -> Self {
         let size = direction.abs().max_element();
-        Look {
+        Search {
             direction,
             unit: (direction / size).as_vec3(),
             size,
             highest: f64::NEG_INFINITY,
-            floor: f32::NEG_INFINITY,
+            min_height: f32::NEG_INFINITY,
             found: 0,
             #[cfg(test)]
             visits: 0,
@@ -164,10 +166,10 @@ impl Look {
         for k in 0..LANES {
             heights[k] = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
         }
-        let lane = highest(&heights);
+        let lane = index_of_highest(&heights);
         if heights[lane] > self.highest {
             self.highest = heights[lane];
-            self.floor = ((self.highest / self.size) as f32).next_down();
+            self.min_height = ((self.highest / self.size) as f32).next_down();
             self.found = block.numbers[lane];
         }
     }
@@ -207,7 +209,7 @@ impl Discs {
         discs
     }
 
-    /// Returns the largest height of each disc along a direction whose largest component is 1.
+    /// Returns an upper bound of the heights in each disc, along a direction whose largest component is 1.
     #[inline]
     fn bounds(&self, d: Vec3) -> [f32; LANES] {
         let square = d.length_squared() * (1.0 + DISC_TILT_F32);
@@ -225,7 +227,7 @@ impl Discs {
     }
 }
 
-/// A disc about some points, with the numbers as stored.
+/// A disc around points, rounded as it is stored.
 struct Disc {
     centre: Vec3,
     normal: Vec3,
@@ -234,7 +236,7 @@ struct Disc {
 }
 
 impl Disc {
-    /// Creates a disc with the direction of least spread of the points as its normal.
+    /// Creates a disc whose normal is the direction in which the points vary least.
     fn about(points: &[DVec3]) -> Self {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         // An axis that is not of unit length, due to rounding or underflow, is not used.
@@ -245,7 +247,7 @@ impl Disc {
             DMat3::IDENTITY
         };
         let turned = frame.transpose();
-        let (low, high) = extent(points.iter().map(|&p| turned * p));
+        let (low, high) = bounding_box(points.iter().map(|&p| turned * p));
         let thinnest = (high - low).min_position();
         let centre = (frame * (0.5 * (low + high))).as_vec3();
         let normal = frame.col(thinnest).as_vec3();
@@ -267,8 +269,8 @@ impl Disc {
     }
 }
 
-/// Orders points so that those of each block, of each eight blocks, and so on, are near each other.
-fn arrange(points: &[DVec3], order: &mut [u32]) {
+/// Sorts points so that those of each block, of each eight blocks, and so on, are near each other.
+fn sort_spatially(points: &[DVec3], order: &mut [u32]) {
     if order.len() <= LANES {
         return;
     }
@@ -277,25 +279,25 @@ fn arrange(points: &[DVec3], order: &mut [u32]) {
         unit *= LANES;
     }
     let at = |k: u32| points[k as usize];
-    let (low, high) = extent(order.iter().map(|&k| at(k)));
+    let (low, high) = bounding_box(order.iter().map(|&k| at(k)));
     let axis = (high - low).max_position();
     let half = order.len().div_ceil(unit) / 2 * unit;
     order.select_nth_unstable_by(half, |&k, &l| at(k)[axis].total_cmp(&at(l)[axis]));
     let (before, after) = order.split_at_mut(half);
-    arrange(points, before);
-    arrange(points, after);
+    sort_spatially(points, before);
+    sort_spatially(points, after);
 }
 
-/// Returns the middle of the box of at least one point, and the largest distance from it.
+/// Returns the middle of the bounding box of one or more points, and their largest distance from it.
 pub(super) fn ball_about(points: &[DVec3]) -> (DVec3, f64) {
-    let (low, high) = extent(points.iter().copied());
+    let (low, high) = bounding_box(points.iter().copied());
     let middle = low + 0.5 * (high - low);
     let ways = points.iter().map(|&p| distance(p, middle));
     (middle, ways.fold(0.0, greater).next_up())
 }
 
-/// Returns the box of at least one point.
-fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+/// Returns the lowest and highest corner of the bounding box of one or more points.
+fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for point in points {
         for axis in 0..3 {
@@ -306,7 +308,7 @@ fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     (low, high)
 }
 
-/// Returns the power of two above a number; 1 for a number too small to divide by.
+/// Returns the least power of two above a number; 1 for a number too small to divide by.
 fn power_of_two_above(x: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff << 52;
     match f64::from_bits(x.to_bits() & EXPONENT) {
@@ -315,9 +317,9 @@ fn power_of_two_above(x: f64) -> f64 {
     }
 }
 
-/// Returns the first lane of the highest value.
+/// Returns the index of the highest value; the first of several.
 #[inline]
-fn highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
+fn index_of_highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
     let (mut best, mut most) = (0, values[0]);
     for (k, &value) in values.iter().enumerate().skip(1) {
         let higher = value > most;

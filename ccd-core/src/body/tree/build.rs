@@ -1,8 +1,8 @@
-//! The construction of the wide tree from a binary hierarchy.
+//! Builds the wide tree from a binary hierarchy.
 
-use super::fit::{Cloud, Sample, fit};
+use super::fit::{NodePoints, Sample, fit};
 use super::group::longest;
-use super::{Below, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow, Whole};
+use super::{Below, BodyBox, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
@@ -11,10 +11,10 @@ use crate::error::InputError;
 use crate::math::order::greater;
 use glam::DVec3;
 
-/// All nodes and groups of a tree, before they are fitted to their pieces.
+/// The nodes and groups of a tree before boxes are fitted to their pieces.
 #[derive(Default)]
 pub(crate) struct Layout {
-    nodes: Vec<Slot>,
+    nodes: Vec<NodeSlot>,
     boxes: Vec<BoxesBelow>,
     triangles: Vec<TrianglesBelow>,
 }
@@ -29,14 +29,14 @@ fn span(pieces: &Pieces) -> f64 {
     pieces.iter().map(reach).fold(0.0, greater)
 }
 
-/// The range of each node's pieces in a depth-first list.
-struct Ranges {
+/// For each node of the hierarchy, the range of its pieces in depth-first order.
+struct PieceRanges {
     order: Vec<u32>,
-    /// The start and the end in `order`, by node of the hierarchy.
+    /// The start and end in `order` of each node of the hierarchy.
     of: Vec<(u32, u32)>,
 }
 
-impl Ranges {
+impl PieceRanges {
     fn new(hierarchy: &Hierarchy, pieces: usize) -> Result<Self, InputError> {
         let nodes = hierarchy.nodes();
         let mut order = Vec::with_capacity(pieces);
@@ -61,7 +61,7 @@ impl Ranges {
             }
         }
         if order.len() == pieces {
-            Ok(Ranges { order, of })
+            Ok(PieceRanges { order, of })
         } else {
             Err(InputError::BadHierarchy { at: order.len() })
         }
@@ -73,52 +73,52 @@ impl Ranges {
     }
 }
 
-/// The place of a node: its pieces, and what is below it.
-struct Slot {
+/// A node of the wide tree: its pieces, and its children.
+struct NodeSlot {
     start: u32,
     end: u32,
     below: Below,
 }
 
-/// A group of nodes, by the number of the first.
+/// The children of a node that are nodes, by the index of the first.
 struct BoxesBelow {
     parent: u32,
     first: u32,
     count: u32,
 }
 
-/// A group of triangles, by the number of the first.
+/// The children of a node that are triangles, by the index of the first.
 struct TrianglesBelow {
     parent: u32,
     start: u32,
     end: u32,
 }
 
-/// A group of nodes counts as full with this many groups' worth of triangles, as hardly any of those is full.
+/// The number of full triangle groups that count as a full group of nodes, as hardly any group is full.
 ///
 /// Unit: groups. Less: more memory, as most groups of nodes are at the bottom. More: nodes that
 /// just exceed it are split into two.
-const FULL_LANES: u64 = 6;
+const TYPICAL_FULL_GROUPS: u64 = 6;
 
 impl Layout {
-    /// Lays out the tree, and sorts the pieces into its order.
+    /// Arranges the nodes of the tree, and returns the pieces in the tree's order.
     ///
     /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
     /// triangles, or one piece of another kind.
     pub(crate) fn of(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Self, Pieces), InputError> {
-        let ranges = Ranges::new(hierarchy, pieces.len())?;
+        let ranges = PieceRanges::new(hierarchy, pieces.len())?;
         let layout = Layout::over(hierarchy, &ranges, pieces.all_triangles());
         Ok((layout, pieces.reordered(&ranges.order)))
     }
 
-    fn over(hierarchy: &Hierarchy, ranges: &Ranges, triangles: bool) -> Self {
-        let opener = Opener {
+    fn over(hierarchy: &Hierarchy, ranges: &PieceRanges, triangles: bool) -> Self {
+        let opener = ChildChooser {
             hierarchy,
             ranges,
-            whole: if triangles { LANES } else { 1 },
+            max_leaf_pieces: if triangles { LANES } else { 1 },
             // Pieces other than triangles form no groups.
-            layers: if triangles {
-                layers(ranges.order.len())
+            layer_capacities: if triangles {
+                layer_capacities(ranges.order.len())
             } else {
                 Vec::new()
             },
@@ -132,7 +132,7 @@ impl Layout {
                 layout.triangles.push(TrianglesBelow { parent, start, end });
                 Below::Triangles(layout.triangles.len() as u32 - 1)
             } else if ranges.len(at) > 1 {
-                let (members, count) = opener.open(at);
+                let (members, count) = opener.choose_children(at);
                 let first = layout.nodes.len() as u32;
                 for (&member, child) in members[..count].iter().zip(first..) {
                     layout.push_node(&opener, member);
@@ -153,19 +153,19 @@ impl Layout {
         layout
     }
 
-    fn push_node(&mut self, opener: &Opener<'_>, at: u32) {
+    fn push_node(&mut self, opener: &ChildChooser<'_>, at: u32) {
         let (start, end) = opener.ranges.of[at as usize];
         // The group is created when the node is visited.
         let below = Below::Piece(start);
-        self.nodes.push(Slot { start, end, below });
+        self.nodes.push(NodeSlot { start, end, below });
     }
 
-    /// Fits the nodes to their pieces, and creates the groups. Each of them depends on its own pieces alone, so that
-    /// all can be computed in parallel.
-    pub(crate) fn fitted(&self, pieces: &Pieces) -> Tree {
+    /// Fits boxes to the nodes, and creates the groups. Each of them depends on its own pieces alone, so that all can
+    /// be computed in parallel.
+    pub(crate) fn fit_nodes(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
         for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
-            *node = self.nodes[k].fitted(pieces, sample);
+            *node = self.nodes[k].fit_nodes(pieces, sample);
         });
         let mut boxes = vec![BoxGroup::EMPTY; self.boxes.len()];
         for_each(&mut boxes, &(), |(), k, group| {
@@ -186,7 +186,10 @@ impl Layout {
             *group = TriangleRow::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
-            whole: Whole::about(&self.nodes[0].cloud(pieces), &mut Sample::EMPTY.clone()),
+            whole: BodyBox::about(
+                &self.nodes[0].node_points(pieces),
+                &mut Sample::EMPTY.clone(),
+            ),
             slabs: self.slabs(pieces, &nodes),
             nodes,
             boxes,
@@ -197,12 +200,12 @@ impl Layout {
 }
 
 impl Layout {
-    /// Finds the slabs about flat nodes of triangles.
+    /// Returns the slabs around flat nodes of triangles.
     fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
         if !pieces.all_triangles() {
             return Vec::new();
         }
-        let slab = |(id, (slot, node)): (NodeId, (&Slot, &Node))| {
+        let slab = |(id, (slot, node)): (NodeId, (&NodeSlot, &Node))| {
             if !node.is_thin() {
                 return None;
             }
@@ -216,17 +219,17 @@ impl Layout {
     }
 }
 
-impl Slot {
-    fn fitted(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
-        fit(&self.cloud(pieces), self.below, sample)
+impl NodeSlot {
+    fn fit_nodes(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
+        fit(&self.node_points(pieces), self.below, sample)
     }
 
-    /// Returns the points and radii that a box about the pieces has to contain.
-    fn cloud<'p>(&self, pieces: &'p Pieces) -> Cloud<'p> {
+    /// Returns the points and radii that the node's box has to contain.
+    fn node_points<'p>(&self, pieces: &'p Pieces) -> NodePoints<'p> {
         let range = self.start as usize..self.end as usize;
         let triangles = pieces.all_triangles();
         let radii = range.clone().map(|k| pieces.get(k).radius);
-        Cloud {
+        NodePoints {
             points: pieces.points_of(range),
             radius: if triangles {
                 0.0
@@ -238,20 +241,20 @@ impl Slot {
     }
 }
 
-/// Finds the children of the wide tree's nodes.
-struct Opener<'a> {
+/// Chooses the children of the wide tree's nodes among the descendants in the binary hierarchy.
+struct ChildChooser<'a> {
     hierarchy: &'a Hierarchy,
-    ranges: &'a Ranges,
-    /// Nodes of up to this many pieces are not opened.
-    whole: usize,
-    /// The most pieces of a node, by its layer, from the bottom.
-    layers: Vec<usize>,
+    ranges: &'a PieceRanges,
+    /// The largest number of pieces of a node that becomes a leaf.
+    max_leaf_pieces: usize,
+    /// The largest number of pieces of a node, for each layer from the bottom.
+    layer_capacities: Vec<usize>,
 }
 
-/// Returns the most pieces of a node, by its layer, from the bottom: full groups first, then by even ratios as many
-/// layers as needed.
-fn layers(pieces: usize) -> Vec<usize> {
-    let (full, pieces) = (LANES as u64 * FULL_LANES, pieces as u64);
+/// Returns the largest number of pieces of a node, for each layer from the bottom. Full groups come first, then by even
+/// ratios as many layers as needed.
+fn layer_capacities(pieces: usize) -> Vec<usize> {
+    let (full, pieces) = (LANES as u64 * TYPICAL_FULL_GROUPS, pieces as u64);
     let mut count = 1;
     while full * (LANES as u64).pow(count) < pieces {
         count += 1;
@@ -264,23 +267,27 @@ fn layers(pieces: usize) -> Vec<usize> {
     [LANES].into_iter().chain(below).collect()
 }
 
-impl Opener<'_> {
-    /// Returns the most pieces that fit into the layer below that of a node.
-    fn layer_below(&self, pieces: usize) -> usize {
-        let lower = self.layers.iter().rev().find(|&&layer| layer < pieces);
-        lower.copied().unwrap_or(self.whole)
+impl ChildChooser<'_> {
+    /// Returns the largest number of pieces of a child of a node with this many pieces.
+    fn max_child_pieces(&self, pieces: usize) -> usize {
+        let lower = self
+            .layer_capacities
+            .iter()
+            .rev()
+            .find(|&&layer| layer < pieces);
+        lower.copied().unwrap_or(self.max_leaf_pieces)
     }
 
-    /// Returns the descendants that become a node's children, and their number. The one with the most pieces is
-    /// opened repeatedly, unless it fits into a lower layer of full groups.
+    /// Returns the descendants that become a node's children, and their number. The one with the most pieces is opened
+    /// repeatedly, unless it fits into a lower layer of full groups.
     ///
     /// Groups are full at the bottom, where most of the groups are.
-    fn open(&self, at: u32) -> ([u32; LANES], usize) {
+    fn choose_children(&self, at: u32) -> ([u32; LANES], usize) {
         let (mut members, mut count) = ([at; LANES], 1);
-        let whole = self.layer_below(self.ranges.len(at));
+        let max_leaf_pieces = self.max_child_pieces(self.ranges.len(at));
         while count < LANES {
             let largest = (0..count).max_by_key(|&k| self.ranges.len(members[k]));
-            let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > whole) else {
+            let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > max_leaf_pieces) else {
                 break;
             };
             let HierarchyNode::Inner(left, right) = self.hierarchy.nodes()[members[k] as usize]

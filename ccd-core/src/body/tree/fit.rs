@@ -1,4 +1,4 @@
-//! The fit of the box and the ball of a node.
+//! Fits the oriented box and the ball of a node.
 
 mod sample;
 
@@ -12,17 +12,16 @@ use glam::{DMat3, DVec3, Vec3};
 pub(crate) use sample::Sample;
 
 /// The pieces below a node, as input of a fit.
-pub(crate) struct Cloud<'a> {
+pub(crate) struct NodePoints<'a> {
     pub(crate) points: &'a [DVec3],
-    /// The largest rounding radius among the pieces.
+    /// The largest rounding radius of the pieces.
     pub(crate) radius: f64,
     /// True if the points are corners of triangles, three each.
     pub(crate) triangles: bool,
 }
 
-/// The sine and cosine of the rotations of the tried frames about the mean normal, which are even steps over a right
-/// angle.
-const TURNS: [(f64, f64); 6] = [
+/// The sines and cosines of the tried rotations about the mean normal, in even steps over a right angle.
+const TRIED_ROTATIONS: [(f64, f64); 6] = [
     (0.0, 1.0),
     (0.258_819_045_102_520_74, 0.965_925_826_289_068_3),
     (0.5, 0.866_025_403_784_438_6),
@@ -34,19 +33,20 @@ const TURNS: [(f64, f64); 6] = [
     (0.965_925_826_289_068_3, 0.258_819_045_102_520_74),
 ];
 
-/// Fits the node to all points. Several frames are tried on a sample of them, and the one whose box has the least
+/// Fits a node's box to all points. Several frames are tried on a sample of them, and the one whose box has the least
 /// surface is taken.
 ///
 /// # Guarantee
 /// The box and the ball contain all points: the sample only chooses the frame.
-pub(crate) fn fit(cloud: &Cloud<'_>, below: Below, sample: &mut Sample) -> Node {
-    sample.take(cloud);
-    let frame = best_frame(sample, cloud.triangles);
-    Fitted::along(frame, cloud.points).node(cloud, below)
+pub(crate) fn fit(node_points: &NodePoints<'_>, below: Below, sample: &mut Sample) -> Node {
+    sample.take(node_points);
+    let frame = best_frame(sample, node_points.triangles);
+    FittedBox::along(frame, node_points.points).node(node_points, below)
 }
 
-/// Returns the frame whose box about the sample has the least surface. The frames tried are along the coordinates,
-/// along principal axes of the points, and, for triangles, along principal axes by area or about the mean normal.
+/// Returns the frame whose box around the sample has the least surface area. The frames tried are along the
+/// coordinates, along principal axes of the points, and, for triangles, along principal axes by area or about the mean
+/// normal.
 pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     let mut best = DMat3::IDENTITY;
     let mut least = sample.surface(&best);
@@ -54,7 +54,7 @@ pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
         let surface = sample.surface(&frame);
         // A dropped frame only makes the box less tight. A frame that is not orthonormal would make it too small.
         // Written so that a frame with NaN is dropped.
-        if surface < least && is_frame(&frame) {
+        if surface < least && is_orthonormal(&frame) {
             (best, least) = (frame, surface);
         }
     };
@@ -69,7 +69,7 @@ pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     }));
     if let Some(normal) = unit(triangles().map(across).sum()) {
         let (x, y) = normal.any_orthonormal_pair();
-        for (sin, cos) in TURNS {
+        for (sin, cos) in TRIED_ROTATIONS {
             let turned = [x * cos + y * sin, y * cos - x * sin];
             consider(DMat3::from_cols(turned[0], turned[1], normal));
         }
@@ -77,8 +77,9 @@ pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     best
 }
 
-/// Returns whether the columns are orthonormal up to rounding. Otherwise the box may not contain its points.
-fn is_frame(frame: &DMat3) -> bool {
+/// Returns whether the columns of a matrix are orthonormal up to rounding. Otherwise the box may not contain its
+/// points.
+fn is_orthonormal(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
     // Written so that NaN is rejected.
     let within = |v: DVec3| v.abs().cmple(DVec3::splat(FRAME_F64)).all();
@@ -86,21 +87,21 @@ fn is_frame(frame: &DMat3) -> bool {
 }
 
 /// A frame, and the extent of the points along its axes.
-struct Fitted {
+struct FittedBox {
     frame: DMat3,
     low: DVec3,
     high: DVec3,
 }
 
-impl Fitted {
+impl FittedBox {
     fn along(frame: DMat3, points: &[DVec3]) -> Self {
         let turned = frame.transpose();
         let (low, high) = crate::body::hierarchy::bounds(points.iter().map(|&p| turned * p));
-        Fitted { frame, low, high }
+        FittedBox { frame, low, high }
     }
 
-    /// Returns the node with the axes rounded to f32, longest first. The sizes are measured along the rounded axes.
-    fn node(&self, cloud: &Cloud<'_>, below: Below) -> Node {
+    /// Creates the node, with axes rounded to f32, the longest first. The sizes are measured along the rounded axes.
+    fn node(&self, node_points: &NodePoints<'_>, below: Below) -> Node {
         let size = self.high - self.low;
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));
@@ -108,7 +109,7 @@ impl Fitted {
         let axes: [Vec3; 3] = order.map(|k| self.frame.col(k).as_vec3());
         let along = axes.map(Vec3::as_dvec3);
         let (mut half, mut square) = ([0.0f64; 3], 0.0f64);
-        for &point in cloud.points {
+        for &point in node_points.points {
             let way = point - centre;
             for (half, axis) in half.iter_mut().zip(along) {
                 *half = greater(*half, way.dot(axis).abs());
@@ -122,8 +123,8 @@ impl Fitted {
             centre,
             axes,
             half: half.map(outward),
-            radius: outward(square.sqrt() + cloud.radius),
-            rounding: up(cloud.radius),
+            radius: outward(square.sqrt() + node_points.radius),
+            rounding: up(node_points.radius),
             below,
         }
     }

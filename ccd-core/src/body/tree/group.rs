@@ -1,4 +1,4 @@
-//! Children in groups of eight, one array per coordinate, for eight bounds at once.
+//! Groups of eight children, one array per coordinate, to bound eight pairs at once.
 
 use super::node::{Below, Node};
 use crate::math::order::greater;
@@ -9,10 +9,10 @@ use glam::{DVec3, Vec3};
 /// The number of children in a group.
 pub(crate) const LANES: usize = 8;
 
-/// Three coordinates, eight each.
+/// Three coordinates of eight vectors.
 pub(crate) type Rows3 = [[f32; LANES]; 3];
 
-/// Up to eight nodes, relative to an origin; unused lanes repeat the last child.
+/// The boxes of up to eight nodes, relative to an origin; unused lanes repeat the last child.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 pub(crate) struct BoxGroup {
@@ -22,7 +22,7 @@ pub(crate) struct BoxGroup {
     pub(crate) rounding: [f32; LANES],
     pub(crate) radius: [f32; LANES],
     pub(crate) members: Members,
-    /// The lanes that hold a single piece.
+    /// The lanes whose child is a single piece, as bits.
     pub(crate) leaves: u8,
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct BoxGroup {
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleRow {
     pub(crate) members: Members,
-    /// The radius of each triangle, as in [`TriangleGroup`].
+    /// The radius of each triangle's ball, as in [`TriangleGroup`].
     radius: [f32; LANES],
 }
 
@@ -42,25 +42,25 @@ pub(crate) struct TriangleRow {
 #[repr(align(32))]
 pub(crate) struct TriangleGroup {
     pub(crate) corners: [Rows3; 3],
-    /// The radius about the mean of the corners.
+    /// The radius of the ball around the mean of the corners, for each triangle.
     pub(crate) radius: [f32; LANES],
     pub(crate) members: Members,
 }
 
-/// The fields that every group has.
+/// The fields that groups of boxes and of triangles share.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members {
-    /// The origin in the body's frame; rows are relative to it.
+    /// The origin of the group's coordinates, in the body's frame.
     pub(crate) origin: DVec3,
     /// An upper bound of the distances of the children's points from the origin.
     pub(crate) reach: f32,
-    /// The id of the first child; the others follow.
+    /// The id of the first child; the ids of the others follow it.
     pub(crate) first: u32,
     pub(crate) count: u32,
 }
 
 impl BoxGroup {
-    /// An empty group, to be filled.
+    /// A placeholder for a group that is not computed yet.
     pub(super) const EMPTY: BoxGroup = BoxGroup {
         centre: [[0.0; LANES]; 3],
         axes: [[[0.0; LANES]; 3]; 3],
@@ -71,7 +71,7 @@ impl BoxGroup {
         leaves: 0,
     };
 
-    /// Lays out consecutive nodes; `first` is the id of the first one.
+    /// Creates a group of consecutive nodes; `first` is the id of the first one.
     pub(crate) fn new(nodes: &[Node], first: u32, origin: DVec3) -> Self {
         let mut group = BoxGroup {
             members: Members {
@@ -108,7 +108,7 @@ impl BoxGroup {
 }
 
 impl Members {
-    /// No members.
+    /// The fields of a group without children.
     const NONE: Members = Members {
         origin: DVec3::ZERO,
         reach: 0.0,
@@ -118,13 +118,13 @@ impl Members {
 }
 
 impl TriangleRow {
-    /// An empty row, to be filled.
+    /// A placeholder for a row that is not computed yet.
     pub(super) const EMPTY: TriangleRow = TriangleRow {
         members: Members::NONE,
         radius: [0.0; LANES],
     };
 
-    /// Bounds consecutive triangles; `first` is the id of the first one.
+    /// Computes the balls of consecutive triangles; `first` is the id of the first one.
     pub(crate) fn new(triangles: &[[DVec3; 3]], first: u32, origin: DVec3) -> Self {
         let mut row = TriangleRow {
             members: Members {
@@ -147,7 +147,7 @@ impl TriangleRow {
 }
 
 impl TriangleGroup {
-    /// Lays out the triangles of a row.
+    /// Creates the layout for vector instructions from a row and its triangles' corners.
     #[inline(always)]
     pub(crate) fn new(row: &TriangleRow, triangles: &[[DVec3; 3]]) -> Self {
         let mut group = TriangleGroup {
@@ -165,7 +165,7 @@ impl TriangleGroup {
     }
 }
 
-/// Returns the unit normal of a triangle, or zero when it has none.
+/// Returns the unit normal of a triangle, or zero if it is degenerate.
 pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
     let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let square = across.length_squared();
@@ -176,7 +176,7 @@ pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
     }
 }
 
-/// Returns the greatest length among some vectors, as accurate as [`length`].
+/// Returns the length of the longest of some vectors, as accurate as [`length`].
 pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     let squares = vectors.clone().map(DVec3::length_squared);
     let square = squares.fold(0.0, greater);
@@ -188,7 +188,7 @@ pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     }
 }
 
-/// Returns the nearest f32 that is not below a number.
+/// Rounds a number up to f32.
 pub(crate) fn up(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) < x {

@@ -1,4 +1,4 @@
-//! Queries for the pieces at a point, and for the surface near it.
+//! Finds the pieces at a point, and the surface near it.
 
 use super::waiting::Waiting;
 use super::{Below, Tree};
@@ -7,7 +7,7 @@ use crate::rounding::SIGN_F64;
 use glam::DVec3;
 use std::ops::Range;
 
-/// Returns the pieces that are not triangles and whose boxes contain a point, or nearly.
+/// Returns the pieces other than triangles whose boxes contain a point, or almost contain it.
 pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, 0.0).filter_map(|leaf| match leaf {
         Leaf::Piece(piece) => Some(piece),
@@ -15,7 +15,8 @@ pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> 
     })
 }
 
-/// Returns the pieces whose boxes are within about `reach` of a point. Triangles in such a box are all returned.
+/// Returns the pieces whose boxes are within about `reach` of a point, and all triangles that share such a box.
+/// Triangles in such a box are all returned.
 pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = u32> {
     leaves_near(tree, point, reach).flat_map(|leaf| match leaf {
         Leaf::Piece(piece) => piece..piece + 1,
@@ -23,24 +24,23 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
     })
 }
 
-/// Returns whether a point is certainly farther than `reach` from the surface: from the triangles, or from the mesh's
-/// faces on the pieces.
+/// Returns whether a point is certainly farther than `reach` from all triangles and mesh faces.
 pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     leaves_near(tree, point, reach).all(|leaf| match leaf {
         Leaf::Triangles(mut triangles) => {
-            triangles.all(|piece| is_past(pieces.triangle(piece as usize), point, reach))
+            triangles.all(|piece| is_beyond(pieces.triangle(piece as usize), point, reach))
         }
         Leaf::Piece(piece) => pieces
             .get(piece as usize)
             .mesh_triangles()
-            .all(|(_, triangle)| is_past(triangle, point, reach)),
+            .all(|(_, triangle)| is_beyond(triangle, point, reach)),
     })
 }
 
-/// The lowest level of a search in the tree: a piece or some triangles.
+/// A leaf of a search in the tree: one piece or several triangles.
 enum Leaf {
     Piece(u32),
-    /// Some triangles, by the indices of their pieces.
+    /// Several triangles, by the indices of their pieces.
     Triangles(Range<u32>),
 }
 
@@ -50,7 +50,7 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
     std::iter::from_fn(move || {
         while let Some(id) = stack.pop() {
             let node = &tree.nodes[id as usize];
-            if !node.holds(point, reach) {
+            if !node.is_near(point, reach) {
                 continue;
             }
             match node.below {
@@ -70,9 +70,9 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
     })
 }
 
-/// Returns whether an axis proves that a point is farther than `reach` from a triangle: the normal of its plane, or
-/// the direction from an edge or a corner.
-pub(crate) fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
+/// Returns whether a separating axis proves that a point is farther than `reach` from a triangle. It tries the normal
+/// of the plane, and the directions from the edges and corners.
+pub(crate) fn is_beyond(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();
     let separates = |axis: DVec3| {

@@ -1,4 +1,4 @@
-//! The winding number of a body's surface about a point, along a ray.
+//! Computes the winding number of a body's surface about a point, by a ray.
 
 use super::waiting::Waiting;
 use super::{Below, Node, Tree};
@@ -9,22 +9,22 @@ use crate::tuning::RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The crossings of a ray with a surface, by the normals of its triangles: 1 if the ray leaves, −1 if it enters.
+/// The signed crossings of a ray with a surface: 1 where the ray leaves, −1 where it enters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossings {
-    /// The crossings beyond the ray's start. For a closed surface this is the winding number about points just ahead
-    /// of the start.
+    /// The sum of the crossings beyond the ray's start. For a closed surface this is the winding number about points
+    /// just ahead of the start.
     pub(crate) beyond: i32,
-    /// The crossings at the start, up to rounding.
+    /// The sum of the crossings at the start, up to rounding.
     pub(crate) at_start: i32,
     /// The number of triangles that contain the start.
-    pub(crate) on: u32,
+    pub(crate) triangles_at_start: u32,
     /// The direction of the ray.
     pub(crate) along: DVec3,
 }
 
-/// Counts the crossings along the first ray from a point that certainly passes all edges; `None` when there is no
-/// such ray. A triangle contains the point if it is at most `slack` from it.
+/// Counts the crossings along a ray from a point that certainly passes all edges; `None` if no such ray is found. A
+/// triangle contains the point if it is at most `slack` from it.
 ///
 /// # Guarantee
 /// The count of crossings ahead of the point by more than rounding is that of exact arithmetic, and no crossing
@@ -39,14 +39,14 @@ pub(crate) fn crossings(
     (0..RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
 }
 
-/// The start of a ray, and the accuracy of its position.
+/// The start of a ray, with the accuracy of its position.
 #[derive(Clone, Copy)]
 struct Start {
     from: DVec3,
     slack: f64,
 }
 
-/// Returns directions spread over the sphere, in general position.
+/// Returns the `k`-th of directions that are spread over the sphere, in general position.
 fn direction(k: u32) -> DVec3 {
     // Multiples of these two fractions are spread evenly over a square.
     let [x, y] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|f| (f64::from(k) + 0.5) * f);
@@ -60,13 +60,13 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
     let mut found = Crossings {
         beyond: 0,
         at_start: 0,
-        on: 0,
+        triangles_at_start: 0,
         along,
     };
     let mut stack = Waiting::root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
-        if !meets(node, start.from, along) {
+        if !may_hit(node, start.from, along) {
             continue;
         }
         match node.below {
@@ -91,14 +91,14 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
     Some(found)
 }
 
-/// Returns whether a ray may meet a node's box.
-fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
+/// Returns whether a ray may hit a node's box.
+fn may_hit(node: &Node, from: DVec3, along: DVec3) -> bool {
     let way = from - node.centre;
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
     for k in 0..3 {
         let axis = node.axes[k].as_dvec3();
         // Positions along the ray are off by the rounding of the distance to the box.
-        let half = node.reach_f64(k) + 32.0 * U64 * way.abs().element_sum();
+        let half = node.half_extent(k) + 32.0 * U64 * way.abs().element_sum();
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
         // A ray parallel to a slab, within it, gives an infinity on either side. NaN counts as met.
@@ -108,7 +108,7 @@ fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
     !(enter > leave)
 }
 
-/// A sign that may be uncertain.
+/// The sign of a number, if rounding leaves it certain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sign {
     Negative,
@@ -117,7 +117,7 @@ enum Sign {
 }
 
 impl Sign {
-    /// Returns the sign of a number whose error is at most [`SIGN_F64`] of a size.
+    /// Returns the sign of a number with an error of at most [`SIGN_F64`] times `size`.
     fn of(number: f64, size: f64) -> Sign {
         // Written so that NaN is unclear. Products that underflow are off by less than the added term.
         let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
@@ -130,7 +130,7 @@ impl Sign {
 }
 
 impl Crossings {
-    /// Adds the ray's crossing of a triangle; `None` when the crossing is not certain.
+    /// Adds the crossing of the ray with a triangle; `None` if it is uncertain.
     fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
         let along = self.along;
         let corners = triangle.map(|p| p - start.from);
@@ -162,7 +162,7 @@ impl Crossings {
             true => Sign::Positive,
             _ if height.abs() <= start.slack * normal => Sign::Unclear,
             false => match Sign::of(height, size(a) * size(b) * size(c)) {
-                Sign::Unclear => by_edges(triangle, corners, sign),
+                Sign::Unclear => sign_by_edges(triangle, corners, sign),
                 clear => clear,
             },
         };
@@ -171,16 +171,16 @@ impl Crossings {
             Sign::Negative => {}
             Sign::Unclear => {
                 self.at_start += sign;
-                self.on += 1;
+                self.triangles_at_start += 1;
             }
         }
         Some(())
     }
 }
 
-/// Returns the sign of a triangle's height above the start, by its edges, which may be far shorter than the vectors
+/// Returns on which side of the start a triangle is, computed from its edges. They may be far shorter than the vectors
 /// to its corners.
-fn by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+fn sign_by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);

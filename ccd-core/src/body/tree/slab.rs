@@ -1,4 +1,4 @@
-//! Two parallel planes about a flat node, in f64.
+//! Slabs around flat nodes, in f64.
 
 use crate::math::order::greater;
 use crate::math::vector::unit;
@@ -6,8 +6,8 @@ use crate::rounding::U64;
 use crate::tuning::FLAT;
 use glam::DVec3;
 
-/// The space between two parallel planes at the same distance from a node's centre. It contains all triangles of the
-/// node.
+/// Two parallel planes that bound a flat node's triangles, at equal distances from the node's centre. It contains all
+/// triangles of the node.
 ///
 /// The axes of a node's box are rounded to f32. The box of a flat node that is not parallel to the coordinates is
 /// therefore thicker than the node by that rounding.
@@ -20,7 +20,7 @@ pub(crate) struct Slab {
 }
 
 impl Slab {
-    /// Returns the slab; `None` unless the triangles are in one plane up to rounding.
+    /// Fits a slab to corners around a centre; `None` unless the triangles are in one plane up to rounding.
     pub(super) fn about(corners: &[DVec3], centre: DVec3) -> Option<Self> {
         let triangles = corners.as_chunks().0.iter();
         let normal = unit(triangles.map(|[a, b, c]| (b - a).cross(c - a)).sum())?;

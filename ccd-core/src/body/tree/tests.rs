@@ -1,4 +1,4 @@
-//! Properties of every tree, for bodies of all kinds.
+//! Tests properties of trees, for bodies of all kinds.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 /// checks it.
 const CHECK: f64 = 1e-14;
 
-/// Checks the properties of any tree, and returns its number of groups.
+/// Checks the properties of a body's tree, and returns its number of groups.
 fn check(body: &Body) -> usize {
     let (tree, pieces) = (body.tree(), body.pieces());
     let mut seen = vec![0; pieces.len()];
@@ -34,7 +34,7 @@ fn farthest(pieces: &Pieces) -> f64 {
 
 /// Checks a node and all nodes below it, and returns the pieces below.
 fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
-    let Named::Node(node) = tree.get(id) else {
+    let NodeOrTriangle::Node(node) = tree.get(id) else {
         let piece = tree.piece(id).expect("a triangle");
         seen[piece as usize] += 1;
         return vec![piece];
@@ -104,7 +104,7 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// Checks that the row of a group contains the points too, about the rounded centre in it.
+/// Checks that the box and ball in a group's lane contain the points, with the rounded centre of the group.
 fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     let at =
         |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
@@ -126,8 +126,8 @@ fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// Checks a triangle of a group: the corners are rounded to f32 relative to the group's origin, and the ball contains
-/// the true ones.
+/// Checks a triangle of a group: its corners are rounded relative to the group's origin, and the ball contains the
+/// exact ones.
 fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
     let mean = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     for (k, &corner) in triangle.iter().enumerate() {
@@ -191,7 +191,7 @@ fn coordinates_up_to_the_largest_and_down_to_the_least() {
     }
 }
 
-/// Squares of components below 1e-154 lose their digits, and vanish below 1e-162.
+/// Tests components below 1e-154, whose squares lose digits, and below 1e-162, whose squares are 0.
 #[test]
 fn components_whose_squares_are_no_numbers() {
     let mut rng = rng(4);

@@ -1,43 +1,45 @@
-//! A stack of waiting nodes for descents of a tree.
+//! A stack of nodes for depth-first traversals of a tree.
 
 use super::NodeId;
 
-/// A stack of nodes. It allocates nothing, unless the tree is deeper than any balanced one.
+/// A stack of nodes that allocates nothing unless the tree is deeper than any balanced one. It allocates nothing,
+/// unless the tree is deeper than any balanced one.
 pub(super) struct Waiting {
-    near: [NodeId; NEAR],
+    inline_nodes: [NodeId; INLINE_CAPACITY],
     count: usize,
-    /// The nodes above the others.
-    far: Vec<NodeId>,
+    /// The nodes for which `inline_nodes` has no room.
+    overflow: Vec<NodeId>,
 }
 
-/// Each level leaves up to seven nodes: this is enough for nine levels of eight children, 10⁸ pieces.
-const NEAR: usize = 64;
+/// The number of nodes that need no allocation. Each level leaves up to seven nodes: this is enough for nine levels of
+/// eight children, 10⁸ pieces.
+const INLINE_CAPACITY: usize = 64;
 
 impl Waiting {
-    /// Returns the stack with the root on it.
+    /// Creates a stack that holds the root.
     pub(super) fn root() -> Self {
         Waiting {
-            near: [0; NEAR],
+            inline_nodes: [0; INLINE_CAPACITY],
             count: 1,
-            far: Vec::new(),
+            overflow: Vec::new(),
         }
     }
 
     pub(super) fn pop(&mut self) -> Option<NodeId> {
-        self.far.pop().or_else(|| {
+        self.overflow.pop().or_else(|| {
             self.count = self.count.checked_sub(1)?;
-            Some(self.near[self.count])
+            Some(self.inline_nodes[self.count])
         })
     }
 
     pub(super) fn extend(&mut self, nodes: impl Iterator<Item = NodeId>) {
         for node in nodes {
-            match self.near.get_mut(self.count) {
+            match self.inline_nodes.get_mut(self.count) {
                 Some(place) => {
                     *place = node;
                     self.count += 1;
                 }
-                None => self.far.push(node),
+                None => self.overflow.push(node),
             }
         }
     }
@@ -64,6 +66,6 @@ mod tests {
                 assert_eq!(waiting.pop(), list.pop());
             }
         }
-        assert!(most > 2 * NEAR, "{most}");
+        assert!(most > 2 * INLINE_CAPACITY, "{most}");
     }
 }

@@ -1,39 +1,40 @@
-//! The box about all points of a body, in f64.
+//! The bounding box of a whole body, in f64.
 
-use super::fit::{Cloud, Sample, best_frame};
+use super::fit::{NodePoints, Sample, best_frame};
 use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::rounding::U64;
 use glam::{DMat3, DVec3};
 
-/// The box about a body, as tight as f64 allows. The root's own box is rounded to f32: with it, bodies that slide
-/// along each other closer than that would count as near each other everywhere.
+/// The oriented bounding box of a body, as tight as f64 allows. The root's own box is rounded to f32: with it, bodies
+/// that slide along each other closer than that would count as near each other everywhere.
 ///
 /// # Guarantee
 /// For a unit vector n, no point of the body is farther along n from the centre than the sum of `half` times the
 /// components of n along the axes, and `slack`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Whole {
+pub(crate) struct BodyBox {
     pub(crate) centre: DVec3,
-    /// The axes as columns, orthonormal up to an error that `slack` covers.
+    /// The axes of the box as columns; `slack` covers their error.
     pub(crate) axes: DMat3,
     pub(crate) half: DVec3,
     /// An upper bound of the distances of the pieces' points from the centre.
     pub(crate) radius: f64,
-    /// The pieces' rounding radius, and the error of axes and half sizes.
+    /// The pieces' rounding radius, plus the error of the axes and half extents.
     pub(crate) slack: f64,
 }
 
-impl Whole {
-    /// Fits the box to a body's points.
-    pub(super) fn about(cloud: &Cloud<'_>, sample: &mut Sample) -> Self {
-        sample.take(cloud);
-        let axes = best_frame(sample, cloud.triangles);
+impl BodyBox {
+    /// Fits the box to all points of a body.
+    pub(super) fn about(node_points: &NodePoints<'_>, sample: &mut Sample) -> Self {
+        sample.take(node_points);
+        let axes = best_frame(sample, node_points.triangles);
         let turned = axes.transpose();
-        let (low, high) = crate::body::hierarchy::bounds(cloud.points.iter().map(|&p| turned * p));
+        let (low, high) =
+            crate::body::hierarchy::bounds(node_points.points.iter().map(|&p| turned * p));
         let centre = axes * (0.5 * (low + high));
         let (mut half, mut radius) = (DVec3::ZERO, 0.0);
-        for &point in cloud.points {
+        for &point in node_points.points {
             let way = point - centre;
             let along = (turned * way).abs();
             half = DVec3::new(
@@ -51,12 +52,12 @@ impl Whole {
             .to_cols_array()
             .into_iter()
             .fold(0.0, |sum, entry| greater(sum, entry.abs()));
-        Whole {
+        BodyBox {
             centre,
             axes,
             half,
-            radius: (radius + cloud.radius) * (1.0 + 8.0 * U64),
-            slack: cloud.radius + (3.0 * largest + 32.0 * U64) * radius,
+            radius: (radius + node_points.radius) * (1.0 + 8.0 * U64),
+            slack: node_points.radius + (3.0 * largest + 32.0 * U64) * radius,
         }
     }
 }
@@ -78,12 +79,12 @@ mod tests {
                 let at = u * tape.any(-8..=0) + v * tape.any(-8..=0) + w * tape.any(-8..=0);
                 middle + at
             });
-            let cloud = Cloud {
+            let node_points = NodePoints {
                 points: &points,
                 radius: 0.0,
                 triangles: tape.pick(2) == 0,
             };
-            let whole = Whole::about(&cloud, &mut sample);
+            let whole = BodyBox::about(&node_points, &mut sample);
             // An axis of the box, or nearly, or any direction.
             let axis = whole.axes.col(tape.pick(3));
             let n = match tape.pick(3) {
@@ -128,12 +129,12 @@ mod tests {
                     middle + turn * (size * at)
                 })
                 .collect();
-            let cloud = Cloud {
+            let node_points = NodePoints {
                 points: &points,
                 radius: 0.0,
                 triangles: rng.random_bool(0.5),
             };
-            let whole = Whole::about(&cloud, &mut sample);
+            let whole = BodyBox::about(&node_points, &mut sample);
             assert!(
                 whole.slack <= 1e-13 * size * 2.0,
                 "{} of {size}",

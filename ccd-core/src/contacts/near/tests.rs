@@ -11,7 +11,7 @@ use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{direction, long_box};
 use crate::tests::worst::{Worst, share};
 
-/// Compares the interval of a box along a direction, without the widening, with the box's points.
+/// Compares the projection of a box on a direction, without the widening, with that of the box's points.
 #[test]
 fn worst_box() {
     let still = Motion::still(Pose::IDENTITY);

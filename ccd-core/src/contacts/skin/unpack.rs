@@ -1,4 +1,4 @@
-//! The triangles of a piece, with names.
+//! Converts pieces to triangles with mesh numbers.
 
 use super::{Corner, Face, PointBits, Skin};
 use crate::body::combination::Combination;
@@ -8,11 +8,11 @@ use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// The name and the corners of a triangle. Corners have a number if the mesh has one.
+/// A triangle with its feature, and its corners with their mesh numbers. Corners have a number if the mesh has one.
 type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
 
 impl Skin<'_> {
-    /// Adds the faces of a piece, unless they are there already.
+    /// Adds the triangles of a piece to the surface.
     pub(super) fn unpack(&mut self, index: u32) {
         let piece = self.body.pieces().get(index as usize);
         for (name, corners) in self.triangles(index, &piece) {
@@ -26,10 +26,10 @@ impl Skin<'_> {
         }
     }
 
-    /// Returns the mesh's triangles on a piece. If there are none, returns the triangles of its facets, or of its
-    /// points: up to three points as one triangle, more of them as one triangle each.
+    /// Returns the triangles of a piece: the mesh's triangles on it, or else those of its facets. A piece without
+    /// facets gives one triangle if it has up to three points, and otherwise a degenerate triangle for each point.
     fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
-        let mesh: Vec<Unpacked> = self.on_the_mesh(index, piece);
+        let mesh: Vec<Unpacked> = self.mesh_triangles_of(index, piece);
         if !mesh.is_empty() {
             return mesh;
         }
@@ -45,7 +45,10 @@ impl Skin<'_> {
                 inside.push(corner, 1.0);
             }
             let name = self.body.pieces().feature(index as usize, &inside);
-            (name, corners.map(|k| (point(k), self.number(index, k))))
+            (
+                name,
+                corners.map(|k| (point(k), self.mesh_number_of_point(index, k))),
+            )
         };
         let fan = |corners: &[u32]| -> Vec<[u32; 3]> {
             let inner = corners.windows(2).skip(1);
@@ -63,7 +66,7 @@ impl Skin<'_> {
     }
 
     /// Returns the mesh's triangles on a polytope.
-    fn on_the_mesh(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
+    fn mesh_triangles_of(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
         let mut triangles = piece.mesh_triangles().peekable();
         if triangles.peek().is_none() {
             return Vec::new();
@@ -71,13 +74,18 @@ impl Skin<'_> {
         let faces = piece.facets.faces.iter();
         let numbered = faces.flat_map(|face| face.corners.into_iter().zip(face.vertices.map(Some)));
         let points = (0..piece.points.len() as u32).rev();
-        let own = points.map(|k| (piece.points[k as usize], self.number(index, k)));
+        let own = points.map(|k| {
+            (
+                piece.points[k as usize],
+                self.mesh_number_of_point(index, k),
+            )
+        });
         // If several points are at one place, the first counts.
         let numbers: HashMap<PointBits, Option<u32>> = numbered
             .chain(own)
-            .map(|(point, number)| (place(point), number))
+            .map(|(point, number)| (point_bits(point), number))
             .collect();
-        let number = |point: DVec3| numbers.get(&place(point)).copied().flatten();
+        let number = |point: DVec3| numbers.get(&point_bits(point)).copied().flatten();
         let named = triangles.map(|(id, corners)| {
             let corners = corners.map(|point| (point, number(point)));
             (Feature::Face(id), corners)
@@ -85,8 +93,8 @@ impl Skin<'_> {
         named.collect()
     }
 
-    /// Returns the number of a corner: that of its own piece, or that of another piece at the same place.
-    pub(super) fn number_of(&self, corner: u32) -> Option<u32> {
+    /// Returns the mesh number of a corner, from its own piece or another piece at the same position.
+    pub(super) fn mesh_number(&self, corner: u32) -> Option<u32> {
         let Corner {
             place: here, id, ..
         } = &self.corners[corner as usize];
@@ -94,15 +102,17 @@ impl Skin<'_> {
         id.or_else(|| {
             let numbers = there().filter_map(|piece| {
                 let points = self.body.pieces().get(piece as usize).points;
-                let point = points.iter().position(|&point| place(point) == *here)?;
-                self.number(piece, point as u32)
+                let point = points
+                    .iter()
+                    .position(|&point| point_bits(point) == *here)?;
+                self.mesh_number_of_point(piece, point as u32)
             });
             numbers.min()
         })
     }
 
-    /// Returns the number of a point of a piece in the mesh.
-    fn number(&self, piece: u32, point: u32) -> Option<u32> {
+    /// Returns the mesh number of a point of a piece.
+    fn mesh_number_of_point(&self, piece: u32, point: u32) -> Option<u32> {
         let pieces = self.body.pieces();
         match pieces.feature(piece as usize, &Combination::point(point)) {
             Feature::Vertex(id) => Some(id),
@@ -111,8 +121,8 @@ impl Skin<'_> {
     }
 
     fn corner(&mut self, point: DVec3, id: Option<u32>) -> u32 {
-        let place = place(point);
-        *self.known.entry((place, id)).or_insert_with(|| {
+        let place = point_bits(point);
+        *self.corner_index.entry((place, id)).or_insert_with(|| {
             self.corners.push(Corner {
                 at: self.to_a.point(point),
                 place,
@@ -123,7 +133,7 @@ impl Skin<'_> {
     }
 }
 
-/// Returns the bits of a place. Both zeros are the same place.
-fn place(point: DVec3) -> PointBits {
+/// Returns the bit pattern of a point. Both zeros have the same one.
+fn point_bits(point: DVec3) -> PointBits {
     point.to_array().map(|x| (x + 0.0).to_bits())
 }

@@ -1,10 +1,10 @@
-//! Tests that the pairs of flat surfaces do not depend on the cut into triangles. Also, pieces of many faces, or with
-//! shared corners.
+//! Tests that the pairs of flat surfaces do not depend on how they are cut into triangles. Also tests pieces of many
+//! faces, or with shared corners.
 
 use super::*;
 use crate::body::pieces::Pieces;
 
-/// A slab whose top and bottom have four triangles each, about a point in the middle that has no number.
+/// Creates a slab whose top and bottom have four triangles each, around a middle point without a mesh number.
 fn hull_cut_about_its_middles(half: DVec3) -> Body {
     let mut points = Mesh::cuboid(half).points;
     points.extend([-half.z * DVec3::Z, half.z * DVec3::Z]);
@@ -26,7 +26,7 @@ fn hull_cut_about_its_middles(half: DVec3) -> Body {
     .unwrap()
 }
 
-/// The contact on a flat side is the point's foot, for any triangulation of the side.
+/// Tests that the contact on a flat side is the point's projection, for any triangulation of the side.
 #[test]
 fn only_the_foot_on_a_side_is_reported() {
     let rng = &mut rng(74);
@@ -57,7 +57,7 @@ fn only_the_foot_on_a_side_is_reported() {
     }
 }
 
-/// A polyhedron of flat faces about a ball's centre.
+/// Creates a polyhedron of flat faces around the centre of a sphere.
 fn globe(rings: u32, sectors: u32) -> Mesh {
     let angle = |k: u32, of: u32| std::f64::consts::PI * f64::from(k) / f64::from(of);
     let point = |(i, j): (u32, u32)| {
@@ -86,7 +86,8 @@ fn globe(rings: u32, sectors: u32) -> Mesh {
     }
 }
 
-/// One piece is near as many pieces as it has faces. The work is that of the near pairs of faces, not of all pairs.
+/// Tests that the work for a piece of many faces grows with the near pairs of faces, not with all pairs. The work is
+/// that of the near pairs of faces, not of all pairs.
 #[test]
 fn a_piece_of_many_faces_is_sorted_once() {
     let ball = globe(32, 34);
@@ -136,7 +137,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
     assert_eq!(refused, Err(ContactsError::TooMany { budget }));
 }
 
-/// If pieces of different rounding share a corner, the one with the larger radius is the nearer.
+/// Tests two pieces with different radii that share a corner: the one with the larger radius is nearer.
 #[test]
 fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
     let limb = |x: f64, id: u32, radius: f64| Polytope {

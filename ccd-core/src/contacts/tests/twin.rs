@@ -1,4 +1,4 @@
-//! All pairs of features by brute force, as a reference.
+//! Finds all pairs of features by brute force, as a reference.
 
 use crate::body::feature::Feature;
 use crate::body::pieces::Pieces;
@@ -10,13 +10,13 @@ use crate::tests::scene::{Pcg64, RngExt};
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A mesh of vertices, and triangles that share them.
+/// A triangle mesh with shared vertices.
 pub(super) struct Mesh {
     pub(super) points: Vec<DVec3>,
     pub(super) faces: Vec<[u32; 3]>,
 }
 
-/// Pairs of names with their distance, and those that depend on rounding.
+/// The expected pairs of features with their distances, and the pairs that depend on rounding.
 pub(super) struct Expected {
     pub(super) sure: BTreeMap<String, f64>,
     pub(super) doubtful: BTreeSet<String>,
@@ -54,7 +54,7 @@ impl Mesh {
         }
     }
 
-    /// Creates a square about the origin, `cells × cells`, with heights from −`rough` to 0.
+    /// Creates a square terrain about the origin, of `cells × cells` squares, with heights from −`rough` to 0.
     pub(super) fn terrain(rng: &mut Pcg64, cells: u32, half: f64, rough: f64) -> Self {
         let place = |k: u32| half * (2.0 * f64::from(k) / f64::from(cells) - 1.0);
         let vertex = |i: u32, j: u32| i * (cells + 1) + j;
@@ -99,7 +99,7 @@ impl Mesh {
         self.faces[face].map(|v| self.points[v as usize])
     }
 
-    /// Returns each edge once, with the two coplanar faces on either side of it, if there are any.
+    /// Returns each edge once, with the two coplanar faces on either side if there are any.
     fn edges(&self, rounding: f64) -> Vec<([u32; 2], Option<[u32; 2]>)> {
         let mut sides: BTreeMap<[u32; 2], Vec<(u32, u32)>> = BTreeMap::new();
         for (k, face) in (0u32..).zip(&self.faces) {
@@ -126,7 +126,7 @@ impl Mesh {
         sides.into_iter().map(flat).collect()
     }
 
-    /// Returns whether a feature is on the boundary of another one.
+    /// Returns whether one feature is on the boundary of another.
     fn bounds(&self, part: Feature, of: Feature) -> bool {
         match (part, of) {
             (Feature::Vertex(v), Feature::Edge(a, b)) => v == a || v == b,
@@ -140,7 +140,7 @@ impl Mesh {
     }
 }
 
-/// A pair of features, by name.
+/// A pair of features, of A and of B.
 type Key = [Feature; 2];
 
 /// Returns the pairs of features of two meshes within reach.
@@ -182,7 +182,7 @@ struct Offers {
 }
 
 impl Offers {
-    /// Adds a pair at a distance, if it is within reach up to rounding.
+    /// Adds a pair if its distance is within reach up to rounding.
     fn offer(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
@@ -193,7 +193,7 @@ impl Offers {
         }
     }
 
-    /// Adds a vertex and the part of a face that is nearest to it. The pair is clear if no smaller part is as near.
+    /// Adds a vertex and the nearest part of a face. The pair is clear if no smaller part is equally near.
     fn corner(&mut self, v: DVec3, mesh: &Mesh, face: usize, pair: impl Fn(Feature) -> Key) {
         let (triangle, ids) = (mesh.triangle(face), mesh.faces[face]);
         let distance = nearest(&[v; 3], &triangle).distance;
@@ -231,7 +231,7 @@ impl Offers {
         }
     }
 
-    /// Adds two edges that cross. The pair is clear if both are nearer inside than at any end.
+    /// Adds two crossing edges. The pair is clear if both are nearer inside than at any end.
     fn edges(&mut self, e: [DVec3; 2], f: [DVec3; 2], names: Key) {
         let (d, along, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
         let across = d.cross(along);
@@ -250,7 +250,7 @@ impl Offers {
         self.offer(names, distance, clear);
     }
 
-    /// Drops pairs that a larger part covers, and assigns points on edges within planes to faces.
+    /// Drops pairs that follow from others, and replaces edges inside flat parts by faces.
     fn reported(self, meshes: [&Mesh; 2]) -> Expected {
         let larger = |key: &Key, other: &Key| {
             (0..2).any(|k| {

@@ -8,22 +8,22 @@ const SLACK: f64 = 1e-13;
 fn common(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
     let mut normals = CommonNormals::default();
     normals.begin(SLACK);
-    a.iter().for_each(|&way| normals.add_a(way));
-    b.iter().for_each(|&way| normals.add_b(way));
+    a.iter().for_each(|&offset| normals.add_offset_of_a(offset));
+    b.iter().for_each(|&offset| normals.add_offset_of_b(offset));
     normals.sort();
     normals
 }
 
-/// The offsets from a corner of a cube, whose other corners are on this side of it.
+/// Returns the vectors from a corner of a cube to its other corners, which are on this side of it.
 fn corner(side: DVec3) -> Vec<DVec3> {
     vec![side.x * DVec3::X, side.y * DVec3::Y, side.z * DVec3::Z]
 }
 
-fn turned(turn: DQuat, ways: &[DVec3]) -> Vec<DVec3> {
-    ways.iter().map(|&way| turn * way).collect()
+fn turned(turn: DQuat, offsets: &[DVec3]) -> Vec<DVec3> {
+    offsets.iter().map(|&offset| turn * offset).collect()
 }
 
-/// The offsets from a point within a side of a cube.
+/// Returns vectors from a point within a face of a cube along its surface and inward.
 fn level() -> Vec<DVec3> {
     vec![DVec3::X, -DVec3::X, 0.1 * DVec3::Y, -3.0 * DVec3::Y]
 }
@@ -47,14 +47,14 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
     }
 }
 
-/// Some offsets within a cone about an axis. The normals of both bundles are opposite.
+/// Draws vectors within a cone about an axis. The normals of both bundles are opposite.
 fn bundle(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
     let count = rng.random_range(1..12);
-    let ways = (0..count).map(|_| (about + within(rng, 1.5)) * rng.random_range(0.01..10.0));
-    ways.collect()
+    let offsets = (0..count).map(|_| (about + within(rng, 1.5)) * rng.random_range(0.01..10.0));
+    offsets.collect()
 }
 
-/// The projection on a cone is the best of the projections on its sides and on the lines between them.
+/// Tests the projection on a cone against the best of the projections on its sides and edges.
 #[test]
 fn the_nearest_normal_is_the_best_of_all_candidates() {
     let rng = &mut rng(82);
@@ -63,22 +63,25 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
         let [a, b] = [-DVec3::Z, DVec3::Z].map(|about| bundle(rng, about));
         let normals = common(&a, &b);
         let towards = direction(rng);
-        let ways = normals.ways.clone();
-        let flat = |way: DVec3| towards.reject_from(way);
+        let offsets = normals.offsets.clone();
+        let flat = |offset: DVec3| towards.reject_from(offset);
         let line = |one: DVec3, other: DVec3| towards.project_onto(one.cross(other));
-        let lines = ways
+        let lines = offsets
             .iter()
-            .flat_map(|&one| ways.iter().map(move |&other| line(one, other)));
-        let all = ways
+            .flat_map(|&one| offsets.iter().map(move |&other| line(one, other)));
+        let all = offsets
             .iter()
-            .map(|&way| flat(way))
+            .map(|&offset| flat(offset))
             .chain(lines)
             .chain([towards]);
         let good = all.filter(|n| {
-            n.is_finite() && ways.iter().all(|way| n.dot(*way) >= -1e-12 * way.length())
+            n.is_finite()
+                && offsets
+                    .iter()
+                    .all(|offset| n.dot(*offset) >= -1e-12 * offset.length())
         });
         let best = good.map(|n| n.length()).fold(0.0, greater);
-        match normals.nearest(towards) {
+        match normals.project_onto_cone(towards) {
             Some(n) => {
                 assert!(
                     (n.dot(towards) - best).abs() < 1e-9,

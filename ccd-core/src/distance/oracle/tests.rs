@@ -1,4 +1,4 @@
-//! Combinations, and oracles that are called in turn.
+//! Tests combinations of points, and oracles with a fallback.
 
 use super::*;
 use crate::tests::oracle::Always;

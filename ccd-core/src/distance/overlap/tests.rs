@@ -1,6 +1,6 @@
 //! Tests that intersecting pieces are distinguished from touching ones.
 
-use super::{Inner, Intersection, intersects};
+use super::{InnerPolytope, Intersection, intersects};
 use crate::body::Body;
 use crate::body::combination::Combination;
 use crate::body::piece::Piece;
@@ -16,10 +16,10 @@ use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
 
-/// Returns the decision, and asserts that there is one.
+/// Returns whether the pieces intersect, and asserts that this is decided.
 fn decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
-    match intersects(pair, &checked, ROUNDING, &mut Inner::default()) {
+    match intersects(pair, &checked, ROUNDING, &mut InnerPolytope::default()) {
         Intersection::Certain => true,
         Intersection::None => false,
         Intersection::Undecided => panic!("{pair:?}"),
@@ -78,8 +78,7 @@ fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
     assert!(!triangles(&flat, &beside));
 }
 
-/// The decision agrees with the separating axis theorem for random triangles, needles among them, with any claim of
-/// an honest oracle.
+/// Tests against the separating axis theorem, for random triangles and needles, with any claim.
 #[test]
 fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     let mut rng = rng(1);
@@ -97,7 +96,7 @@ fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     assert!(counts[0] > 10_000 && counts[1] > 200, "{counts:?}");
 }
 
-/// Decides about two boxes, with a claim that the witnesses are at one point, and an arbitrary axis.
+/// Decides whether two boxes intersect, from a claim with equal nearest points and an arbitrary axis.
 fn boxes(b_to_a: Frame) -> bool {
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let piece = body.pieces().get(0);
@@ -124,7 +123,7 @@ fn boxes(b_to_a: Frame) -> bool {
     decided(&pair, &claim)
 }
 
-/// Returns weights of corners 0, 1, 3, 7 of a unit box, which represent any point with x ≥ y ≥ z.
+/// Returns weights of corners 0, 1, 3, 7 of a unit box that represent a point with x ≥ y ≥ z.
 fn tetrahedron(p: DVec3) -> [(u32, f64); 4] {
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| p[j].total_cmp(&p[i]));
@@ -185,7 +184,7 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
     assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
 }
 
-/// The decision does not depend on the claim.
+/// Tests that false claims do not change the decision.
 #[test]
 fn false_claims_do_not_change_the_decision() {
     let mut rng = rng(3);
@@ -212,7 +211,7 @@ fn false_claims_do_not_change_the_decision() {
     assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
 }
 
-/// The clouds are long, flat or both: each corner is about as far off as the differences allow.
+/// Tests that each corner of the first tetrahedron is about as far off as possible, for long or flat clouds of points.
 #[test]
 fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
     let mut rng = rng(4);
@@ -264,7 +263,7 @@ fn flat_differences_have_no_tetrahedron() {
             b_to_a: at(turn * DVec3::Z),
         };
         assert_eq!(super::tetrahedron(&pair, ROUNDING), None);
-        assert!(!Inner::default().begin(&pair, ROUNDING));
+        assert!(!InnerPolytope::default().begin(&pair, ROUNDING));
     }
 }
 
@@ -282,13 +281,16 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
         a: Combination::point(0),
         b: Combination::point(0),
     };
-    let (checked, mut inner) = (separation::check(&pair, &claim, ROUNDING), Inner::default());
+    let (checked, mut inner) = (
+        separation::check(&pair, &claim, ROUNDING),
+        InnerPolytope::default(),
+    );
     let decision = intersects(&pair, &checked, ROUNDING, &mut inner);
     assert_eq!(decision, Intersection::None);
     assert!(inner.corners.is_empty());
 }
 
-/// The coordinates are exactly representable, so that the distance of the cores is exactly the sum of the radii.
+/// Tests balls whose distance of centres is exactly the sum of the radii.
 #[test]
 fn balls_that_touch_exactly_do_not_intersect() {
     let ball = Body::ball(0.5).unwrap();
@@ -299,13 +301,13 @@ fn balls_that_touch_exactly_do_not_intersect() {
     };
     let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
     let checked = separation::check(&pair, &claim, 0.0);
-    let decision = intersects(&pair, &checked, 0.0, &mut Inner::default());
+    let decision = intersects(&pair, &checked, 0.0, &mut InnerPolytope::default());
     assert_eq!(decision, Intersection::None);
 }
 
-/// A slow reference in double-double arithmetic: returns whether no axis of the separating axis theorem separates the
-/// pieces. The axes are the normals of both pieces and the cross products of their edges; for flat pieces also the
-/// normals of their edges within either plane.
+/// Returns whether no axis of the separating axis theorem separates the pieces, in slow double-double arithmetic. The
+/// axes are the normals of both pieces and the cross products of their edges; for flat pieces also the normals of their
+/// edges within either plane.
 fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
     let a = Directions::of(&pair.a, |p| p);
     let b = Directions::of(&pair.b, |p| pair.b_to_a.point(p));

@@ -1,4 +1,4 @@
-//! Axes better than the claimed one: those of the features that contain the nearest points.
+//! Improves the axis of a checked claim, from the features that contain the nearest points.
 
 use super::{Checked, support_gap};
 use crate::body::combination::Combination;
@@ -7,11 +7,11 @@ use crate::distance::oracle::PiecePair;
 use crate::math::vector::{across, unit};
 use glam::{DMat3, DVec3};
 
-/// Checks a claim again, along the best axis of its features.
+/// Checks a claim again, along the best axis that its features suggest.
 ///
 /// The vector between nearest points is only as exact as their coordinates. Along it, two pieces that are near for
 /// their size lose some of their distance. The normal of a face, or of two edges, is exact to its last bits.
-pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
+pub(crate) fn sharpen(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
     let radii = pair.a.radius + pair.b.radius;
     let mut best = *checked;
     for axis in axes(pair, checked).into_iter().filter_map(unit) {
@@ -29,8 +29,8 @@ pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) 
     best
 }
 
-/// Returns the candidate axes: the vector between the witnesses, the vector perpendicular to it and a single edge,
-/// the normals of faces, and the normal of two edges.
+/// Returns the candidate axes. They are the vector between the nearest points, the vector perpendicular to it and a
+/// single edge, the normals of faces, and the normal of two edges.
 fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
     let axis_in_b = pair.b_to_a.inverse_vector(checked.axis);
@@ -44,16 +44,16 @@ fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     [way, edges, on_a.normal, on_b.normal]
 }
 
-/// The feature that contains a nearest point.
+/// The vertex, edge or face that contains a nearest point.
 struct Feature {
     edge: Option<DVec3>,
-    /// The normal of the feature's face: that of the piece if it is a triangle, or that of the facet at the feature's
-    /// corners that is most across the claimed axis; zero if there is none.
+    /// The normal of the feature's face, or zero if there is none. For a triangle it is that of the piece. Otherwise it
+    /// is that of the facet at the feature's corners which is most perpendicular to the claimed axis.
     normal: DVec3,
 }
 
 impl Feature {
-    /// Returns the feature in the piece's frame.
+    /// Returns the feature at a combination, in the piece's frame.
     fn of(piece: &Piece<'_>, combination: &Combination, axis: DVec3) -> Self {
         let points = piece.points;
         let way = |from: u32, to: u32| points[to as usize] - points[from as usize];
@@ -78,7 +78,7 @@ impl Feature {
     }
 }
 
-/// Returns the normal of the facet that holds the given corners and is most across an axis.
+/// Returns the normal of the facet with the given corners whose plane is most perpendicular to an axis.
 ///
 /// Two corners on opposite sides of a facet span no edge, and one corner of a facet may be nearest to a point on the
 /// other piece. In both cases the facet keeps the pieces apart.

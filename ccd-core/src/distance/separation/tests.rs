@@ -1,6 +1,6 @@
-//! Checks of true and false claims.
+//! Tests the bounds that come from true and from false claims.
 
-use super::sharp::sharpened;
+use super::sharp::sharpen;
 use super::*;
 use crate::body::Body;
 use crate::body::combination::Combination;
@@ -14,7 +14,7 @@ use crate::tests::scene::{self, Pcg64, RngExt, magnitude, rng, rotation, within}
 
 const ROUNDING: f64 = 1e-13;
 
-/// A random pair of triangles, and its exact distance.
+/// Draws two triangles and the frame between them, and computes their exact distance.
 fn couple(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
     let pair = scene::couple(rng);
     let pose = Pose::new(within(rng, 0.5), rotation(rng)).unwrap();
@@ -111,7 +111,7 @@ fn a_true_claim_is_tight() {
     assert!(apart > 5_000 && across > 300, "{apart} {across}");
 }
 
-/// Weights that overflow in their sum must not make two distant pieces touch.
+/// Tests that weights whose sum overflows do not make distant pieces touch.
 #[test]
 fn overflowing_weights_are_a_false_claim() {
     let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -167,7 +167,7 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
     assert_eq!(checked.core_distance, 3.0);
 }
 
-/// Checks that a claim can be sharpened to the distance, and returns whether the claim was poor.
+/// Checks that a tilted claim can be improved to the distance, and returns whether it was poor.
 fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
     let checked = check(pair, tilted, ROUNDING);
     let Checked {
@@ -175,7 +175,7 @@ fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
         axis,
         witness_a,
         ..
-    } = sharpened(pair, &checked, ROUNDING);
+    } = sharpen(pair, &checked, ROUNDING);
     // The bound was computed along this axis.
     assert_eq!(support_gap(pair, axis, witness_a) - ROUNDING, lower);
     assert!(lower <= distance, "{lower} {distance}");
@@ -183,7 +183,7 @@ fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
     checked.lower < distance - 10.0 * ROUNDING
 }
 
-/// The vector between near points is rounded, and large triangles lose distance by its tilt.
+/// Tests large triangles close to each other: the vector between their points is rounded, and its tilt costs distance.
 #[test]
 fn features_have_better_axes_than_near_points() {
     let mut rng = rng(3);
@@ -213,8 +213,8 @@ fn features_have_better_axes_than_near_points() {
     assert!(poor > 2_000, "{poor}");
 }
 
-/// A corner is over the face of a box. The claim names its nearest point by two corners across the face, which are no
-/// edge, or as one of the face's corners, which is a corner of other faces too.
+/// Tests a corner over the face of a box. The claim names its nearest point by two corners across the face, which are
+/// no edge, or as one of the face's corners, which is a corner of other faces too.
 #[test]
 fn facets_have_better_axes_than_corners_across_them() {
     let mut rng = rng(4);
@@ -254,7 +254,7 @@ fn facets_have_better_axes_than_corners_across_them() {
     assert!(poor > 900, "{poor}");
 }
 
-/// A piece of many points has the same gap as by a scan of all its points.
+/// Tests that a piece of many points has the same gap as by a scan of all its points.
 #[test]
 fn searches_for_extremal_points_change_no_gap() {
     let mut rng = rng(5);
@@ -287,7 +287,7 @@ fn searches_for_extremal_points_change_no_gap() {
     assert!(apart > 20, "{apart}");
 }
 
-/// A claim is as good as its better half: its axis, or the vector between its points.
+/// Tests that the better of a claim's axis and the vector between its points counts.
 #[test]
 fn the_better_one_of_axis_and_way_counts() {
     let mut rng = rng(6);
@@ -329,7 +329,7 @@ fn the_better_one_of_axis_and_way_counts() {
     assert!(apart > 500, "{apart}");
 }
 
-/// There is no vector between coinciding points: the axis decides on which sides of the point the surfaces are.
+/// Tests coinciding nearest points, which the claimed axis moves to the surfaces.
 #[test]
 fn witnesses_of_coinciding_points_are_along_the_axis() {
     let points = [DVec3::ZERO];

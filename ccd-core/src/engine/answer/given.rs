@@ -1,4 +1,4 @@
-//! Translates answers about surfaces to the pieces that the surfaces bound.
+//! Translates answers about the surfaces of convex bodies to the pieces that these surfaces bound.
 
 use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
@@ -12,11 +12,11 @@ use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
 use crate::rounding::{RESTING, is_blurred};
 
-/// Returns the outcome for the given bodies. The normal, the witnesses and the bounds of a contact
+/// Translates an outcome to the bodies that the caller gave. The normal, the nearest points and the bounds of a contact
 /// are those of the pieces that it names.
 ///
 /// Here `within` is the distance at which a contact was to be found.
-pub(crate) fn of_given<O: DistanceOracle>(
+pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -24,12 +24,12 @@ pub(crate) fn of_given<O: DistanceOracle>(
     within: f64,
 ) -> Outcome {
     outcome.map_contacts(|contact, time| {
-        contact_of_given(problem, oracle, meter, contact, within, time)
+        contact_for_given_bodies(problem, oracle, meter, contact, within, time)
     })
 }
 
-/// Like [`of_given`] for the contact at a time.
-pub(crate) fn contact_of_given<O: DistanceOracle>(
+/// Like [`outcome_for_given_bodies`], for a contact at a time.
+pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -40,16 +40,16 @@ pub(crate) fn contact_of_given<O: DistanceOracle>(
     let s = problem.clock(time);
     match problem.given() {
         Some(given) => {
-            let contact = of_pieces(&given, oracle, meter, contact, within, s);
-            along_common_normal(&given, meter, contact, s)
+            let contact = contact_of_pieces(&given, oracle, meter, contact, within, s);
+            with_common_normal(&given, meter, contact, s)
         }
-        None => along_common_normal(problem, meter, contact, s),
+        None => with_common_normal(problem, meter, contact, s),
     }
 }
 
-/// Returns the contact along a common normal of both surfaces, if its own normal is mostly rounding. Touching pieces
-/// may have normals that the rest of the surfaces does not have.
-fn along_common_normal(
+/// Replaces a contact's normal by a common normal of both surfaces if it is mostly rounding. Touching pieces may have
+/// normals that the rest of the surfaces does not have.
+fn with_common_normal(
     problem: &Problem<'_>,
     meter: &mut Meter,
     contact: Contact,
@@ -94,7 +94,7 @@ fn along_common_normal(
     }
 }
 
-fn of_pieces<O: DistanceOracle>(
+fn contact_of_pieces<O: DistanceOracle>(
     given: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -107,7 +107,7 @@ fn of_pieces<O: DistanceOracle>(
     let bound = contact.separation.lower;
     let checked = snapshot.ask(oracle, &mut O::Cache::default(), meter);
     match checked.filter(|checked| checked.upper <= within) {
-        Some(checked) => pair::contact(&snapshot, ids, &checked).no_nearer_than(bound),
+        Some(checked) => pair::contact(&snapshot, ids, &checked).cap_lower_bound(bound),
         // The oracle finds less for the pieces than for their surfaces. The result for the surfaces remains, with the
         // bounds that its normal proves for the pieces.
         None => {
@@ -115,7 +115,7 @@ fn of_pieces<O: DistanceOracle>(
             let from = snapshot.frames[0].inverse_point(given.local(contact.separation.witness_a));
             let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
             contact
-                .no_nearer_than(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)
+                .cap_lower_bound(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)
         }
     }
 }

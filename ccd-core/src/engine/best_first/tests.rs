@@ -1,5 +1,4 @@
-//! Whole queries, compared with samples and with the naive schedule, with tiny budgets, and with a million pairs at
-//! once.
+//! Tests whole queries against samples and the naive schedule, with tiny budgets, and with a million pairs at once.
 
 use super::*;
 use crate::answer::Unresolved;
@@ -27,7 +26,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// A scene that does not begin in contact.
+/// Draws a scene that does not begin in contact.
 fn apart(rng: &mut Pcg64) -> Scene {
     loop {
         let kind = [Kind::Any, Kind::Sliding, Kind::Rim][rng.random_range(0..3)];
@@ -311,7 +310,7 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
     }
 }
 
-/// Large level plates at equal steps of height, in a random hierarchy. Below every node there are plates of all
+/// Creates large level plates at equal steps of height, in a random hierarchy. Below every node there are plates of all
 /// heights, so that only single plates are apart.
 fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
     let plate = |k: usize| {
@@ -343,8 +342,8 @@ fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
     Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap()
 }
 
-/// Each plate of one body is between two of the other: all ten million pairs have to be proven
-/// apart at the start, and wait for their clocks.
+/// Tests two stacks whose plates alternate: all ten million pairs have to be proven apart at the start, and wait for
+/// their clocks.
 #[test]
 fn a_million_groups_of_pairs_wait_at_once() {
     const COUNT: usize = 3_200;
@@ -387,8 +386,8 @@ fn a_million_groups_of_pairs_wait_at_once() {
     assert!(safe_until <= time);
 }
 
-/// A triangle of size 200 turns about a line below a thousand small ones. Planes that turn with it keep pairs of
-/// nodes apart for a while, without splits.
+/// Tests a triangle of size 200 that turns about a line below a thousand small ones. Planes that turn with it keep
+/// pairs of nodes apart for a while, without splits.
 #[test]
 fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
     let small = |k: u32| {

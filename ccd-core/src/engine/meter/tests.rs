@@ -1,4 +1,4 @@
-//! The limits of a query: work and time.
+//! Tests the limits of a query: work and time.
 
 use super::*;
 use crate::body::Body;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// Poses two equal balls at rest, with some limits.
+/// Creates the problem of two equal balls at rest, with limits.
 fn limited<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
     let still = (ball, Motion::STILL);
     Problem::about(still, still, 1.0, settings).unwrap()
@@ -35,11 +35,11 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
     let ball = ball();
     let problem = limited(&ball, &config);
     let mut meter = Meter::new(&problem);
-    assert_eq!(meter.visit(&problem), Ok(()));
+    assert_eq!(meter.count_visit(&problem), Ok(()));
     meter.stats.point_looks += 3 * LOOKS_PER_VISIT;
-    assert_eq!(meter.visit(&problem), Ok(()));
+    assert_eq!(meter.count_visit(&problem), Ok(()));
     assert_eq!(meter.stats.work(), 5);
-    assert_eq!(meter.visit(&problem), Err(Limit::Budget));
+    assert_eq!(meter.count_visit(&problem), Err(Limit::Budget));
 }
 
 #[test]
@@ -47,7 +47,10 @@ fn a_deadline_that_is_past_ends_the_first_visit() {
     let ball = ball();
     let settings = with_deadline(Duration::ZERO);
     let problem = limited(&ball, &settings);
-    assert_eq!(Meter::new(&problem).visit(&problem), Err(Limit::Deadline));
+    assert_eq!(
+        Meter::new(&problem).count_visit(&problem),
+        Err(Limit::Deadline)
+    );
 }
 
 #[test]
@@ -56,19 +59,19 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
     let settings = with_deadline(Duration::from_millis(1));
     let problem = limited(&ball, &settings);
     let mut meter = Meter::new(&problem);
-    assert_eq!(meter.visit(&problem), Ok(()));
+    assert_eq!(meter.count_visit(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
     let mut visits = 0;
-    while meter.visit(&problem) == Ok(()) {
+    while meter.count_visit(&problem) == Ok(()) {
         visits += 1;
     }
     assert!(visits < WORK_BETWEEN_LOOKS, "{visits}");
     // Equal costs count equally.
     let mut meter = Meter::new(&problem);
-    assert_eq!(meter.visit(&problem), Ok(()));
+    assert_eq!(meter.count_visit(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
     meter.stats.point_looks += WORK_BETWEEN_LOOKS * LOOKS_PER_VISIT;
-    assert_eq!(meter.visit(&problem), Err(Limit::Deadline));
+    assert_eq!(meter.count_visit(&problem), Err(Limit::Deadline));
 }
 
 #[test]
@@ -80,15 +83,18 @@ fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_lo
     };
     let problem = limited(&ball, &settings);
     let mut meter = Meter::new(&problem);
-    assert!((0..10_000).all(|_| meter.visit(&problem) == Ok(())));
+    assert!((0..10_000).all(|_| meter.count_visit(&problem) == Ok(())));
     std::thread::scope(|scope| {
         scope.spawn(|| stop.store(true, Ordering::Relaxed));
     });
     let visits = (0..)
-        .take_while(|_| meter.visit(&problem) == Ok(()))
+        .take_while(|_| meter.count_visit(&problem) == Ok(()))
         .count();
     assert!(visits < WORK_BETWEEN_LOOKS as usize, "{visits}");
-    assert_eq!(Meter::new(&problem).visit(&problem), Err(Limit::Stopped));
+    assert_eq!(
+        Meter::new(&problem).count_visit(&problem),
+        Err(Limit::Stopped)
+    );
 }
 
 #[test]
@@ -97,5 +103,5 @@ fn an_unreachable_deadline_counts_as_none() {
     let settings = with_deadline(Duration::MAX);
     let problem = limited(&ball, &settings);
     let mut meter = Meter::new(&problem);
-    assert!((0..10_000).all(|_| meter.visit(&problem) == Ok(())));
+    assert!((0..10_000).all(|_| meter.count_visit(&problem) == Ok(())));
 }

@@ -1,17 +1,17 @@
-//! The lists of the search for the nearest pieces.
+//! The reusable lists of the search for the nearest pieces.
 
 use crate::engine::capacity::empty;
 use crate::engine::nodes::siblings::Siblings;
 use crate::engine::queue::Queue;
 
-/// The lists of a search; their memory is kept between searches.
+/// The lists of a search for the nearest pieces, whose memory is reused.
 #[derive(Debug, Default)]
 pub(crate) struct Lists {
     /// Pairs of nodes, ordered by lower bounds of their distances.
     pub(crate) waiting: Queue<Siblings>,
-    /// All pairs of pieces without a separating axis, which have no distance.
+    /// All pairs of pieces that no axis separates, and which therefore have no distance.
     pub(crate) touching: Vec<[u32; 2]>,
-    /// A list of pieces for the search for one body inside the other.
+    /// Scratch memory for the test whether one body is inside the other.
     pub(crate) pieces: Vec<u32>,
 }
 
@@ -22,7 +22,7 @@ impl Lists {
         empty(&mut self.pieces);
     }
 
-    /// Returns all pairs of pieces that no axis separates, and a list of pieces as scratch memory.
+    /// Returns all pairs of pieces that no axis separates, and the list of pieces as scratch memory.
     pub(crate) fn touching(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
         (&self.touching, &mut self.pieces)
     }

@@ -1,10 +1,10 @@
-//! Separating axes of eight pairs of nodes.
+//! Finds separating axes of eight pairs of nodes at once.
 
 use super::shape::{Children, OtherNode};
 use crate::math::lanes::{TINY, Vec3x8, choose, splat};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// Eight axes, the gaps along them, and each side's extent towards the other.
+/// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<L: Simd> {
     pub(crate) n: Vec3x8<L>,
@@ -13,42 +13,47 @@ pub(crate) struct Axis<L: Simd> {
     pub(crate) other_reach: f32x8<L>,
 }
 
-/// Returns the best of three axes for each pair: the one between the centres, or the edges of triangles, and the
-/// normals of the two nodes.
+/// Returns for each pair the axis with the widest gap among three: the normals of the two nodes, and the vector between
+/// their centres or nearest edges.
 ///
 /// The result is homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
 #[inline(always)]
 pub(crate) fn widest<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
-    way: Vec3x8<L>,
+    offset: Vec3x8<L>,
 ) -> Axis<L> {
-    let level = way.level();
-    let between = children.way_to(other.way_near(way));
-    let between = along(children, other, way, between);
-    let own = towards(children.normal(level), way);
-    let own = Axis::new(own, way, children.reach_along_normal(own), other.reach(own));
-    let others = towards(Vec3x8::splat(level, other.normal()), way);
+    let level = offset.level();
+    let between = children.offset_to(other.offset_near(offset));
+    let between = along(children, other, offset, between);
+    let own = towards(children.normal(level), offset);
+    let own = Axis::new(
+        own,
+        offset,
+        children.reach_along_normal(own),
+        other.reach(own),
+    );
+    let others = towards(Vec3x8::splat(level, other.normal()), offset);
     let reach = other.reach_along_normal(others);
-    let others = Axis::new(others, way, children.reach(others), reach);
+    let others = Axis::new(others, offset, children.reach(others), reach);
     // The gap along the axis between the nodes is available last.
     better(better(own, others), between)
 }
 
-/// Returns the axis between the centres at the time when they are nearest, if they move by at most `travel`.
+/// Returns the axis between the centres at their time of nearest approach, if their relative displacement is `travel`.
 #[inline(always)]
 pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
-    way: Vec3x8<L>,
+    offset: Vec3x8<L>,
     travel: Vec3x8<L>,
 ) -> Axis<L> {
-    let nearest = way.dot(travel) / travel.dot(travel).max(TINY);
+    let nearest = offset.dot(travel) / travel.dot(travel).max(TINY);
     let nearest = nearest.min(1.0).max(0.0);
-    along(children, other, way, way - travel * nearest)
+    along(children, other, offset, offset - travel * nearest)
 }
 
-/// Returns axes along vectors of any length.
+/// Returns the axes along given vectors of any length, with the gaps along them.
 ///
 /// The gaps are measured before the vectors are made unit vectors: a root and a quotient take as long as the
 /// measurement.
@@ -56,10 +61,10 @@ pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
 pub(crate) fn along<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
-    way: Vec3x8<L>,
+    offset: Vec3x8<L>,
     v: Vec3x8<L>,
 ) -> Axis<L> {
-    let axis = Axis::new(v, way, children.reach(v), other.reach(v));
+    let axis = Axis::new(v, offset, children.reach(v), other.reach(v));
     let unit = v.reciprocal_length();
     Axis {
         n: v * unit,
@@ -71,21 +76,21 @@ pub(crate) fn along<L: Simd, C: Children, P: OtherNode>(
 
 impl<L: Simd> Axis<L> {
     #[inline(always)]
-    fn new(n: Vec3x8<L>, way: Vec3x8<L>, split_reach: f32x8<L>, other_reach: f32x8<L>) -> Self {
+    fn new(n: Vec3x8<L>, offset: Vec3x8<L>, split_reach: f32x8<L>, other_reach: f32x8<L>) -> Self {
         Axis {
             n,
-            gap: n.dot(way) - split_reach - other_reach,
+            gap: n.dot(offset) - split_reach - other_reach,
             split_reach,
             other_reach,
         }
     }
 }
 
-/// Returns `n` or `−n`, whichever points along `way`.
+/// Returns `n` or `−n`, whichever points along `offset`.
 #[inline(always)]
-pub(crate) fn towards<L: Simd>(n: Vec3x8<L>, way: Vec3x8<L>) -> Vec3x8<L> {
+pub(crate) fn towards<L: Simd>(n: Vec3x8<L>, offset: Vec3x8<L>) -> Vec3x8<L> {
     let level = n.level();
-    let away = n.dot(way).simd_lt(0.0);
+    let away = n.dot(offset).simd_lt(0.0);
     n * away.select(splat(level, -1.0), splat(level, 1.0))
 }
 

@@ -1,4 +1,4 @@
-//! Bounds for eight pairs of nodes at once: lower bounds of their distances, and times for which they stay apart.
+//! Bounds eight pairs of nodes at once: for how long they stay apart, and whether to split them.
 //!
 //! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
 //! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
@@ -11,20 +11,21 @@ use crate::math::lanes::splat;
 use crate::tuning::{LOOK_AGAIN, SWEPT, THICKNESS};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
-/// The bounds of eight pairs.
+/// The bounds of eight pairs, and hints for the next step of each.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// The time for which each pair is certainly farther apart than the required gap.
     pub(crate) free: FreeTimes,
-    /// The pairs that are far apart for their size: a second visit after their time is worth more than a split.
-    pub(crate) waits: u8,
-    /// The pairs whose child is thicker along the axis than the other node, and can be split.
-    pub(crate) thicker: u8,
-    /// True if the other node is a single piece.
-    pub(crate) whole: bool,
+    /// The pairs that are far apart for their size, as bits. A second visit after their time is worth more than a
+    /// split.
+    pub(crate) revisit: u8,
+    /// The pairs whose child should be split rather than the other node, as bits: it is thicker along the axis.
+    pub(crate) split_child: u8,
+    /// True if the other node is a single piece, and cannot be split.
+    pub(crate) other_is_piece: bool,
 }
 
-/// Bounds the pairs that are in `lanes`.
+/// Bounds the pairs in `lanes`, and decides what to do with each next.
 ///
 /// Fixed planes are perpendicular to two axes: the one with the widest gap now, and the one between the centres at
 /// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
@@ -38,29 +39,29 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
     lanes: u8,
 ) -> Bounds {
     let pairs = EightPairs::new(level, children, other, motion);
-    let widest = axis::widest(children, other, pairs.way);
+    let widest = axis::widest(children, other, pairs.offset);
     let travel = pairs.velocity * splat(level, motion.horizon);
-    let passing = axis::passing(children, other, pairs.way, travel);
+    let passing = axis::passing(children, other, pairs.offset, travel);
     let radius = children.radius(level);
-    let waits = widest.gap - motion.slack - (radius + other.radius()) * LOOK_AGAIN;
-    let thicker = (widest.split_reach + radius * THICKNESS)
+    let revisit = widest.gap - motion.slack - (radius + other.radius()) * LOOK_AGAIN;
+    let split_child = (widest.split_reach + radius * THICKNESS)
         - (widest.other_reach + THICKNESS * other.radius());
     let mut free = pairs.free(widest).max(pairs.free(passing));
-    let mut waits = bits(waits.simd_gt(0.0));
-    if let Some(past) = Past::new(&pairs, widest) {
-        free = free.max(past.attached);
-        waits |= bits(past.waits(free, widest.gap - motion.slack));
+    let mut revisit = bits(revisit.simd_gt(0.0));
+    if let Some(past) = PassingNode::new(&pairs, widest) {
+        free = free.max(past.turning_plane_time);
+        revisit |= bits(past.revisit(free, widest.gap - motion.slack));
     }
-    let thicker = if other.is_piece() {
+    let split_child = if other.is_piece() {
         u8::MAX
     } else {
-        bits(thicker.simd_gt(0.0))
+        bits(split_child.simd_gt(0.0))
     };
     Bounds {
         free: FreeTimes::pack(free, lanes),
-        waits,
-        thicker: thicker & !bits(children.pieces(level)),
-        whole: other.is_piece(),
+        revisit,
+        split_child: split_child & !bits(children.pieces(level)),
+        other_is_piece: other.is_piece(),
     }
 }
 
@@ -69,22 +70,22 @@ fn bits<L: Simd>(mask: mask32x8<L>) -> u8 {
     mask.to_bitmask() as u8
 }
 
-/// A small node that passes a much larger, turning one.
-struct Past<L: Simd> {
-    /// The time for which a plane that turns with the large node keeps the pair apart.
-    attached: f32x8<L>,
-    /// The angular velocity of the large node's body, and the distance of the small node from that body's centre.
+/// A small node that passes a much larger node of a turning body.
+struct PassingNode<L: Simd> {
+    /// The time for which a plane that turns with the large node's body keeps the pair apart.
+    turning_plane_time: f32x8<L>,
+    /// The angular speed of the large node's body.
     spin: f32,
     arm: f32x8<L>,
-    /// The radii.
+    /// The radius of the large node.
     large: f32x8<L>,
     small: f32x8<L>,
-    /// Set if the large node cannot be split. Then only the size of the small node decides whether it is far.
-    whole: mask32x8<L>,
+    /// Set if the large node is a single piece. Then only the size of the small node decides whether it is far.
+    other_is_piece: mask32x8<L>,
 }
 
-impl<L: Simd> Past<L> {
-    /// Returns `None` if neither side is much larger and turns.
+impl<L: Simd> PassingNode<L> {
+    /// Creates the value; `None` if no body turns whose nodes are much larger.
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
         pairs: &EightPairs<'_, L, C, P>,
@@ -98,31 +99,31 @@ impl<L: Simd> Past<L> {
         } = *pairs;
         let level = pairs.level();
         match motion.larger? {
-            Larger::Split => Some(Past {
-                attached: pairs.free_with_split(axis),
+            Larger::Split => Some(PassingNode {
+                turning_plane_time: pairs.free_with_split(axis),
                 spin: motion.split.rate,
                 arm: splat(level, motion.split.arm(other.centre())),
                 large: children.radius(level),
                 small: splat(level, other.radius()),
-                whole: children.pieces(level),
+                other_is_piece: children.pieces(level),
             }),
-            Larger::Other => Some(Past {
-                attached: pairs.free_with_other(axis),
+            Larger::Other => Some(PassingNode {
+                turning_plane_time: pairs.free_with_other(axis),
                 spin: motion.other.rate,
                 arm: motion.other.arms(children.centre(level)),
                 large: splat(level, other.radius()),
                 small: children.radius(level),
-                whole: mask32x8::splat(level, other.is_piece()),
+                other_is_piece: mask32x8::splat(level, other.is_piece()),
             }),
         }
     }
 
     /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
-    fn waits(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
+    fn revisit(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
         let swept = free * self.spin * self.arm - self.large * SWEPT;
         let clear = apart - self.small * LOOK_AGAIN;
-        swept.simd_gt(0.0) | self.whole & clear.simd_gt(0.0)
+        swept.simd_gt(0.0) | self.other_is_piece & clear.simd_gt(0.0)
     }
 }
 

@@ -1,10 +1,10 @@
-//! The times for which gaps stay open, in f32.
+//! Computes for how long gaps stay open, in f32.
 
 use crate::math::lanes::splat;
 use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
 use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
-/// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for NaN, and for a pair that is apart by at most
+/// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`. It is 0 for NaN, and for a pair that is apart by at most
 /// `closed`, even if it recedes.
 #[inline(always)]
 pub(crate) fn free_time<L: Simd>(
@@ -22,7 +22,8 @@ pub(crate) fn free_time<L: Simd>(
     proven.select(tau, splat(apart.token(), 0.0))
 }
 
-/// Like `free_time`, for a second derivative `bend` of either sign: a gap that closes ever slower may never close.
+/// Like `free_time`, for a second derivative `bend` that may be negative: a gap that closes ever slower may never
+/// close.
 #[inline(always)]
 pub(crate) fn parting_free_time<L: Simd>(
     apart: f32x8<L>,
@@ -45,7 +46,7 @@ pub(crate) fn parting_free_time<L: Simd>(
     bend.simd_lt(0.0).select(parts, bends)
 }
 
-/// Like `free_time`, for a straight path.
+/// Like `free_time`, with a second derivative of 0.
 #[inline(always)]
 pub(crate) fn straight_free_time<L: Simd>(
     apart: f32x8<L>,

@@ -11,31 +11,32 @@ use crate::tuning::{CLOSED_GAP, MUCH_LARGER};
 use glam::Vec3;
 use std::cell::OnceCell;
 
-/// A query, with the numbers that every visit needs, rounded to f32 where visits compute in f32.
+/// A query with derived numbers for pairs of nodes, rounded to f32.
 #[derive(Debug)]
 pub(crate) struct Common<'p> {
     pub(crate) problem: &'p Problem<'p>,
-    /// B as seen from A, and A as seen from B. Each is computed at the first split of its body: queries of a few
-    /// pieces need neither.
+    /// The motion of B relative to A, and of A relative to B. Each is computed at the first split of its body: queries
+    /// of a few pieces need neither.
     views: [OnceCell<View>; 2],
-    /// The angular velocities of A and of B along their own axes, and the angular speeds, rounded up; `None` for a
-    /// body that does not turn.
+    /// The angular velocities of A and of B in their own frames, and the angular speeds, rounded up; `None` for a body
+    /// that does not turn.
     spins: [Option<(Vec3, f32)>; 2],
-    /// The gap that all clocks prove, rounded up.
+    /// The gap that every clock proves, rounded up.
     pub(crate) gap: f32,
-    /// The gap that the clocks of pairs of nodes aim for, rounded up.
+    /// The gap that the clocks of pairs of nodes keep if possible, rounded up.
     pub(crate) node_gap: f32,
-    /// The rounding of distances in f64, rounded up.
+    /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,
-    /// A bound of the rounding of a rate.
+    /// A bound of the rounding of closing rates.
     pub(crate) rate_slack: f32,
-    /// A gap above the slack by at most this counts as closed.
+    /// The excess of a gap over the slack up to which the gap counts as closed.
     pub(crate) closed: f32,
-    /// The ratio of radii above which a node is much larger than another one.
+    /// The ratio of radii above which a node counts as much larger than another.
     pub(crate) much_larger: f32,
 }
 
-/// Bounds the speeds whose difference is a rate. The rounding of the positions of arms adds a share.
+/// Returns an upper bound of the speeds from which closing rates are computed. The rounding of the positions of arms
+/// adds a share.
 fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
     let straight = length(b.path.velocity - a.path.velocity)
         + length(b.path.acceleration - a.path.acceleration);
@@ -51,8 +52,8 @@ fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
     straight + turning(a, b) + turning(b, a)
 }
 
-/// Bounds the distance of any point of any node from the body's centre of rotation. The points of a node are within
-/// the diameter of the whole body from the node's centre, and that is in a cube around the body.
+/// Returns an upper bound of the distances of a body's nodes from its centre of rotation. The points of a node are
+/// within the diameter of the whole body from the node's centre, and that is in a cube around the body.
 fn reach(side: &Side<'_>) -> f64 {
     let (centre, radius) = side.body.tree().ball();
     centre.distance(side.path.centre) + 4.0 * radius
@@ -80,15 +81,15 @@ impl<'p> Common<'p> {
         }
     }
 
-    /// Returns the other body as seen from this one.
+    /// Returns the motion of the other body relative to this one.
     #[inline(always)]
     pub(crate) fn view_from(&self, body: Which) -> &View {
         let path = |body: Which| &body.of(self.problem).path;
         self.views[body as usize].get_or_init(|| View::new(path(body), path(body.other())))
     }
 
-    /// Returns the angular velocity of a body along its own axes, and its angular speed, rounded up; `None` if the
-    /// body does not turn.
+    /// Returns the angular velocity of a body in its own frame, and its angular speed, rounded up; `None` if the body
+    /// does not turn.
     #[inline(always)]
     pub(crate) fn spin(&self, body: Which) -> Option<(Vec3, f32)> {
         self.spins[body as usize]

@@ -1,4 +1,4 @@
-//! The children of a group, each paired with one node of the other body, and their closing rates.
+//! Eight pairs of nodes, each a child of one group with the same other node, and their closing rates.
 
 use super::axis::Axis;
 use super::clock;
@@ -9,54 +9,54 @@ use crate::rounding::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
-/// The relative motion shared by all lanes, in f32, with allowances for rounding.
+/// The relative motion of two bodies, in f32, with allowances for rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativeMotionF32 {
-    /// The velocity of the split side's centre minus that of the other side's.
+    /// The velocity of the split body's centre relative to the other body's.
     pub(crate) velocity: Vec3,
-    /// The derivative of the velocity, if the centres accelerate differently.
+    /// The derivative of `velocity`; `None` if both centres accelerate equally.
     pub(crate) acceleration: Option<Vec3>,
     pub(crate) split: Turn,
     pub(crate) other: Turn,
-    /// The time left.
+    /// The time left to the end of the duration.
     pub(crate) horizon: f32,
-    /// The gap to be kept, plus the rounding of a gap.
+    /// The gap to keep, plus the rounding of a gap.
     pub(crate) slack: f32,
-    /// A gap above the slack by at most this counts as closed.
+    /// The excess of a gap over the slack up to which the gap counts as closed.
     pub(crate) closed: f32,
-    /// A bound of the rounding of a rate.
+    /// A bound of the rounding of a closing rate.
     pub(crate) rate_slack: f32,
     pub(crate) larger: Option<Larger>,
 }
 
-/// The side that turns and whose nodes are much larger than the other's.
+/// The body that turns and whose nodes are much larger than the other's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Larger {
     Split,
     Other,
 }
 
-/// The children of a group, each with the other node.
+/// The children of a group, each paired with the same other node.
 pub(crate) struct EightPairs<'a, L: Simd, C, P> {
     pub(crate) children: &'a C,
     pub(crate) other: &'a P,
     pub(crate) motion: &'a RelativeMotionF32,
     /// The vectors from the children's centres to the other node's centre.
-    pub(crate) way: Vec3x8<L>,
-    /// The velocities of the children's centres relative to the other's.
+    pub(crate) offset: Vec3x8<L>,
+    /// The velocities of the children's centres relative to the other node's.
     pub(crate) velocity: Vec3x8<L>,
-    /// Upper bounds of the speeds of the children's points due to turning.
+    /// Upper bounds of the speeds of the children's points due to rotation.
     pub(crate) speed: f32x8<L>,
-    /// The velocity of the other node's centre due to turning.
+    /// The velocity of the other node's centre due to rotation.
     pub(crate) other_turning: Vec3x8<L>,
-    /// An upper bound of the speeds of the other node's points due to turning.
+    /// An upper bound of the speeds of the other node's points due to rotation.
     pub(crate) other_speed: f32x8<L>,
 }
 
 impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     #[inline(always)]
     pub(crate) fn level(&self) -> L {
-        self.way.level()
+        self.offset.level()
     }
 
     #[inline(always)]
@@ -74,7 +74,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             children,
             other,
             motion,
-            way: other_centre - centre,
+            offset: other_centre - centre,
             velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the second derivatives.
             speed: turning.length()
@@ -87,7 +87,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         }
     }
 
-    /// Returns the times for which fixed planes, perpendicular to the axes, keep the pairs apart.
+    /// Returns the times for which fixed planes perpendicular to the axes keep the pairs apart.
     #[inline(always)]
     pub(crate) fn free(&self, axis: Axis<L>) -> f32x8<L> {
         let motion = self.motion;
@@ -97,12 +97,12 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         if motion.split.turns {
             let m = motion.split.across(axis.n);
             rate += self.children.reach(m);
-            bend += bending(m, motion.split.rate, self.speed);
+            bend += second_derivative_bound(m, motion.split.rate, self.speed);
         }
         if motion.other.turns {
             let m = motion.other.across(axis.n);
             rate += self.other.reach(m);
-            bend += bending(m, motion.other.rate, self.other_speed);
+            bend += second_derivative_bound(m, motion.other.rate, self.other_speed);
         }
         let apart = axis.gap - motion.slack;
         if let Some(acceleration) = motion.acceleration {
@@ -117,9 +117,13 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     }
 }
 
-/// Returns a bound of the second derivative along `n` of points that turn at a rate of `|ω|`, at `speed` at most; `m`
-/// is `n × ω`.
+/// Returns an upper bound of the second derivative of heights along `n`, for points that turn at an angular speed
+/// `rate` and move at `speed` at most; `m` is `n × ω`.
 #[inline(always)]
-pub(crate) fn bending<L: Simd>(m: Vec3x8<L>, rate: f32, speed: f32x8<L>) -> f32x8<L> {
+pub(crate) fn second_derivative_bound<L: Simd>(
+    m: Vec3x8<L>,
+    rate: f32,
+    speed: f32x8<L>,
+) -> f32x8<L> {
     (m.length() * BEND_F32 + ACROSS_F32 * rate) * speed
 }

@@ -1,11 +1,11 @@
-//! The split of one node of a pair: its children are bounded against the other node, at the pose of the pair's clock.
+//! Splits one node of a pair: its children are bounded against the other node, at the poses at the pair's clock.
 
 use super::bounds::{Bounds, bound};
 use super::common::Common;
 use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::turn::Turn;
-use crate::body::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal, up};
+use crate::body::tree::{Below, LANES, Members, Node, NodeId, NodeOrTriangle, unit_normal, up};
 use crate::math::order::greater;
 use crate::math::packed::{Packed, PackedMatrix, as_vec3};
 use crate::motion::relative::{Seen, View};
@@ -15,26 +15,26 @@ use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
 
-/// The children of the split node, each paired with the other node.
+/// The bounds of a split node's children against the other node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
     pub(crate) bounds: Bounds,
     pub(crate) first: NodeId,
 }
 
-/// A node to be split, and the other body's node that its children are paired with.
+/// A node to split, and the other body's node with which its children are paired.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Split {
-    /// The body of the split node.
+    /// The body to which the split node belongs.
     pub(crate) body: Which,
     pub(crate) node: NodeId,
     pub(crate) other: NodeId,
-    /// The children to be paired.
+    /// The children to bound, as bits.
     pub(crate) lanes: u8,
 }
 
 impl Split {
-    /// Creates a split with all children.
+    /// Creates the split of a node with all children.
     pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
@@ -45,38 +45,40 @@ impl Split {
     }
 }
 
-/// Splits a node at clock `s`.
+/// Bounds the children of a node against the other node at clock `s`.
 ///
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
-    split_at(common, split, s, Pace::AsTheyMove)
+    split_at(common, split, s, ClosingRate::OfMotion)
 }
 
-/// Splits a node at clock `s`, and measures its pairs: the free times are lower bounds of their distances.
+/// Computes lower bounds of the distances of the children from the other node at clock `s`. They are returned as free
+/// times.
 ///
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
-    let mut expansion = split_at(common, split, s, Pace::Unit);
+    let mut expansion = split_at(common, split, s, ClosingRate::Unit);
     // A second visit would give the same result.
-    expansion.bounds.waits = 0;
+    expansion.bounds.revisit = 0;
     expansion
 }
 
-/// The rate at which gaps close.
+/// The rate at which gaps are assumed to close.
 #[derive(Clone, Copy, Debug)]
-enum Pace {
+enum ClosingRate {
     /// The rate due to the motion of the bodies.
-    AsTheyMove,
-    /// One unit of length per unit of time, along every axis: the free time is the distance.
+    OfMotion,
+    /// One unit of length per unit of time, along every axis, so that the free time is the distance.
     Unit,
 }
 
-/// This function alone contains the kernels, compiled once for each set of instructions.
+/// Bounds the children, with the best vector instructions. This function alone contains the kernels, compiled once for
+/// each set of instructions.
 #[inline(never)]
-fn split_at(common: &Common<'_>, split: &Split, s: f64, pace: Pace) -> Expansion {
-    vectorize!(common.problem.level, level => split_node(level, common, split, s, pace))
+fn split_at(common: &Common<'_>, split: &Split, s: f64, closing_rate: ClosingRate) -> Expansion {
+    vectorize!(common.problem.level, level => split_node(level, common, split, s, closing_rate))
 }
 
 #[inline(always)]
@@ -85,12 +87,12 @@ fn split_node<L: Simd>(
     common: &Common<'_>,
     split: &Split,
     s: f64,
-    pace: Pace,
+    closing_rate: ClosingRate,
 ) -> Expansion {
-    let motion = RelativeMotion::new(level, common, split, s, pace);
+    let motion = RelativeMotion::new(level, common, split, s, closing_rate);
     let body = motion.split_side.body;
     let tree = body.tree();
-    let Named::Node(node) = tree.get(split.node) else {
+    let NodeOrTriangle::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
     };
     let (bounds, first) = match node.below {
@@ -109,26 +111,31 @@ fn split_node<L: Simd>(
     Expansion { bounds, first }
 }
 
-/// The relative motion of the two bodies at a clock, along the axes of the body whose node is
-/// split.
+/// The relative motion of the two bodies at a clock, in the frame of the body whose node is split.
 struct RelativeMotion<'p, L: Simd> {
     level: L,
     common: &'p Common<'p>,
     split: &'p Split,
     split_side: &'p Side<'p>,
     other_side: &'p Side<'p>,
-    /// The other body as seen from the split one, now and at any time.
+    /// The other body's present pose and motion in the split body's frame.
     seen: Seen<L>,
     view: &'p View,
-    /// The time left.
+    /// The time left to the end of the duration.
     horizon: f32,
-    pace: Pace,
+    closing_rate: ClosingRate,
 }
 
 impl<'p, L: Simd> RelativeMotion<'p, L> {
     // The struct is half a kilobyte, made once a visit. It is built in place, not moved.
     #[inline(always)]
-    fn new(level: L, common: &'p Common<'_>, split: &'p Split, s: f64, pace: Pace) -> Self {
+    fn new(
+        level: L,
+        common: &'p Common<'_>,
+        split: &'p Split,
+        s: f64,
+        closing_rate: ClosingRate,
+    ) -> Self {
         let view = common.view_from(split.body);
         RelativeMotion {
             level,
@@ -139,16 +146,18 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             seen: view.at(level, s),
             view,
             horizon: (1.0 - s) as f32,
-            pace,
+            closing_rate,
         }
     }
 
-    /// Bounds a group of the split body against the other body's node.
+    /// Bounds the children in a group against the other body's node.
     #[inline(always)]
     fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
-        let Seen { rotation, way, .. } = self.seen;
+        let Seen {
+            rotation, offset, ..
+        } = self.seen;
         let centre = self.view.centre(self.level) - Packed::new(self.level, members.origin);
-        let other_centre = centre + way;
+        let other_centre = centre + offset;
         let group_view = GroupView {
             rotation,
             turn: rotation.narrow(),
@@ -158,8 +167,8 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             members,
         };
         match self.other_side.body.tree().get(self.split.other) {
-            Named::Node(node) => group_view.bound(group, &group_view.node(node)),
-            Named::Triangle(piece) => {
+            NodeOrTriangle::Node(node) => group_view.bound(group, &group_view.node(node)),
+            NodeOrTriangle::Triangle(piece) => {
                 let corners = self.other_side.body.pieces().triangle(piece as usize);
                 group_view.bound(group, &group_view.triangle(corners))
             }
@@ -167,7 +176,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
     }
 }
 
-/// The relative motion as seen from a group of the split body.
+/// The relative motion in coordinates about the origin of a group.
 struct GroupView<'m, L: Simd> {
     motion: &'m RelativeMotion<'m, L>,
     members: &'m Members,
@@ -175,7 +184,7 @@ struct GroupView<'m, L: Simd> {
     rotation: PackedMatrix<L>,
     /// The same rotation in f32, by columns.
     turn: [f32x4<L>; 3],
-    /// The bodies' centres of rotation, relative to the group's origin.
+    /// The centre of rotation of the split body, relative to the group's origin.
     centre: Vec3,
     other_centre: Packed<L>,
 }
@@ -183,9 +192,9 @@ struct GroupView<'m, L: Simd> {
 impl<L: Simd> GroupView<'_, L> {
     #[inline(always)]
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
-        let motion = match self.motion.pace {
-            Pace::AsTheyMove => self.as_they_move(other.centre(), other.radius()),
-            Pace::Unit => self.at_unit_rate(other.centre(), other.radius()),
+        let motion = match self.motion.closing_rate {
+            ClosingRate::OfMotion => self.motion_in_f32(other.centre(), other.radius()),
+            ClosingRate::Unit => self.at_unit_rate(other.centre(), other.radius()),
         };
         let lanes = self.motion.split.lanes & u8::MAX >> (LANES as u32 - self.members.count);
         bound(self.motion.level, group, other, &motion, lanes)
@@ -204,7 +213,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Transforms a point of the other body to the split body's frame.
+    /// Transforms a point of the other body to the group's coordinates.
     #[inline(always)]
     fn placed(&self, point: DVec3) -> Packed<L> {
         let level = self.motion.level;
@@ -259,9 +268,9 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Returns the motion in f32, beside a node with this centre and this radius.
+    /// Returns the motion in f32, for a node with this centre and radius.
     #[inline(always)]
-    fn as_they_move(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
+    fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_turn(), self.other_turn());
         let reach = self.members.reach;
         let common = self.motion.common;
@@ -287,8 +296,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Returns the motion with a closing rate of 1: the times for which pairs keep apart are lower bounds of their
-    /// distances.
+    /// Returns a motion in which all gaps close at a rate of 1, so that free times are lower bounds of distances.
     #[inline(always)]
     fn at_unit_rate(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         RelativeMotionF32 {
@@ -304,7 +312,7 @@ impl<L: Simd> GroupView<'_, L> {
         }
     }
 
-    /// Bounds the rounding of a gap.
+    /// Returns a bound of the rounding of gaps to a node with this centre and radius.
     #[inline(always)]
     fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
         let [x, y, z] = centre.abs().to_array();

@@ -1,29 +1,30 @@
-//! The free times of eight pairs, from which the least is removed repeatedly.
+//! The free times of eight pairs in a compact form, from which the least is removed repeatedly.
 
 use crate::body::tree::LANES;
 use crate::math::lanes::splat;
 use crate::math::order::lesser;
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
-/// Free times as bits. The lowest bits of each hold the pair's lane, and the time is rounded down to them, so that
-/// the least value also names its lane. Bits of non-negative numbers have the order of the numbers. Comparing them as
-/// integers also distinguishes numbers next to zero if the processor is set to flush those to zero.
+/// The free times of eight pairs, as bits of f32. The lowest bits of each hold the pair's lane, and the time is rounded
+/// down to make room, so that the least value also names its lane. Bits of non-negative numbers have the order of the
+/// numbers. Comparing them as integers also distinguishes numbers next to zero if the processor is set to flush those
+/// to zero.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct FreeTimes([u32; LANES]);
 
 const LANE_BITS: u32 = LANES as u32 - 1;
 
-/// The bits of a finished pair, later than all others.
+/// The value of a finished pair, greater than all others.
 const FINISHED: u32 = f32::INFINITY.to_bits() | LANE_BITS;
 
 impl FreeTimes {
-    /// Creates the times of a single pair, in the first lane, free until now.
-    pub(crate) fn one() -> Self {
+    /// Creates the times of a single pair, in the first lane, with a free time of 0.
+    pub(crate) fn first_lane() -> Self {
         FreeTimes::of_lane(0)
     }
 
-    /// Packs times; unused lanes count as finished.
+    /// Packs the times of the lanes in `used`; the others count as finished.
     #[inline(always)]
     pub(crate) fn pack<L: Simd>(free: f32x8<L>, used: u8) -> Self {
         let level = free.token();
@@ -35,26 +36,26 @@ impl FreeTimes {
         FreeTimes(*(free & !LANE_BITS | lanes))
     }
 
-    /// Returns the least of the times; infinity when all pairs are finished.
+    /// Returns the least free time; infinity if all pairs are finished.
     #[inline]
     pub(crate) fn least(&self) -> f32 {
         time(self.least_bits())
     }
 
-    /// Creates the times of a single pair, in this lane, free until now.
+    /// Creates the times of a single pair in this lane, with a free time of 0.
     pub(crate) fn of_lane(lane: usize) -> Self {
         let mut times = [FINISHED; LANES];
         times[lane] = lane as u32;
         FreeTimes(times)
     }
 
-    /// Returns the lane of the pair of least time.
+    /// Returns the lane with the least free time.
     #[inline]
     pub(crate) fn least_lane(&self) -> usize {
         (self.least_bits() & LANE_BITS) as usize
     }
 
-    /// Finishes the pair of least time, and returns its lane.
+    /// Marks the pair with the least free time as finished, and returns its lane.
     #[inline]
     pub(crate) fn take_least(&mut self) -> usize {
         let least = self.least_bits();
@@ -65,7 +66,7 @@ impl FreeTimes {
         (least & LANE_BITS) as usize
     }
 
-    /// Returns the least of all bits, by halving the lanes until one is left.
+    /// Returns the least of the eight values, by halving the lanes until one is left.
     #[inline]
     fn least_bits(&self) -> u32 {
         let [a, b, c, d, e, f, g, h] = self.0;
@@ -73,18 +74,18 @@ impl FreeTimes {
         lesser(lesser(a, c), lesser(b, d))
     }
 
-    /// Finishes the pair of a lane.
+    /// Marks the pair in a lane as finished.
     pub(crate) fn finish(&mut self, lane: usize) {
         self.0[lane] = FINISHED;
     }
 
-    /// Returns the time of a lane.
-    pub(crate) fn of(&self, lane: usize) -> f32 {
+    /// Returns the free time of a lane.
+    pub(crate) fn time_of_lane(&self, lane: usize) -> f32 {
         time(self.0[lane])
     }
 }
 
-/// Returns the time of a lane, without the bits of the lane.
+/// Clears the bits of the lane, and returns the time.
 #[inline]
 fn time(bits: u32) -> f32 {
     f32::from_bits(bits & !LANE_BITS)

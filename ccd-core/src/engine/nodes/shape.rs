@@ -1,54 +1,54 @@
-//! The shapes of nodes, as seen from the split group.
+//! The geometry of nodes, in the coordinates of the split group.
 
 use crate::body::tree::{BoxGroup, TriangleGroup};
 use crate::math::lanes::{TINY, Vec3x8, choose, load, splat};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 
-/// The children of a group.
+/// The eight children of a group as geometric shapes.
 pub(crate) trait Children {
     fn centre<L: Simd>(&self, level: L) -> Vec3x8<L>;
-    /// Returns unit vectors that are likely to separate the children from others, or zeros.
+    /// Returns for each child a unit vector that is likely to separate it from others, or zero.
     fn normal<L: Simd>(&self, level: L) -> Vec3x8<L>;
-    /// Returns upper bounds of the distances of the children's points from their centres.
+    /// Returns upper bounds of the distances of each child's points from its centre.
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
-    /// Returns `max n·(x − centre)` over each child's points.
+    /// Returns `max n·(x − centre)` over each child's points `x`.
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Like `Children::reach`, for an axis that is each child's normal, or its opposite.
+    /// Like `Children::reach`, for an axis that is each child's normal or its opposite.
     #[inline(always)]
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.reach(n)
     }
-    /// Returns the offsets to a point from the children's points that are best for an axis; `to` leads to that point
-    /// from the children's centres.
-    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
-    /// Returns which children cannot be split.
+    /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
+    /// from the children's centres to the target.
+    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
+    /// Returns which children are single pieces, and cannot be split.
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
 
-/// The node that all children of a group are paired with.
+/// The node with which all children of a group are paired.
 pub(crate) trait OtherNode {
     fn centre(&self) -> Vec3;
     /// Returns a unit vector that is likely to separate the node from others, or zero.
     fn normal(&self) -> Vec3;
     /// Returns an upper bound of the distances of the node's points from its centre.
     fn radius(&self) -> f32;
-    /// Returns `max n·(centre − y)` over the node's points: the node's extent towards −n.
+    /// Returns `max n·(centre − y)` over the node's points `y`: the node's extent along −n.
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Like `OtherNode::reach`, for an axis that is the node's normal, or its opposite.
+    /// Like `OtherNode::reach`, for an axis that is the node's normal or its opposite.
     #[inline(always)]
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.reach(n)
     }
-    /// Returns the offsets from points to the node's points that are best for an axis; `way` leads from those points
-    /// to the node's centre.
-    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L>;
-    /// Returns whether the node cannot be split.
+    /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads from
+    /// the given points to the node's centre.
+    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
+    /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;
 }
 
-/// Returns `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: the lesser extent of a box grown by its pieces' rounding r, and of a
-/// ball.
+/// Returns the lesser of the extents of a grown box and of a ball along n: `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`. The box
+/// has half extents hₖ along uₖ, and is grown by r.
 #[inline(always)]
 fn box_reach<L: Simd>(
     n: Vec3x8<L>,
@@ -77,7 +77,7 @@ impl Children for BoxGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         to
     }
     #[inline(always)]
@@ -122,7 +122,7 @@ impl Children for TriangleGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         let level = to.level();
         let to = self.centre(level) + to;
         to - nearest_of_edges(self.corners(level), to)
@@ -152,7 +152,7 @@ impl TriangleGroup {
     }
 }
 
-/// The box and the ball of a node.
+/// The box and the ball of the other node, in the group's coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OtherBox {
     pub(crate) centre: Vec3,
@@ -160,7 +160,7 @@ pub(crate) struct OtherBox {
     pub(crate) half: [f32; 3],
     pub(crate) rounding: f32,
     pub(crate) radius: f32,
-    /// True if it is the box of a single piece.
+    /// True if the node is a single piece.
     pub(crate) piece: bool,
 }
 
@@ -178,12 +178,12 @@ impl OtherNode for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L> {
-        let [u, v, w] = splats(way.level(), self.axes);
-        let x = way.dot(u).min(self.half[0]).max(-self.half[0]);
-        let y = way.dot(v).min(self.half[1]).max(-self.half[1]);
-        let z = way.dot(w).min(self.half[2]).max(-self.half[2]);
-        way - (u * x + v * y + w * z)
+    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+        let [u, v, w] = splats(offset.level(), self.axes);
+        let x = offset.dot(u).min(self.half[0]).max(-self.half[0]);
+        let y = offset.dot(v).min(self.half[1]).max(-self.half[1]);
+        let z = offset.dot(w).min(self.half[2]).max(-self.half[2]);
+        offset - (u * x + v * y + w * z)
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -203,7 +203,7 @@ impl OtherNode for OtherBox {
     }
 }
 
-/// A triangle, by its corners relative to its centre.
+/// The other node if it is a triangle, by its corners relative to its centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OtherTriangle {
     pub(crate) centre: Vec3,
@@ -226,10 +226,10 @@ impl OtherNode for OtherTriangle {
         self.radius
     }
     #[inline(always)]
-    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L> {
-        let level = way.level();
-        let from = Vec3x8::splat(level, Vec3::ZERO) - way;
-        way + nearest_of_edges(splats(level, self.corners), from)
+    fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+        let level = offset.level();
+        let from = Vec3x8::splat(level, Vec3::ZERO) - offset;
+        offset + nearest_of_edges(splats(level, self.corners), from)
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -251,8 +251,8 @@ fn splats<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
     ]
 }
 
-/// Returns the points of triangles' edges that are nearest to `to`. If an interior point is nearer,
-/// the triangle's normal is the better axis anyway.
+/// Returns the points on triangles' edges that are nearest to `to`. If an interior point is nearer, the triangle's
+/// normal is the better axis anyway.
 #[inline(always)]
 fn nearest_of_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
     let (p, q, r) = (foot(a, b, to), foot(b, c, to), foot(c, a, to));

@@ -1,4 +1,4 @@
-//! The pairs of one split, which wait together and are removed one by one.
+//! The pairs that one split creates: they wait in the queue together, and are removed one by one.
 
 use super::expand::{Expansion, Split};
 use super::free_times::FreeTimes;
@@ -6,41 +6,41 @@ use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
 use crate::problem::{Problem, Side, Which};
 
-/// Up to eight pairs: the children of a node, each with one node of the other body.
+/// Up to eight waiting pairs: the children of a split node, each with the same node of the other body.
 #[derive(Debug)]
 pub(crate) struct Siblings {
-    /// The time after `since` up to which each pair is certified; infinite for a finished pair.
+    /// For each pair, how long after `since` it is certified apart; infinite for a finished pair.
     free: FreeTimes,
     since: f64,
     /// The split that created the pairs.
     split: Split,
     first: NodeId,
-    /// The children that are thicker than the other node and will be split next.
-    thicker: u8,
-    /// True if the other node is a single piece.
-    whole: bool,
-    /// The children for which a second visit is better than a split.
-    waits: u8,
-    /// The number of times that a pair was removed to wait alone.
-    parted: u8,
+    /// The children that are to be split before the other node, as bits.
+    split_child: u8,
+    /// True if the other node is a single piece, and cannot be split.
+    other_is_piece: bool,
+    /// The pairs for which a second visit is better than a split, as bits.
+    revisit: u8,
+    /// The number of pairs that were removed to wait alone.
+    removed_count: u8,
 }
 
-/// The next step for a pair whose clock has run out.
+/// What to do with a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Next {
-    /// Two pieces, of A and of B: the oracle measures them next.
-    Ask(u32, u32),
-    /// A split of one of the two nodes.
+    /// Two pieces, of A and of B, whose distance the oracle computes next.
+    Measure(u32, u32),
+    /// One of the two nodes is split next.
     Split(Split),
 }
 
 impl Next {
-    /// Creates the pair of both roots. If both nodes can be split, the smaller one is: a large node is best kept
-    /// whole as long as possible.
+    /// Creates the pair of both roots. If both can be split, the smaller one is, as a large node is best kept whole as
+    /// long as possible.
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
-            (Some(a), Some(b)) => return Next::Ask(a, b),
+            (Some(a), Some(b)) => return Next::Measure(a, b),
             (None, None) if !(b.radius() < a.radius()) => Which::A,
             (None, Some(_)) => Which::A,
             _ => Which::B,
@@ -50,21 +50,21 @@ impl Next {
 }
 
 impl Siblings {
-    /// Creates the pair of both roots, of which the given body's root is to be split.
+    /// Creates the pair of both roots, of which the root of `body` is split first.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
-            free: FreeTimes::one(),
+            free: FreeTimes::first_lane(),
             since: 0.0,
             split: Split::all(body, 0, 0),
             first: 0,
-            thicker: 1,
-            whole: false,
-            waits: 0,
-            parted: 0,
+            split_child: 1,
+            other_is_piece: false,
+            revisit: 0,
+            removed_count: 0,
         }
     }
 
-    /// Creates the pairs of a split at a clock.
+    /// Creates the pairs that a split at clock `s` results in.
     #[inline]
     pub(crate) fn new(expansion: &Expansion, split: Split, s: f64) -> Self {
         Siblings {
@@ -72,14 +72,14 @@ impl Siblings {
             since: s,
             split,
             first: expansion.first,
-            thicker: expansion.bounds.thicker,
-            whole: expansion.bounds.whole,
-            waits: expansion.bounds.waits,
-            parted: 0,
+            split_child: expansion.bounds.split_child,
+            other_is_piece: expansion.bounds.other_is_piece,
+            revisit: expansion.bounds.revisit,
+            removed_count: 0,
         }
     }
 
-    /// Returns the least clock among the pairs, never later than certified; infinite when all are finished.
+    /// Returns the least clock of the pairs, rounded down; infinite if all are finished.
     #[inline]
     pub(crate) fn clock(&self) -> f64 {
         let free = self.free.least();
@@ -91,7 +91,7 @@ impl Siblings {
         }
     }
 
-    /// Returns the pair of least clock: a node of A and one of B.
+    /// Returns the nodes of A and of B that form the pair with the least clock.
     #[inline]
     pub(crate) fn least_pair(&self) -> [NodeId; 2] {
         self.pair(self.free.least_lane())
@@ -105,39 +105,39 @@ impl Siblings {
         }
     }
 
-    /// Marks pairs that stay apart for good as finished. The others are to be split, not visited again: most of their
-    /// children stay apart.
+    /// Marks pairs that are proven apart to the end as finished, if `keeps_apart` returns `true`. If it returns
+    /// `false`, the pair will be split and not visited again: most of its children stay apart.
     pub(crate) fn finish(&mut self, mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>) {
         let horizon = (1.0 - self.since) as f32;
         for lane in 0..LANES {
             // The other pairs are already certified to the end.
-            if self.free.of(lane) < horizon {
+            if self.free.time_of_lane(lane) < horizon {
                 match keeps_apart(self.pair(lane)) {
                     Some(true) => self.free.finish(lane),
-                    Some(false) => self.waits &= !(1 << lane),
+                    Some(false) => self.revisit &= !(1 << lane),
                     None => {}
                 }
             }
         }
     }
 
-    /// Returns the number of times that a pair was removed to wait alone.
+    /// Returns the number of pairs that were removed to wait alone.
     #[inline]
-    pub(crate) fn parted(&self) -> usize {
-        usize::from(self.parted)
+    pub(crate) fn removed_count(&self) -> usize {
+        usize::from(self.removed_count)
     }
 
-    /// Removes the pair of least clock, to wait alone for a later one.
-    pub(crate) fn part_least(&mut self, clock: f64) -> Self {
+    /// Removes the pair with the least clock, and returns it as siblings of its own with a later clock.
+    pub(crate) fn remove_least(&mut self, clock: f64) -> Self {
         Siblings {
             free: FreeTimes::of_lane(self.free.take_least()),
             since: clock,
-            parted: self.parted.saturating_add(1),
+            removed_count: self.removed_count.saturating_add(1),
             ..*self
         }
     }
 
-    /// Removes the pair of least clock, which is `s`, and returns its next step.
+    /// Removes the pair with the least clock `s`, and returns its next step.
     // In the search's loop: a larger program, such as Python's module, would call it, and take 1 % more time.
     #[inline(always)]
     pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> Next {
@@ -148,28 +148,28 @@ impl Siblings {
         } = self.split;
         let child = self.first + lane as NodeId;
         // A second visit at the same instant would give the same result.
-        if advanced && self.waits >> lane & 1 == 1 {
+        if advanced && self.revisit >> lane & 1 == 1 {
             return Next::Split(Split {
                 lanes: 1 << lane,
                 ..Split::all(body, node, other)
             });
         }
-        let thicker = self.thicker >> lane & 1 == 1;
-        if self.whole && !thicker {
-            return ask(problem, self.pair(lane));
+        let split_child = self.split_child >> lane & 1 == 1;
+        if self.other_is_piece && !split_child {
+            return measure_step(problem, self.pair(lane));
         }
         // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);
-        let k = usize::from(thicker);
+        let k = usize::from(split_child);
         Next::Split(Split::all(bodies[k], nodes[k], nodes[1 - k]))
     }
 }
 
-/// Returns the step that measures two nodes which cannot be split.
-fn ask(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
+/// Returns the step that measures two nodes of a single piece each.
+fn measure_step(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
     let piece = |side: &Side<'_>, node| side.body.tree().piece(node);
     match (piece(&problem.a, a), piece(&problem.b, b)) {
-        (Some(a), Some(b)) => Next::Ask(a, b),
+        (Some(a), Some(b)) => Next::Measure(a, b),
         _ => unreachable!("only single pieces are thin beside a single piece"),
     }
 }

@@ -1,23 +1,23 @@
-//! The rotation of a body, as seen from the group that is split.
+//! A body's rotation in the coordinates of the split group.
 
 use crate::math::lanes::Vec3x8;
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
-/// A body's rotation.
+/// The angular velocity of a body, with its centre of rotation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turn {
-    /// False for a body that does not turn, for which nothing is computed.
+    /// False for a body without rotation; the other fields are not used then.
     pub(crate) turns: bool,
     pub(crate) spin: Vec3,
-    /// `|ω|`, rounded up.
+    /// The angular speed `|ω|`, rounded up.
     pub(crate) rate: f32,
-    /// A point on the axis of rotation.
+    /// The position of a point on the axis of rotation.
     pub(crate) centre: Vec3,
 }
 
 impl Turn {
-    /// A body that does not turn.
+    /// The rotation of a body that does not turn.
     pub(crate) const NONE: Turn = Turn {
         turns: false,
         spin: Vec3::ZERO,
@@ -25,7 +25,7 @@ impl Turn {
         centre: Vec3::ZERO,
     };
 
-    /// Returns the velocities of points due to turning.
+    /// Returns the velocities of points due to rotation, `ω × (x − centre)`.
     #[inline(always)]
     pub(crate) fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
         let level = x.level();
@@ -36,7 +36,7 @@ impl Turn {
         }
     }
 
-    /// Returns `n × ω`.
+    /// Returns the cross products `n × ω`.
     #[inline(always)]
     pub(crate) fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
         if self.turns {
@@ -46,13 +46,13 @@ impl Turn {
         }
     }
 
-    /// Returns the distances of points from the rotation's centre.
+    /// Returns the distances of points from the centre of rotation.
     #[inline(always)]
     pub(crate) fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
         (x - Vec3x8::splat(x.level(), self.centre)).length()
     }
 
-    /// Returns the distance of a point from the rotation's centre, if there is one.
+    /// Returns the distance of a point from the centre of rotation; 0 without rotation.
     #[inline(always)]
     pub(crate) fn arm(&self, x: Vec3) -> f32 {
         if self.turns {

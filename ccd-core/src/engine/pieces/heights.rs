@@ -1,4 +1,4 @@
-//! The heights of a piece's points along a fixed axis.
+//! The heights of a moving piece's points along a fixed axis.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -9,7 +9,7 @@ use crate::problem::Side;
 use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use glam::DVec3;
 
-/// The heights of a piece's points along an axis while their body moves.
+/// The heights of a piece's points along a fixed axis while their body moves.
 ///
 /// Few points are followed one by one. Of many points, only two are computed: the lowest one along the axis, as the
 /// body then sees the axis, and the one with the least rate. Heights after some time, and rates, are products of a
@@ -17,26 +17,26 @@ use glam::DVec3;
 pub(crate) struct Heights<'a> {
     piece: &'a Piece<'a>,
     frame: &'a Frame,
-    /// The centre's position in the body's frame.
+    /// The centre of rotation in the body's frame.
     centre: DVec3,
     normal: DVec3,
-    /// The axis about which the body turns.
+    /// The unit axis about which the body turns.
     axis: DVec3,
     along: AxisMotion,
     omega: f64,
     speed: f64,
-    /// The length of the centre's acceleration.
+    /// The magnitude of the centre's acceleration.
     acceleration: f64,
     least: f64,
     few: Few,
-    /// The bound of the second derivatives of all points, if there are many.
+    /// A bound of the second derivatives of all points' heights, if there are many points.
     bend: f64,
-    /// The error of the lowest height of many points, and the error of its rate per angular velocity.
+    /// The error of the lowest height of many points. Times the angular speed, it is the error of the least rate.
     missed: f64,
 }
 
-/// The height of one point, its rate, and a bound of the second derivative due to its turning. For many points these
-/// are bounds over all of them, from below, and from above for the second derivative.
+/// The height of one point along the axis, its rate, and a bound of the second derivative due to rotation. For many
+/// points these are bounds over all of them, from below, and from above for the second derivative.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point {
     pub(crate) height: f64,
@@ -44,15 +44,15 @@ pub(crate) struct Point {
     pub(crate) bend: f64,
 }
 
-/// The most points of a piece that are followed in pairs of points.
+/// The largest number of points of a piece for which all pairs of points are bounded one by one.
 const FEW: usize = 3;
 
-/// The tracks of the first few points; unused ones repeat the last.
+/// The tracks of up to three points; unused entries repeat the last.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Few([(Track, f64); FEW]);
 
 impl Few {
-    /// Returns the states of the points after `tau`.
+    /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
     #[inline]
     pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
         self.0.map(|(track, bend)| Point {
@@ -121,12 +121,12 @@ impl<'a> Heights<'a> {
         self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     }
 
-    /// Returns a bound of the speed of any point, in any direction, at any time.
+    /// Returns an upper bound of the speed of any point at any time.
     pub(crate) fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Returns the least height at the present time.
+    /// Returns the least height now.
     pub(crate) fn least(&self) -> f64 {
         self.least
     }
@@ -164,8 +164,8 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// Returns how far rotation takes any of the points below [`Heights::least`] up to `horizon`; `None` if there are
-    /// many points.
+    /// Returns the largest descent of any point below [`Heights::least`] by rotation alone, up to `horizon`; `None` if
+    /// there are many points.
     pub(crate) fn descent_until(&self, horizon: f64) -> Option<f64> {
         if self.piece.ball().is_some() {
             return None;
@@ -178,23 +178,23 @@ impl<'a> Heights<'a> {
         Some(self.least - least)
     }
 
-    /// Returns the present rate that all points share: their rate along the axis without rotation.
+    /// Returns the present rate of the points' heights without rotation, which is the same for all points.
     pub(crate) fn drift(&self) -> f64 {
         self.along.drift()
     }
 
-    /// Returns the derivative of `Heights::drift`.
+    /// Returns the second derivative of the points' heights without rotation.
     pub(crate) fn pull(&self) -> f64 {
         self.along.pull()
     }
 
-    /// Returns a lower bound of the derivative of `Heights::drift`.
+    /// Returns a lower bound of the second derivative of the points' heights without rotation.
     pub(crate) fn least_pull(&self) -> f64 {
         self.along.pull() - RATE_F64 * self.acceleration
     }
 
-    /// Returns the least value of a function of the points after `tau`: over each point if there are few, of their
-    /// bound if there are many. The function decreases with heights and rates.
+    /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
+    /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
     pub(crate) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
         match self.piece.ball() {
             Some(_) => of(&self.bound(tau)),
@@ -232,13 +232,13 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// Returns the track of the point that is lowest along a direction in the body's current frame.
+    /// Returns the track of the point that is lowest along a direction, in the body's current pose.
     fn lowest_of(&self, direction: DVec3) -> Track {
         let index = self.piece.extremal(self.frame.inverse_vector(-direction));
         self.track(self.piece.points[index as usize]).0
     }
 
-    /// Returns the tracks of the points, and the arms of the points from the centre.
+    /// Returns for each point its track and its arm from the centre of rotation.
     fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
         self.piece.points.iter().map(|&x| self.track(x))
     }
@@ -250,7 +250,7 @@ impl<'a> Heights<'a> {
     }
 }
 
-/// Returns the least free time of any two points.
+/// Returns the least free time over all pairs of a point of `above` and a point of `below`.
 #[inline]
 pub(crate) fn least_free(
     above: &[Point],
@@ -264,9 +264,9 @@ pub(crate) fn least_free(
     times.fold(f64::INFINITY, lesser)
 }
 
-/// Returns a lower bound of the least free time of any two points. The points of one body, each by itself, are paired
-/// with a bound of the other body's. The lowest point and the one with the least rate may differ, and a bound of both
-/// bodies would treat them as one. A body that does not turn loses nothing by its bound.
+/// Returns a lower bound of the least free time over all pairs of points. The points of one body, each by itself, are
+/// paired with a bound of the other body's. The lowest point and the one with the least rate may differ, and a bound of
+/// both bodies would treat them as one. A body that does not turn loses nothing by its bound.
 pub(crate) fn least_free_of_many(
     above: &Heights<'_>,
     below: &Heights<'_>,

@@ -1,5 +1,4 @@
-//! Pieces that come to touch beside the plane in which the bodies began to touch: an inner edge of flat ground is no
-//! obstacle.
+//! Handles pieces that touch beside the plane of the contact at the start: an inner edge of flat ground is no obstacle.
 
 use super::snapshot::{Plane, Snapshot};
 use crate::answer::Contact;
@@ -11,18 +10,18 @@ use crate::touching_plane::TouchingPlane;
 use crate::tuning::RESTED;
 use glam::DVec3;
 
-/// Two pieces that a [`TouchingPlane`] keeps apart.
+/// How a [`TouchingPlane`] keeps two pieces apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Level {
-    /// The body that carries the plane.
+    /// The body with which the plane moves.
     holder: Which,
-    /// The gap along the normal below which the pieces approach each other.
+    /// The gap along the plane's normal below which the pieces count as approaching.
     floor: f64,
 }
 
 impl TouchingPlane {
-    /// Returns the plane perpendicular to the normal of a contact at the start; `None` if the bodies may overlap
-    /// along it.
+    /// Creates the plane perpendicular to the normal of a contact at the start; `None` if the bodies may overlap along
+    /// it.
     pub(crate) fn of(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
         let normal = contact.separation.normal;
         let given = problem.given();
@@ -41,8 +40,8 @@ impl TouchingPlane {
 }
 
 impl Snapshot<'_> {
-    /// Returns the plane that keeps two pieces apart for longest from now on, among those in which the bodies began
-    /// to touch; `None` if there is none. The heights of pieces are measured from a point in A's frame.
+    /// Chooses the touching plane that keeps two pieces apart for longest from now on; `None` if none does. The heights
+    /// of pieces are measured from a point in A's frame.
     ///
     /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
     /// between the faces there.
@@ -68,8 +67,7 @@ impl Snapshot<'_> {
             .map(|(_, level)| level)
     }
 
-    /// Returns a time for which the pieces certainly do not approach each other along the normal of the plane between
-    /// them; `None` if they never do.
+    /// Returns a time for which the pieces certainly do not approach along the plane's normal; `None` if they never do.
     pub(crate) fn level_time(&self, level: &Level, from: DVec3) -> Option<f64> {
         let Some(normal) = self.normal_with(level.holder) else {
             return Some(0.0);
@@ -83,7 +81,7 @@ impl Snapshot<'_> {
         }
     }
 
-    /// Returns the normal of the plane that a body carries, in the problem's coordinates.
+    /// Returns the normal of the plane that moves with a body, in the problem's coordinates.
     fn normal_with(&self, holder: Which) -> Option<DVec3> {
         let [in_a, in_b] = self.problem.touching.as_ref()?.normals;
         let [frame_a, frame_b] = &self.frames;
@@ -93,12 +91,12 @@ impl Snapshot<'_> {
         })
     }
 
-    /// Returns the gap of the pieces along a unit vector in the problem's coordinates, rounding deducted.
+    /// Returns the gap of the pieces along a unit vector in the problem's coordinates, minus rounding.
     fn gap_across(&self, normal: DVec3, from: DVec3) -> f64 {
         self.gap_along(self.frames[0].inverse_vector(normal), from)
     }
 
-    /// Returns whether the plane perpendicular to a normal separates the solids behind the pieces. Two pieces that
+    /// Returns whether the plane with this normal has the solids of the two pieces on different sides. Two pieces that
     /// both lie in the plane are apart on either side of it, wherever the solids are.
     fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
         let in_one_plane = self.gap_across(-normal, from) >= -2.0 * RESTING * self.problem.rounding;

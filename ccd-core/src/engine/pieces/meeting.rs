@@ -6,41 +6,41 @@ use crate::engine::meter::Meter;
 use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
-/// The nearest points of the cores of two pieces, in A's frame, and the surfaces around them.
+/// The surfaces around the nearest points of two pieces, without their radii, in A's frame.
 pub(crate) struct Meeting<'s> {
     points: [DVec3; 2],
     normals: &'s mut CommonNormals,
 }
 
 impl<'s> Meeting<'s> {
-    /// Finds the surfaces around two points, of A and of B, in A's frame.
+    /// Collects the surfaces around two points, of A and of B, in A's frame.
     pub(crate) fn at(snapshot: &Snapshot<'_>, points: [DVec3; 2], meter: &'s mut Meter) -> Self {
         let Snapshot {
             problem, pieces, ..
         } = snapshot;
         let reach = AROUND * problem.rounding;
         let (mut looks, turn) = (0, pieces.b_to_a.rotation);
-        let normals = &mut meter.memory().normals;
+        let normals = &mut meter.scratch_memory().normals;
         normals.begin(LEVEL * problem.rounding);
-        problem.a.body.ways_around(points[0], reach, |way| {
+        problem.a.body.offsets_around(points[0], reach, |way| {
             looks += 1;
-            normals.add_a(way);
+            normals.add_offset_of_a(way);
         });
         let in_b = pieces.b_to_a.inverse_point(points[1]);
-        problem.b.body.ways_around(in_b, reach, |way| {
+        problem.b.body.offsets_around(in_b, reach, |way| {
             looks += 1;
-            normals.add_b(turn * way);
+            normals.add_offset_of_b(turn * way);
         });
         normals.sort();
         meter.stats.point_looks += looks;
         Meeting {
             points,
-            normals: &mut meter.memory().normals,
+            normals: &mut meter.scratch_memory().normals,
         }
     }
 
-    /// Returns the common normal of both surfaces that is nearest to a direction, if the points are along that normal
-    /// up to rounding.
+    /// Returns the common normal of both surfaces that is nearest to a direction, if the vector between the points is
+    /// along it up to rounding.
     pub(crate) fn normal(&self, towards: DVec3) -> Option<DVec3> {
         let [on_a, on_b] = self.points;
         self.normals.along(towards, on_b - on_a)

@@ -1,4 +1,4 @@
-//! One pair of pieces: the oracle's claim is checked, and the pair's own clock is advanced.
+//! Advances one pair of pieces: checks the oracle's claim, and computes a new clock.
 
 use super::level::Level;
 use super::snapshot::Snapshot;
@@ -7,7 +7,7 @@ use crate::body::combination::Combination;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::distance::separation::Checked;
-use crate::distance::separation::sharp::sharpened;
+use crate::distance::separation::sharp::sharpen;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
 use crate::problem::{Problem, Side};
@@ -15,46 +15,46 @@ use crate::rounding::RESTING;
 use crate::settings::StartPolicy;
 use glam::DVec3;
 
-/// A pair of pieces with a clock.
+/// A pair of pieces with a clock of its own.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair<C> {
     pub(crate) a: u32,
     pub(crate) b: u32,
     goal: Goal,
-    /// True once the pair was advanced.
+    /// True once the pair has been advanced.
     known: bool,
-    /// The memory of the oracle for its next call with this pair.
+    /// What the oracle remembers for its next call on this pair.
     cache: C,
 }
 
-/// The gap that a pair's clock proves, and the gap at which the pair is in contact. Distances are measured beyond the
-/// margin.
+/// The gap that a pair's clock proves, and when the pair is in contact. Distances are measured beyond the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
-    /// The pair is in contact at the query's tolerance. The clock proves half of it.
+    /// The pair is in contact within the query's tolerance. The clock proves half of it.
     Apart,
-    /// Like `Apart`, for a pair that began in contact and has parted since.
+    /// Like `Apart`, for a pair that was in contact at the start and has separated since.
     Parted,
-    /// The pair began in contact, up to rounding. It is in contact again once it cannot be proven above the floor.
+    /// The pair was in contact at the start, up to rounding. It is in contact again once its gap cannot be proven to be
+    /// above `floor`.
     Resting { floor: f64 },
-    /// The pair came to touch beside the plane in which the bodies began to touch. It is in contact once it
-    /// approaches along the normal of that plane.
+    /// The pair touches beside the plane of the contact at the start. It is in contact once it approaches along the
+    /// normal of that plane.
     Level(Level),
 }
 
-/// The result of a pair's advance at its clock.
+/// What an advance of a pair found out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Step {
-    /// The pair is certified apart until this clock, which is past the present one; a clock beyond 1 means forever.
+    /// The pair is certified apart until this clock, which is later than before. A clock beyond 1 means forever.
     FreeUntil(f64),
     /// The pair is within the tolerance. At the start it may intersect, which the search for the nearest pieces
     /// decides.
     Contact(Contact),
-    /// The pair intersects; at the start only.
+    /// The pair intersects at the start.
     Overlap(Contact),
-    /// The next clock is not past the present one.
+    /// The pair is not in contact, but its clock cannot advance.
     Stalled,
-    /// The oracle has no answer.
+    /// The oracle has no result.
     GaveUp,
 }
 
@@ -88,8 +88,8 @@ impl<C: Default + Clone> Pair<C> {
         })
     }
 
-    /// Like [`Pair::advance`] in a snapshot of the pair, with another rule for the time for which it keeps a gap.
-    /// Pairs that rest on each other are followed as usual.
+    /// Like [`Pair::advance`], with a given snapshot and another function for the free time. Pairs in contact at the
+    /// start use the usual free time.
     pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
         &mut self,
         snapshot: &Snapshot<'_>,
@@ -106,7 +106,7 @@ impl<C: Default + Clone> Pair<C> {
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
-                let inner = &mut meter.memory().inner;
+                let inner = &mut meter.scratch_memory().inner;
                 match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
                     Intersection::Certain => {
                         return Step::Overlap(contact(snapshot, ids, &checked));
@@ -141,7 +141,7 @@ impl<C: Default + Clone> Pair<C> {
         // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
         // such a loss.
         let checked = if is_resting || !(checked.lower > kept + problem.rounding) {
-            sharpened(&snapshot.pieces, &checked, problem.rounding)
+            sharpen(&snapshot.pieces, &checked, problem.rounding)
         } else {
             checked
         };
@@ -168,7 +168,8 @@ impl<C: Default + Clone> Pair<C> {
         }
     }
 
-    /// Returns the gap that a pair within the tolerance has to keep from now on; `None` when it is in contact.
+    /// Returns the goal of a pair that is in contact at the start, if that contact is to be ignored; `None` if it
+    /// counts.
     fn goal_of_start<O: DistanceOracle<Cache = C>>(
         &self,
         problem: &Problem<'_>,
@@ -180,7 +181,7 @@ impl<C: Default + Clone> Pair<C> {
         }
         let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
         let start = snapshot.ask(oracle, &mut C::default(), meter)?;
-        let start = sharpened(&snapshot.pieces, &start, problem.rounding);
+        let start = sharpen(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting =
             start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
@@ -193,8 +194,7 @@ impl<C: Default + Clone> Pair<C> {
     }
 }
 
-/// Returns the step of a pair at clock `s` that is free for a time, or for good; `None` if the time is too short for
-/// the clock to advance.
+/// Converts a free time at clock `s` to a step; `None` if the time is too short for the clock to advance.
 fn after(s: f64, free: Option<f64>) -> Option<Step> {
     match free {
         None => Some(Step::FreeUntil(f64::INFINITY)),
@@ -205,7 +205,7 @@ fn after(s: f64, free: Option<f64>) -> Option<Step> {
     }
 }
 
-/// Converts a checked pair to the world's coordinates, with its features.
+/// Converts a checked pair to a contact in world coordinates, with its features.
 pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
     let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
     let world = |x: DVec3| problem.world(a_to_world.point(x));

@@ -1,4 +1,4 @@
-//! Two pieces at one instant, and the time for which an axis keeps them apart from that instant on.
+//! Two pieces at one instant, and how long planes keep them apart from then on.
 
 use super::heights::{Heights, Point, least_free, least_free_of_many};
 use crate::body::facing::Facing;
@@ -20,14 +20,14 @@ use glam::DVec3;
 use std::cell::Cell;
 use std::iter;
 
-/// Two pieces at a clock.
+/// Two pieces at the poses of one clock.
 pub(crate) struct Snapshot<'p> {
     pub(crate) problem: &'p Problem<'p>,
-    /// The frames of A and B, in the problem's coordinates.
+    /// The poses of A and B, in the problem's coordinates.
     pub(crate) frames: [Frame; 2],
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
-    /// The number of gap evaluations at a point.
+    /// The number of evaluations of points' heights.
     looks: Cell<u64>,
 }
 
@@ -37,7 +37,7 @@ impl<'p> Snapshot<'p> {
         Snapshot::of(problem, problem.pieces([a, b]), clock)
     }
 
-    /// Creates the snapshot of any two convex hulls, of A and of B, at a clock.
+    /// Creates the snapshot of any two convex pieces, of A and of B, at a clock.
     pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
@@ -50,7 +50,7 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Creates the snapshot of two other hulls at the same clock.
+    /// Creates the snapshot of two other pieces at the same clock.
     pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
         Snapshot {
             pieces: PiecePair {
@@ -91,8 +91,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Like [`Snapshot::free_time`], for the first visit of two pieces: if a fixed plane perpendicular to the axis of
-    /// the claim keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
+    /// Like [`Snapshot::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
+    /// axis keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
     pub(crate) fn first_free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
         let direct = self.direct(checked, kept);
         match self.free_along(direct.normal, direct.slack)? {
@@ -102,15 +102,15 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Returns a time for which the pieces certainly stay farther apart than `kept`; `None` if they always do. The
-    /// function tries the axis of the claim, and the one along which the witnesses pass each other, with planes that
-    /// are fixed or turn with one of the bodies.
+    /// function tries two normals, the claim's axis and the direction in which the nearest points pass each other. The
+    /// planes are fixed, or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
         let direct = self.direct(checked, kept);
         let free = self.free_along(direct.normal, direct.slack)?;
         self.longest_time(checked, kept, &direct, free)
     }
 
-    /// Returns the longest time by any plane; `free` is the time of the fixed plane across the claim's axis.
+    /// Returns the longest free time of any plane; `free` is that of the fixed plane perpendicular to the claim's axis.
     fn longest_time(
         &self,
         checked: &Checked,
@@ -129,8 +129,8 @@ impl<'p> Snapshot<'p> {
         Some(free)
     }
 
-    /// Like [`Snapshot::free_time`], along the axis of the claim alone, by a bound of each body's advance along it
-    /// `[FAST06 §4.2]`; `reaches` are the distances of the pieces' points from their body's axis of rotation.
+    /// Like [`Snapshot::free_time`], along the claim's axis alone, by a bound of each body's velocity along it `[FAST06
+    /// §4.2]`. `reaches` are the largest distances of the pieces' points from their body's axis of rotation.
     ///
     /// # Guarantee
     /// No guarantee with [`Bound::Published`].
@@ -169,8 +169,8 @@ impl<'p> Snapshot<'p> {
         (!(free >= self.horizon())).then_some(free)
     }
 
-    /// Returns how deeply two hulls of many points overlap along the axis between their middles, in units of the
-    /// smaller one's radius. The depth is negative when they are apart along it; `None` if a hull has few points.
+    /// Returns how deeply two pieces of many points overlap along the axis between their middles, in units of the
+    /// smaller one's radius. The depth is negative if they are apart along it; `None` if a piece has few points.
     #[cfg(feature = "hull-tree")]
     pub(crate) fn depth_between_middles(&self) -> Option<f64> {
         let pair = &self.pieces;
@@ -225,8 +225,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is
-    /// fixed, or turns with one of the bodies.
+    /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is fixed,
+    /// or turns with one of the bodies.
     pub(crate) fn free_beside(&self, plane: &Plane) -> Option<f64> {
         let free = self.free_along(plane.normal, plane.slack)?;
         Some(greater(
@@ -235,14 +235,14 @@ impl<'p> Snapshot<'p> {
         ))
     }
 
-    /// Returns the gap of the pieces along a unit vector, minus rounding. The vector, and the point from which
-    /// heights are measured, are in A's frame.
+    /// Returns the gap of the pieces along a unit vector, minus rounding. The vector, and the point from which heights
+    /// are measured, are in A's frame.
     pub(crate) fn gap_along(&self, axis: DVec3, from: DVec3) -> f64 {
         let radii = self.pieces.a.radius + self.pieces.b.radius;
         separation::support_gap(&self.pieces, axis, from) - radii - self.problem.rounding
     }
 
-    /// Returns the plane perpendicular to the axis of the claim.
+    /// Returns the plane perpendicular to the claim's axis.
     fn direct(&self, checked: &Checked, kept: f64) -> Plane {
         Plane {
             normal: self.frames[0].rotation * checked.axis,
@@ -250,7 +250,7 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns the plane perpendicular to the vector between the witnesses at the time when they are nearest, for
+    /// Returns the plane perpendicular to the vector between the nearest points at their time of closest approach, for
     /// constant velocities; `None` if it does not keep the pieces apart now.
     fn passing(&self, checked: &Checked, kept: f64) -> Option<Plane> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
@@ -264,8 +264,8 @@ impl<'p> Snapshot<'p> {
         (slack > 0.0).then_some(Plane { normal, slack })
     }
 
-    /// Like [`Snapshot::free_along`], with planes that turn with one of the bodies, if the turning of that body uses
-    /// up the slack within `free`; 0 otherwise.
+    /// Like [`Snapshot::free_along`], with planes that turn with one of the bodies. Returns 0 if such a plane is not
+    /// worth trying: the rotation of that body does not use up the slack within `free`.
     pub(crate) fn free_attached(
         &self,
         members: &[Member<'_>; 2],
@@ -289,7 +289,7 @@ impl<'p> Snapshot<'p> {
         Some(longest)
     }
 
-    /// Returns both pieces, of A and of B.
+    /// Returns the pieces of A and of B with their motions.
     pub(crate) fn members(&self) -> [Member<'_>; 2] {
         let Problem { a, b, .. } = self.problem;
         let [frame_a, frame_b] = &self.frames;
@@ -299,7 +299,7 @@ impl<'p> Snapshot<'p> {
         ]
     }
 
-    /// Returns the number of gap evaluations at a point so far.
+    /// Returns the number of evaluations of points' heights so far.
     pub(crate) fn looks(&self) -> u64 {
         self.looks.get()
     }
@@ -312,8 +312,8 @@ impl<'p> Snapshot<'p> {
         1.0 - self.clock
     }
 
-    /// Returns a time for which a fixed axis certainly keeps the required gap; `None` if it always does. The `slack`
-    /// is the excess over that gap now.
+    /// Returns a time for which the gap along a fixed unit vector certainly stays large enough; `None` if it always
+    /// does. `slack` is the present excess over the required gap.
     ///
     /// Every point's height along the axis is known exactly
     /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
@@ -363,8 +363,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns whether the points always keep a slack although they turn. The steps towards the time at which they
-    /// are nearest become ever shorter.
+    /// Returns whether the pieces pass each other: the points' descent by rotation up to the end certainly leaves some
+    /// slack. Without this test, the steps towards the time of closest approach become ever shorter.
     fn turn_past(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.horizon();
         let drift = least_drift(a.drift() + b.drift(), a.pull() + b.pull(), horizon);
@@ -382,11 +382,11 @@ impl<'p> Snapshot<'p> {
 pub(crate) struct Plane {
     /// The unit normal from A to B, in the problem's coordinates.
     pub(crate) normal: DVec3,
-    /// The present excess over the required gap.
+    /// The present excess of the gap over the required gap.
     pub(crate) slack: f64,
 }
 
-/// Returns the least of `rate τ + pull τ²/2` up to a horizon.
+/// Returns the least value of `rate τ + pull τ²/2` for τ up to a horizon.
 fn least_drift(rate: f64, pull: f64, horizon: f64) -> f64 {
     let nearest = -rate / pull;
     // Written so that NaN is none.

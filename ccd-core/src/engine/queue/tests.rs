@@ -1,4 +1,4 @@
-//! The queue, compared with a sorted list.
+//! Compares the queue with a sorted list.
 
 use super::Queue;
 use crate::engine::waiting::{Rank, Waiting};

@@ -14,19 +14,19 @@ use crate::rounding::INSIDE;
 use beside::beside_edges;
 use glam::DVec3;
 
-/// The result for bodies without two pieces that intersect.
+/// Whether one body is inside the other, if no two pieces intersect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Containment {
-    /// A point of one body is inside the other's solid.
+    /// A point of one body is inside the other's solid; the proof names the point.
     Inside(Overlap),
-    /// No examined point of either body is inside the other.
+    /// No tested point of either body is inside the other.
     Outside,
-    /// Some part could not be decided.
+    /// Some tested point could not be decided.
     Undecided,
 }
 
-/// Searches for a point of one body inside the other one's solid at the start. `touching` are the pairs of pieces
-/// without a separating axis; no pair intersects. The list `pieces` is scratch memory.
+/// Decides whether a point of one body is inside the other body's solid at the start. `touching` are the pairs of
+/// pieces without a separating axis; no pair intersects. The list `pieces` is scratch memory.
 ///
 /// # Guarantee
 /// A point that is found is inside, by more than rounding. If none is found, the following parts
@@ -75,7 +75,7 @@ pub(crate) fn at_start(
     }
 }
 
-/// A body at its position at the start.
+/// A body at its pose at the start.
 struct Placed<'a> {
     body: &'a Body,
     frame: Frame,
@@ -90,15 +90,15 @@ impl Placed<'_> {
     }
 }
 
-/// A search for points of one body in the solid of the other.
+/// Tests points of one body, the inner one, against the solid of the other.
 struct Search<'a> {
     outer: &'a Placed<'a>,
     inner: &'a Placed<'a>,
-    /// Points nearer to the outer surface than this are neither inside nor outside.
+    /// The distance from the outer surface below which a point counts as neither inside nor outside.
     reach: f64,
 }
 
-/// The result of a search; the point is in the problem's coordinates.
+/// The result of a test; the point is in the problem's coordinates.
 #[derive(Clone, Copy)]
 enum Found {
     Inside(DVec3),
@@ -113,7 +113,7 @@ impl Found {
 }
 
 impl Search<'_> {
-    /// Returns the result of the search; `touching` names pieces of the inner and of the outer body.
+    /// Tests the inner body's parts; `touching` are pairs of a piece of the inner and a piece of the outer body.
     fn answer(
         &self,
         touching: impl Iterator<Item = [u32; 2]> + Clone,
@@ -141,7 +141,7 @@ impl Search<'_> {
         inside.unwrap_or(found)
     }
 
-    /// Examines a point in the inner body's frame.
+    /// Tests a point in the inner body's frame.
     fn point(&self, point: DVec3) -> Found {
         let placed = self.inner.frame.point(point);
         let there = self.outer.frame.inverse_point(placed);
@@ -152,15 +152,15 @@ impl Search<'_> {
         }
     }
 
-    /// Examines points one by one, until one decides.
+    /// Tests points one by one, until one is inside or undecided.
     fn any_of(&self, points: impl IntoIterator<Item = DVec3>) -> Found {
         let mut answers = points.into_iter().map(|p| self.point(p));
         let told = answers.find(|found| !matches!(found, Found::Undecided));
         told.unwrap_or(Found::Undecided)
     }
 
-    /// Examines the extreme points of a part. If all of them are on the outer surface, the touching pieces decide
-    /// about the part.
+    /// Tests the extreme points of a connected part. If all of them are on the outer surface, the touching pieces
+    /// decide about the part.
     fn part(&self, shell: &Shell, touching: &[u32]) -> Found {
         let found = self.any_of(*shell);
         let pieces = self.inner.body.pieces();
@@ -171,8 +171,8 @@ impl Search<'_> {
         }
     }
 
-    /// Examines a piece that touches: its corners, which it shares with pieces that do not touch,
-    /// and a point of the solid below or in it.
+    /// Tests a touching piece: its corners, which it shares with pieces that do not touch, and a point of the solid
+    /// below or in it.
     fn piece(&self, piece: u32) -> Found {
         let body = self.inner.body;
         let corners = match body.pieces().get(piece as usize) {
@@ -194,13 +194,13 @@ impl Search<'_> {
         }
     }
 
-    /// Returns whether the outline of a piece, or of one of its facets, is known.
+    /// Returns whether the outline of a piece or of one of its facets is known.
     fn has_sides(&self, piece: u32) -> bool {
         let piece = self.inner.body.pieces().get(piece as usize);
         piece.is_flat() || !piece.facets.is_empty()
     }
 
-    /// Returns whether the middle of a piece is inside by more than rounding: a face that passes there would
+    /// Returns whether a piece is thick: its middle is inside it by more than rounding. A face through the middle would
     /// intersect the piece by more than that.
     fn is_thick(&self, piece: u32) -> bool {
         let middle = self.inner.body.middle(piece);
@@ -212,7 +212,8 @@ impl Search<'_> {
         piece.facets.len() > 2 && piece.facets.iter().all(is_above)
     }
 
-    /// Examines points of a thin piece next to edges that are on it. Some of the points are next to faces.
+    /// Tests points of a thin piece next to edges of the other body that lie on it. Some of the points are next to
+    /// faces.
     fn edges(&self, [inner, outer]: [u32; 2]) -> Found {
         let piece = self.inner.body.pieces().get(inner as usize);
         let other = self.outer.body.pieces().get(outer as usize);
@@ -223,7 +224,7 @@ impl Search<'_> {
     }
 }
 
-/// Returns whether the closed faces of a body wind about a point in its frame; `None` when the point is not certainly
+/// Returns whether the closed faces of a body wind about a point in its frame; `None` if the point is not certainly
 /// farther than `reach` from them.
 fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !body.tree().may_contain(point) {
@@ -233,7 +234,7 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
         return None;
     }
     let found = crossings(body.tree(), body.pieces(), point, 0.0)?;
-    (found.on == 0).then_some(found.beyond != 0)
+    (found.triangles_at_start == 0).then_some(found.beyond != 0)
 }
 
 #[cfg(test)]

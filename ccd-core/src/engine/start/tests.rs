@@ -1,4 +1,4 @@
-//! Bodies that begin within the margin, compared with all pairs of triangles, with every budget and every schedule.
+//! Tests bodies that begin within the margin, against all pairs of triangles, with every budget and schedule.
 
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
@@ -35,14 +35,14 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// Poses two tori with the same cuts, one at the origin, the other at `x`.
+/// Creates two tori with the same cuts, one at the origin, the other at `x`.
 fn tori<R>(cuts: Cuts, x: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let torus = body(&torus(cuts.around, cuts.about));
     let moving = |x: f64| Moving::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
     then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
-/// The number of cuts of a torus around its axis, and about its tube.
+/// The number of cuts of a torus around its axis, and around its tube.
 #[derive(Clone, Copy)]
 struct Cuts {
     around: usize,
@@ -59,7 +59,7 @@ const COARSE: Cuts = Cuts {
     about: 6,
 };
 
-/// Returns a scene with a margin of up to a hundred times its size. Most scenes begin within the margin.
+/// Draws a scene with a margin of up to a hundred times its size. Most scenes begin within the margin.
 fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
     let mut scene = scene(rng, Kind::Any, most);
     let size = scene.bodies.each_ref().map(|body| body.tree().radius());
@@ -213,7 +213,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     }
 }
 
-/// A pair with contradictory claims, or a give-up, does not make bodies touch.
+/// Tests that contradictory claims or give-ups do not make bodies touch.
 #[test]
 fn false_claims_and_give_ups_never_make_wrong_bounds() {
     let mut rng = rng(34);
@@ -242,7 +242,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
     assert!(touching > 50, "{touching}");
 }
 
-/// Each body has one piece, and there is only one pair.
+/// Tests that two bodies of one piece each are measured only once.
 #[test]
 fn single_pieces_are_measured_once() {
     let ball = Body::ball(1.0).unwrap();

@@ -12,7 +12,7 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-/// A scan of all points finds no further points in front, and the search visits few that are near.
+/// Tests the visited points against a scan of all points, and that few others are visited.
 #[test]
 fn nothing_in_front_is_passed_over() {
     let mut next = noise();
@@ -33,7 +33,7 @@ fn nothing_in_front_is_passed_over() {
     }
 }
 
-/// A query with a plane that touches one end of a long row visits few points of the row.
+/// Tests a plane that touches one end of a long row: few points of the row are visited.
 #[test]
 fn most_points_are_passed_over_together() {
     let points: Vec<DVec3> = (0..100_000)

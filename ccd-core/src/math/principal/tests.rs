@@ -1,4 +1,4 @@
-//! Principal axes, compared with the definition of an eigenvector.
+//! Tests principal axes by the definition of an eigenvector.
 
 use super::{half_angle, principal_axes};
 use crate::tests::scene::{RngExt, direction, rng};

@@ -1,4 +1,4 @@
-//! Lengths and unit vectors, compared with double-double arithmetic over all sizes of numbers.
+//! Compares lengths and unit vectors with double-double arithmetic, for all magnitudes.
 
 use super::{across, distance, length, normal, unit};
 use crate::rounding::U64;
@@ -6,7 +6,7 @@ use crate::tests::double::Double3;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use glam::DVec3;
 
-/// Returns a number of any size, down to the least.
+/// Draws a number of any magnitude, down to the least.
 fn any(rng: &mut Pcg64) -> f64 {
     let exponent = rng.random_range(-1074..1000);
     let sign = if rng.random_range(0..2) == 0 {
@@ -24,7 +24,7 @@ fn any(rng: &mut Pcg64) -> f64 {
     }
 }
 
-/// Returns a vector of any size, with components of similar or different sizes.
+/// Draws a vector of any magnitude, with components of similar or different magnitudes.
 fn vector(rng: &mut Pcg64) -> DVec3 {
     match rng.random_range(0..2) {
         0 => DVec3::new(any(rng), any(rng), any(rng)),
@@ -32,7 +32,7 @@ fn vector(rng: &mut Pcg64) -> DVec3 {
     }
 }
 
-/// Returns the same vector with its largest component near 1.
+/// Scales a vector so that its largest component is near 1.
 fn near_one(v: DVec3) -> DVec3 {
     let largest = v.abs().max_element();
     let half = 2f64.powf((-0.5 * largest.log2()).round());

@@ -76,7 +76,7 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
     assert_eq!(path.rate, 0.0);
 }
 
-/// Returns the exact position of a point on a path as it is stored.
+/// Returns the exact position of a body's point on a path as it is stored.
 fn exact_place(path: &Path, s: Double, x: DVec3) -> Double3 {
     let arm = Double3::from(x) - Double3::from(path.centre);
     let rotated = |m: &DMat3| {
@@ -90,7 +90,7 @@ fn exact_place(path: &Path, s: Double, x: DVec3) -> Double3 {
     Double3::from(path.start) + change.scale(s) + turned + rotated(&path.constant)
 }
 
-/// Compares the position of a point on a part of a path with that on the path itself.
+/// Compares positions on a part of a path with those on the whole path.
 #[test]
 fn worst_part() {
     let found = Worst::of("place_rounding, part of a path", 4_000).search(|tape: &mut Tape| {

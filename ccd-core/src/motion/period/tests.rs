@@ -1,4 +1,4 @@
-//! Periods, compared with distances of points at sampled times, and with known fractions.
+//! Compares periods with distances at sampled times, and convergents with known fractions.
 
 use super::*;
 use crate::motion::Motion;

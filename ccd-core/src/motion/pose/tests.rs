@@ -1,4 +1,4 @@
-//! Poses and frames agree, and refuse invalid input.
+//! Tests that poses and frames agree, and refuse invalid input.
 
 use super::{Frame, Pose};
 use crate::error::InputError;

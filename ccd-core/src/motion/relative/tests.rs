@@ -1,4 +1,4 @@
-//! The view of one body from another, compared with the two frames.
+//! Compares the relative motion with the frames of both bodies.
 
 use super::{Seen, View};
 use crate::math::packed::{Packed, PackedMatrix, rows};
@@ -28,13 +28,13 @@ fn path(rng: &mut Pcg64) -> Path {
     }
 }
 
-/// Returns the view of a body from another: the position of a point, its velocity, its acceleration, and the angular
-/// velocity.
+/// Returns the position, velocity and acceleration of a point of the seen body, and that body's angular velocity, in
+/// the seeing body's frame.
 #[inline(always)]
 fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
     let Seen {
         rotation,
-        way,
+        offset,
         velocity,
         acceleration,
         spin,
@@ -42,7 +42,7 @@ fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
     let point = rotation * (Packed::new(level, point) - view.other_centre(level));
     let acceleration = acceleration.unwrap_or(Packed::new(level, DVec3::ZERO));
     [
-        way + point + view.centre(level),
+        offset + point + view.centre(level),
         velocity,
         acceleration,
         spin,

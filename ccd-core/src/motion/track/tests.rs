@@ -1,4 +1,4 @@
-//! Tracks, compared with their defining formula, and the three bounds, compared with samples.
+//! Compares tracks with their defining formula, and three bounds with samples.
 
 use super::{Angle, AxisMotion, Track};
 use crate::math::order::{greater, lesser};
@@ -13,8 +13,7 @@ use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
 impl Track {
-    /// Creates the track along `n` of a point that starts at `height` along it, at arm `arm` from the motion's
-    /// centre.
+    /// Creates the track along `n` of a point that starts at `height`, with the vector `arm` from the motion's centre.
     fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
         let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
         AxisMotion::new(motion.linear, axis, length(motion.spin), n).track(height, arm)
@@ -26,7 +25,7 @@ impl Track {
     }
 }
 
-/// A random motion, axis and arm, all of about unit size.
+/// Draws a motion, an axis and an arm of about unit size.
 fn setting(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
     let turn = match rng.random_range(0..5) {
         0 => 0.0,
@@ -62,8 +61,7 @@ fn a_track_is_the_height_of_a_turning_point() {
     }
 }
 
-/// Returns the highest point of a track over `[0, tau]`: dense samples, of which the best are refined by golden
-/// section search.
+/// Returns the highest point of a track over `[0, tau]`, from dense samples refined by golden section search.
 fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
     let samples = 64 + (64.0 * turns) as usize;
     let at = |k: usize| tau * k as f64 / samples as f64;
@@ -81,7 +79,7 @@ fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
     greater(track.at(0.5 * (low + high)), track.at(at(best)))
 }
 
-/// Returns the time at which a track may reach a limit, within a duration of 1.
+/// Returns the time within a duration of 1 at which a track may reach a limit; `None` if it stays below.
 fn crossing(track: &Track, limit: f64) -> Option<f64> {
     first_crossing(1.0, 64, |tau| {
         let angle = Angle::new(track.omega * tau);
@@ -172,7 +170,7 @@ fn farthest(arms: &[DVec3], c: DVec3) -> DVec3 {
     arms.iter().copied().max_by(farther).unwrap()
 }
 
-/// No point rises along `n` faster than the bound of [`sound`], at any time.
+/// Tests that no point moves along `n` faster than the bound of [`sound`], at any time.
 #[test]
 fn the_sound_bound_holds_over_intervals() {
     let mut rng = rng(6);
@@ -203,8 +201,8 @@ fn the_sound_bound_holds_over_intervals() {
     assert!(beaten > 100, "{beaten}");
 }
 
-/// An arm of 2 hangs down and turns about its end towards a wall above. The published bound counts only the sideways
-/// motion of its tip, and lets the arm turn through the wall.
+/// Tests an arm of length 2 that hangs down and turns about its end towards a wall above. The published bound counts
+/// only the sideways motion of its tip, and lets the arm turn through the wall.
 #[test]
 fn the_published_bound_lets_the_mace_through_the_wall() {
     let (length, width, wall) = (2.0, 0.02, 1.0);
@@ -269,8 +267,8 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
     );
 }
 
-/// Compares the least height of a point that turns with the exact one. Earlier rounding is an error of heights, and
-/// is allowed for there.
+/// Compares the least height of a turning point with the exact one. Earlier rounding is an error of heights, and is
+/// allowed for there.
 #[test]
 fn worst_least_until() {
     let found = Worst::of("RATE_F64, least heights of points", 40_000).search(|tape| {
@@ -309,8 +307,8 @@ fn worst_least_until() {
     found.is_within(30.0);
 }
 
-/// Compares the bound of the second derivative of a track, as stored, with the exact one. Earlier rounding is an
-/// error of heights: it moves no height by more than twice as much, whatever the turn.
+/// Compares the bound of a track's second derivative, as stored, with the exact one. Earlier rounding is an error of
+/// heights: it moves no height by more than twice as much, whatever the rotation.
 #[test]
 fn worst_bend() {
     let found = Worst::of("RATE_F64, bends of points", 40_000).search(|tape| {

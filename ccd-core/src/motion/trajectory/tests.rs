@@ -1,4 +1,4 @@
-//! Deviations of stretches, compared with poses in between.
+//! Compares the deviations of stretches with poses in between.
 
 use super::*;
 use crate::math::order::greater;
@@ -6,7 +6,7 @@ use crate::tests::scene::{RngExt, direction, magnitude, rng, within};
 use crate::tests::trajectories::Swing;
 use glam::DVec3;
 
-/// Returns the largest deviation of points at a reach from the centre, divided by the bound, at some times of a
+/// Returns the largest deviation of points at a distance from the centre, divided by its bound, at some times of a
 /// stretch.
 fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch(from, to).unwrap();

@@ -1,4 +1,4 @@
-//! The descent that computes the distance of the bodies at one clock, and the front that remains `[FAST06 Alg. 3]`.
+//! Computes the distance of two bodies at one clock by a descent from the last front `[FAST06 Alg. 3]`.
 
 use super::front::{Front, Item, Node};
 use super::hull_pair::{HullPair, Near};
@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
-/// Computes distances, nearest pairs first, from the front of the last descent.
+/// A search for the nearest pairs, from the front of the last descent.
 pub(super) struct Descent<'s, 'p, C> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) hulls: HullPair<'p>,
@@ -29,13 +29,13 @@ pub(super) struct Descent<'s, 'p, C> {
     pub(super) meter: &'s mut Meter,
 }
 
-/// The results at a clock so far.
+/// The results at a clock so far, and the pairs that may improve them.
 struct Found {
-    /// An upper bound of the distance of the bodies.
+    /// An upper bound of the distance of the two bodies.
     distance: f64,
     /// The nearest pair of pieces in contact.
     contact: Option<Contact>,
-    /// Pairs that may have to be split, nearest first.
+    /// The pairs that may have to be split, as a heap with the nearest first.
     open: BinaryHeap<Open>,
 }
 
@@ -46,9 +46,9 @@ struct Open {
 }
 
 impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
-    /// Visits the pairs of the front at clock `s` that do not stay apart to the end, splits those that
-    /// may have the least distance, joins those that no longer may, and returns the time until which
-    /// all of them keep apart.
+    /// Updates the front at clock `s`, and returns the time until which all its pairs stay apart. Pairs that may have
+    /// the least distance are split, and pairs that no longer may are joined. Pairs that stay apart to the end are
+    /// skipped.
     pub(super) fn step<O>(&mut self, oracle: &mut O, s: f64) -> ControlFlow<Outcome, f64>
     where
         O: DistanceOracle<Cache = C>,
@@ -84,7 +84,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         ControlFlow::Continue(next)
     }
 
-    /// Measures a pair of the front.
+    /// Computes the distance of a pair in the front.
     fn look<O>(
         &mut self,
         oracle: &mut O,
@@ -95,7 +95,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        if let Err(reason) = self.meter.visit(self.problem) {
+        if let Err(reason) = self.meter.count_visit(self.problem) {
             return ControlFlow::Break(Outcome::unresolved(
                 self.problem.time(snapshot.clock),
                 reason,
@@ -194,8 +194,8 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         ControlFlow::Continue(())
     }
 
-    /// Joins pairs of the front that have become far away, if that costs nothing: the pair that
-    /// covers both is as far apart as the bodies, and apart until the next clock.
+    /// Joins pairs of the front that have become far away, if that costs nothing. The pair that covers both must be as
+    /// far apart as the bodies, and apart until the next clock.
     fn join<O>(
         &mut self,
         oracle: &mut O,
@@ -231,7 +231,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
 }
 
 impl<C> Node<C> {
-    /// Records that the pair is to be split, whatever its distance.
+    /// Marks a pair to be split, whatever its distance.
     fn unmeasured(&mut self, at: u32, s: f64) -> Open {
         (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
         let lower = self.lower;
@@ -250,7 +250,7 @@ impl Found {
     }
 }
 
-/// The nearest pair is the greatest; among equals, the one that came first.
+/// The order of the heap: the nearest pair is the greatest; among equals, the one that came first.
 impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.lower.total_cmp(&self.lower);

@@ -1,46 +1,44 @@
-//! The bounding volume traversal tree, and its front `[FAST06 §5.1]`.
+//! The bounding volume traversal tree with its front `[FAST06 §5.1]`.
 
 use super::hull_pair::{Below, HullPair, Near};
 use crate::engine::capacity::empty;
 use crate::engine::pieces::pair::Pair;
 use crate::math::order::lesser;
 
-/// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent
-/// stopped.
-/// The leaves are the front: together they cover all pairs of pieces. The front is kept between two descents, with
-/// the caches of the oracle.
-/// descents, with the caches of the oracle.
+/// A tree of pairs of nodes of two hull trees, from the pair of roots down to the pairs at which a descent stopped. The
+/// leaves are the front: together they cover all pairs of pieces. The front is kept between two descents, with the
+/// caches of the oracle.
 #[derive(Debug)]
 pub(super) struct Front<C> {
-    /// The pairs. The root is the first, and pairs of children are adjacent.
+    /// All pairs of the tree. The root is the first, and pairs of children are adjacent.
     nodes: Vec<Node<C>>,
-    /// Free slots of former pairs of children.
+    /// Unused slots of `nodes`, by the first of two.
     vacant: Vec<u32>,
     leaves: usize,
     peak: usize,
 }
 
-/// A pair of nodes.
+/// A pair of nodes of two hull trees.
 #[derive(Clone, Debug)]
 pub(super) struct Node<C> {
     pub(super) pair: [u32; 2],
     pub(super) item: Item<C>,
-    /// The first of the two children; `None` in the front.
+    /// The index of the first of two children; `None` for a leaf.
     pub(super) children: Option<u32>,
     /// A lower bound of the pair's distance at its last visit.
     pub(super) lower: f64,
     /// The time until which the pair was certified apart at its last visit; infinite for a pair that stays apart to
     /// the end.
     pub(super) clock: f64,
-    /// The owners of the pair's nearest features.
+    /// Whether pieces or bridges own the pair's nearest features.
     pub(super) near: Near,
-    /// While the distance of the bodies is below this, joining its children is worth another try.
+    /// The distance of the bodies below which joining the pair's children is tried again.
     pub(super) join_below: f64,
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum Item<C> {
-    /// A pair of which at least one is an inner node, with the oracle's cache.
+    /// A pair of which at least one node is an inner node, with the oracle's cache.
     Nodes(C),
     /// A pair of two leaves.
     Pieces(Pair<C>),
@@ -58,7 +56,7 @@ impl<C> Default for Front<C> {
 }
 
 impl<C: Clone + Default> Front<C> {
-    /// Restarts with the pair of roots.
+    /// Resets the tree to the pair of roots.
     pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
         empty(&mut self.nodes);
         empty(&mut self.vacant);
@@ -75,7 +73,7 @@ impl<C: Clone + Default> Front<C> {
         &mut self.nodes[at as usize]
     }
 
-    /// Returns the pairs of the front, in the order of the tree.
+    /// Returns the leaves, in the order of the tree.
     pub(super) fn leaves(&self) -> Vec<u32> {
         let mut leaves = Vec::with_capacity(self.leaves);
         self.walk(|at, node| {
@@ -86,7 +84,7 @@ impl<C: Clone + Default> Front<C> {
         leaves
     }
 
-    /// Returns the least clock of the pairs in the front.
+    /// Returns the least clock among the leaves.
     pub(super) fn clock(&self) -> f64 {
         let mut least = f64::INFINITY;
         self.walk(|_, node| {
@@ -97,8 +95,7 @@ impl<C: Clone + Default> Front<C> {
         least
     }
 
-    /// Returns the pairs whose children are both in the front and do not stay apart to the end, with the
-    /// first child of each.
+    /// Returns the pairs whose children are both leaves and do not stay apart to the end, each with its first child.
     pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
         self.walk(|at, node| {
@@ -114,7 +111,7 @@ impl<C: Clone + Default> Front<C> {
         above
     }
 
-    /// Replaces a pair of the front by two that cover it, and returns the first of them; `None` for a pair of pieces.
+    /// Splits a leaf into two pairs that cover it, and returns the first of them; `None` for a pair of pieces.
     pub(super) fn drop_below(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
         let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
@@ -145,7 +142,7 @@ impl<C: Clone + Default> Front<C> {
         Some(first)
     }
 
-    /// Replaces two pairs of the front by the one that covers them.
+    /// Removes the two leaves below a pair, so that the pair becomes a leaf.
     pub(super) fn raise(&mut self, at: u32) {
         if let Some(first) = self.nodes[at as usize].children.take() {
             self.vacant.push(first);

@@ -9,35 +9,35 @@ use crate::distance::oracle::Claim;
 use crate::problem::Problem;
 use crate::problem::Which;
 
-/// The nodes of both bodies.
+/// The hull trees of both bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HullPair<'a> {
     pub(super) a: Hulls<'a>,
     pub(super) b: Hulls<'a>,
 }
 
-/// The owners of the nearest features of two nodes.
+/// Which of the nearest features of two nodes belong to bridges: facets outside of all pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Near {
-    /// Both features are owned by pieces.
+    /// Both features belong to pieces.
     Pieces,
-    /// A bridge on one of the bodies.
+    /// The feature of this body belongs to a bridge.
     Bridge(Which),
-    /// Both features are bridges.
+    /// Both features belong to bridges.
     Bridges,
 }
 
-/// The pairs that replace a pair of nodes.
+/// The children of a pair of nodes, which replace it.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Below {
-    /// Both nodes are leaves, of these pieces.
+    /// There are none: both nodes are leaves, with these pieces.
     Pieces([u32; 2]),
-    /// The pairs that cover this one.
+    /// Two pairs that together cover this one.
     Pairs([[u32; 2]; 2]),
 }
 
 impl<'a> HullPair<'a> {
-    /// Returns `None` when one of the bodies has more than one piece and no tree.
+    /// Creates the pair of trees; `None` if a body has more than one piece and no hull tree.
     pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
         Some(HullPair {
             a: Hulls::of(problem.a.body)?,
@@ -49,7 +49,7 @@ impl<'a> HullPair<'a> {
         [self.a.hull(a), self.b.hull(b)]
     }
 
-    /// Returns the owners of the nearest features; `claim` names the points of these features.
+    /// Returns which nearest features belong to bridges; `claim` has the nearest points.
     pub(super) fn near(&self, [a, b]: [u32; 2], claim: &Claim) -> Near {
         match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
             (false, false) => Near::Pieces,
@@ -59,8 +59,8 @@ impl<'a> HullPair<'a> {
         }
     }
 
-    /// Returns the pairs to examine instead. One node is replaced by its children: if only one body has a bridge,
-    /// that body's node, else the larger node, or the one with children if the other has none.
+    /// Returns the pairs that replace a pair. One node is replaced by its children: if only one body has a bridge, that
+    /// body's node, else the larger node, or the one with children if the other has none.
     pub(super) fn below(&self, [a, b]: [u32; 2], near: Near) -> Below {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
@@ -85,11 +85,11 @@ impl<'a> HullPair<'a> {
     }
 }
 
-/// The nodes of a body.
+/// The hull tree of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Hulls<'a> {
     Tree(&'a HullTree),
-    /// The single node of a body of one piece, which is its own tree.
+    /// The only node of a body with one piece, which is its own tree.
     Single(&'a Body),
 }
 

@@ -1,4 +1,4 @@
-//! Distances of nodes from their body's axis of rotation, each computed once a query.
+//! Caches the distances of nodes from their body's axis of rotation for one query.
 
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::problem::Problem;
@@ -6,17 +6,18 @@ use crate::problem::Problem;
 #[derive(Debug, Default)]
 pub(super) struct Reaches {
     query: u64,
-    /// The query and the result of each computation, by body and node.
+    /// The cached distances by body and node, each with the number of its query.
     known: [Vec<(u64, f64)>; 2],
 }
 
 impl Reaches {
-    /// Invalidates all results for another query.
+    /// Invalidates all cached distances.
     pub(super) fn forget(&mut self) {
         self.query += 1;
     }
 
-    /// Returns the distances from the axis for both nodes of a pair; `snapshot` has their hulls.
+    /// Returns for both nodes of a pair the largest distance of their points from the axis of rotation; `snapshot` has
+    /// their hulls.
     pub(super) fn each(
         &mut self,
         problem: &Problem<'_>,

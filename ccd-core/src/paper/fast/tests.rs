@@ -1,4 +1,4 @@
-//! Chains of balls, whose hulls are capsules, compared with the best-first and the naive search.
+//! Compares chains of balls, whose hulls are capsules, with the best-first and the naive search.
 
 use super::{BestFirst, Fast};
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
@@ -20,7 +20,7 @@ use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DVec3;
 
-/// Balls on a line, in a tree split in halves. One tree in three has balls of several sizes.
+/// Creates balls on a line, in a hull tree split in halves. One tree in three has balls of several sizes.
 fn chain(rng: &mut Pcg64, count: usize) -> Body {
     let step = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-4..=4))));
     let step = if step == DVec3::ZERO { DVec3::X } else { step };
@@ -134,7 +134,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// Checks an answer at sampled times, and returns the time of contact, or infinity.
+/// Checks an answer at sampled times, and returns the time of contact; infinite without contact.
 fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     let holds_until = |end: f64, least: f64| {
         for k in 0..=128 {

@@ -1,4 +1,4 @@
-//! The search for any contact along trajectories.
+//! Decides whether two bodies on trajectories touch at all.
 
 use super::contacts::{Seen, SoFar};
 use super::drive::{Question, drive};
@@ -16,7 +16,7 @@ use crate::questions::any::any;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Answers whether the bodies touch at all along their trajectories.
+    /// Decides whether the bodies touch at all along their trajectories.
     pub(crate) fn any_contact_along(
         &mut self,
         query: &Query<'_>,
@@ -34,7 +34,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 struct Any<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
     kept: SoFar,
-    /// The first time at which one body is inside the other.
+    /// The first time at which it is undecided whether one body is inside the other.
     undecided: f64,
 }
 

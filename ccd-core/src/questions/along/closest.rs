@@ -1,4 +1,4 @@
-//! The search for the closest approach along trajectories.
+//! Computes the closest approach of two bodies on trajectories.
 
 mod found;
 
@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Brackets the least distance of the bodies along their trajectories, or answers whether they keep a required
+    /// Bounds the least distance of the bodies along their trajectories, or decides whether they keep a required
     /// clearance.
     pub(crate) fn closest_approach_along(
         &mut self,
@@ -31,10 +31,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Some(distance) => self.keeps_along(query, distance, oracle)?,
             None => self.approach_of_bodies_along(&query.measuring(), oracle)?,
         };
-        Ok(answer.of_shapes(query.excess()))
+        Ok(answer.to_shapes(query.excess()))
     }
 
-    /// Brackets the least distance of the bodies themselves, whatever their shapes are.
+    /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
     fn approach_of_bodies_along(
         &mut self,
         query: &Query<'_>,
@@ -48,7 +48,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         drive(&mut closest, query, oracle)
     }
 
-    /// Answers whether the bodies keep a distance, or whether their shapes come nearer.
+    /// Decides whether the bodies keep a distance, or their shapes come nearer.
     fn keeps_along(
         &mut self,
         query: &Query<'_>,
@@ -80,7 +80,7 @@ struct Closest<'s, 'q, 'a, O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
-    /// Proves a lower bound of the whole query's least distance, as a part of the least distance seen, if one is due.
+    /// Tries to prove a lower bound of the whole query's least distance, if it is time for that.
     fn prepare(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -193,7 +193,7 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
 }
 
 impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
-    /// Returns the answer for bodies that meet, unless they overlap at the start as well.
+    /// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
     fn or_overlap(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -216,7 +216,8 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
         })
     }
 
-    /// Cuts a stretch at the time at which its motions are nearest. Returns false if it cannot be cut.
+    /// Cuts a stretch at the time at which its motions are nearest; returns whether it could be cut. Returns false if
+    /// it cannot be cut.
     fn cut_where_nearest(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -250,7 +251,8 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
         Ok(stretches.cut_about(motions.span, time, length))
     }
 
-    /// Measures the bodies at a time. Returns `None` if they overlap, or a limit is reached.
+    /// Measures the bodies at a time; `None` if they overlap, or a limit is reached. Returns `None` if they overlap, or
+    /// a limit is reached.
     fn doubt(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -281,11 +283,11 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
     }
 }
 
-/// The limits that the bodies' distance at a time sets for stretches near that time.
+/// The distance of the bodies at a time, as far as it limits the length of stretches near that time.
 struct Doubt {
-    /// Deviations below this leave no doubt.
+    /// The deviation below which a stretch cannot contain a distance less than the least one found.
     stray: f64,
-    /// The rate at which the distance grows.
+    /// The rate at which the distance increases at that time.
     rate: f64,
 }
 
@@ -294,7 +296,7 @@ impl Doubt {
         motions.length_for(STRAY_SHARE * self.stray)
     }
 
-    /// Returns true if the distance grows from an end of the stretch on.
+    /// Returns whether the distance increases from an end of the stretch inward.
     fn rises_into(&self, motions: &Motions, end: f64) -> bool {
         if end > motions.span.from {
             self.rate <= 0.0

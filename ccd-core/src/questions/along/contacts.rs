@@ -1,4 +1,4 @@
-//! The facts that a search for contacts proves, stretch by stretch.
+//! The results so far of a search for contacts along trajectories.
 
 use super::motions::Motions;
 use super::stretches::Stretches;
@@ -7,18 +7,19 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
 
-/// The facts proven for the stretches so far.
+/// The gap and the tolerance that are proven for the stretches searched so far.
 pub(super) struct SoFar {
     gap: f64,
     margin: f64,
     tolerance: f64,
 }
 
-/// The result of the search of a stretch.
+/// What the search of a stretch found out.
 pub(super) enum Seen {
-    /// The bodies are apart in the stretch, or the stretch waits until the pose at the start is examined.
+    /// The bodies are apart in the stretch, or the stretch has to wait until the pose at the start is examined.
     Done,
-    /// A limit was reached. The bodies are apart until the given time of the query.
+    /// A limit was reached, and the bodies are apart until the given time of the query. The bodies are apart until the
+    /// given time of the query.
     Stopped(f64, Limit),
     /// The motions are in contact at the given time of the stretch.
     Near(f64, Option<Contact>),
@@ -33,12 +34,12 @@ impl SoFar {
         }
     }
 
-    /// Records that the motions of a stretch keep a gap.
+    /// Records the gap that the motions of a stretch keep.
     pub(super) fn keep(&mut self, motions: &Motions, proven_gap: f64) {
         self.gap = lesser(self.gap, motions.at_least(proven_gap));
     }
 
-    /// Records the result of the motions of a stretch.
+    /// Records the answer for the motions of a stretch.
     pub(super) fn see(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -87,7 +88,7 @@ impl SoFar {
         self.answer(stretches, Outcome::unresolved(safe_until, limit))
     }
 
-    /// Returns the answer for a contact of the motions of a stretch.
+    /// Converts a contact of a stretch's motions to the answer of the query.
     pub(super) fn found(
         &mut self,
         stretches: &Stretches<'_, '_>,

@@ -1,4 +1,4 @@
-//! The driver of all searches stretch by stretch.
+//! The loop of all searches along trajectories.
 
 use super::motions::{Motions, Span};
 use super::stretches::Stretches;
@@ -9,14 +9,14 @@ use crate::problem::Problem;
 use crate::query::Query;
 use std::ops::ControlFlow;
 
-/// A question along trajectories, which draws the conclusions from each stretch.
+/// A question about bodies on trajectories: it decides from each stretch whether the search goes on.
 pub(super) trait Question<O: DistanceOracle> {
-    /// Returns true if the search of a stretch takes accelerations into account. Otherwise they count as deviations.
+    /// Returns whether the search handles accelerations within a stretch. Otherwise they count as deviations.
     fn takes_accelerations(&self) -> bool {
         true
     }
 
-    /// Does the work on the whole query that is due before the next stretch.
+    /// Called before each stretch, for work on the whole query.
     fn prepare(
         &mut self,
         _stretches: &mut Stretches<'_, '_>,
@@ -25,7 +25,7 @@ pub(super) trait Question<O: DistanceOracle> {
         Ok(())
     }
 
-    /// Cuts a stretch that is probably too long for a search. Returns false if the stretch is worth a search.
+    /// Cuts a stretch that is probably too long for a search. Returns whether it was cut.
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -33,7 +33,7 @@ pub(super) trait Question<O: DistanceOracle> {
         oracle: &mut O,
     ) -> Result<bool, InputError>;
 
-    /// Searches a stretch, and records what is proven of it, or cuts it, or returns the answer.
+    /// Searches a stretch, and records what is proven, cuts the stretch, or returns the answer.
     fn examine(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -45,7 +45,7 @@ pub(super) trait Question<O: DistanceOracle> {
     /// Returns the answer if a limit is reached before a stretch is searched.
     fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer;
 
-    /// Returns the answer if no stretch is left.
+    /// Returns the answer if all stretches are done.
     fn done(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -53,8 +53,8 @@ pub(super) trait Question<O: DistanceOracle> {
     ) -> Result<Answer, InputError>;
 }
 
-/// Answers a question about two trajectories: takes the next stretch, and cuts it or has it examined, until no
-/// stretch is left.
+/// Answers a question about two trajectories: takes one waiting stretch after the other, and cuts or examines it, until
+/// none is left.
 pub(super) fn drive<O: DistanceOracle, Q: Question<O>>(
     question: &mut Q,
     query: &Query<'_>,

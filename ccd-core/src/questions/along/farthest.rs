@@ -1,4 +1,4 @@
-//! The greatest distance along trajectories, by branch and bound over time.
+//! Computes the greatest distance along trajectories by branch and bound over time.
 //!
 //! The distance of two points, one of each body, is never less than the distance of the bodies. The points that are
 //! nearest at a time therefore bound the bodies' distance from above near that time. They move straight at their
@@ -9,10 +9,10 @@ use super::motions::{Motions, Span};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::metered;
+use crate::engine::answer::run_metered;
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
-use crate::engine::nearest::Stop;
+use crate::engine::nearest::SearchEnd;
 use crate::engine::start::at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
@@ -28,7 +28,7 @@ use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
-    /// Brackets the greatest distance of the bodies along their trajectories, to within the tolerance.
+    /// Bounds the greatest distance of the bodies along their trajectories, to within the tolerance.
     ///
     /// The margin plays no role.
     ///
@@ -56,8 +56,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Err((upper, reason)) => (upper, Some(reason)),
         };
         let excess = query.excess();
-        let upper = excess.above(upper);
-        let seen = |(time, contact): (f64, Contact)| (time, contact.of_shapes(excess));
+        let upper = excess.upper_bound_of_shapes(upper);
+        let seen = |(time, contact): (f64, Contact)| (time, contact.to_shapes(excess));
         let at = search.best.map(seen);
         let lower = at.map_or(0.0, |(_, contact)| greater(0.0, contact.separation.lower));
         let outcome = match reason {
@@ -83,13 +83,13 @@ struct Search<'s, 'j, 'a, O: DistanceOracle> {
     stretches: Stretches<'j, 'a>,
     schedule: &'s mut DepthFirst<O>,
     oracle: &'s mut O,
-    /// The time at which the greatest distance was measured, and the contact there.
+    /// The time of the greatest distance measured so far, and the nearest pieces at that time.
     best: Option<(f64, Contact)>,
-    /// An upper bound of the distance in stretches that are not worth a cut.
+    /// An upper bound of the distance in stretches that need no further cut.
     settled: f64,
 }
 
-/// A stretch of time and an upper bound of the distance in it, ordered by the bound.
+/// A waiting stretch of time with an upper bound of the distance in it; the order is that of the bounds.
 struct Part {
     span: Span,
     upper: f64,
@@ -115,17 +115,17 @@ impl PartialEq for Part {
 
 impl Eq for Part {}
 
-/// The points of both bodies that are nearest at a time, and bounds of their distance.
+/// The nearest points of both bodies at a time, with bounds of their distance.
 struct Seen {
     points: [DVec3; 2],
     lower: f64,
     upper: f64,
-    /// The part of the bound that remains in a stretch of no length: deviations and rounding.
+    /// The uncertainty of the bound in a stretch of length 0: deviations and rounding.
     blur: f64,
 }
 
 impl Seen {
-    /// Returns the nearest points and their bounds from a contact in a pose.
+    /// Creates the value from the contact of the bodies in a pose.
     fn of(pose: &Motions, contact: Contact) -> Self {
         let separation = contact.separation;
         let points = [separation.witness_a, separation.witness_b];
@@ -138,11 +138,11 @@ impl Seen {
     }
 }
 
-/// An upper bound at all times, or the best known bound and the limit that was reached.
+/// An upper bound for all times; or, if a limit was reached, the best known bound and the limit.
 type Bounded = Result<f64, (f64, Limit)>;
 
 impl<O: DistanceOracle> Search<'_, '_, '_, O> {
-    /// Cuts the stretch with the greatest upper bound, until the tolerance is met.
+    /// Cuts the stretch with the greatest upper bound until the tolerance is met.
     fn run(&mut self) -> Result<Bounded, InputError> {
         let Query {
             duration, terms, ..
@@ -186,8 +186,8 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             .map_or(0.0, |(_, contact)| contact.separation.lower)
     }
 
-    /// Measures the bodies in the middle of a stretch, and bounds their distance in it. Returns `None` if it is not
-    /// worth a cut.
+    /// Measures the bodies in the middle of a stretch, and bounds their distance in the whole stretch. Returns `None`
+    /// if the stretch needs no further cut.
     fn part(&mut self, span: Span, above: f64) -> Result<Result<Option<Part>, Limit>, InputError> {
         self.stretches.turn_to(span);
         let seen = match self.measure(span.middle())? {
@@ -209,7 +209,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         Ok(Ok(Some(Part { span, upper })))
     }
 
-    /// Measures the bodies at a time.
+    /// Measures the distance of the bodies at a time.
     fn measure(&mut self, time: f64) -> Result<Result<Seen, Limit>, InputError> {
         let (pose, terms) = match self.stretches.pose(time)? {
             Ok(pose) => pose,
@@ -218,7 +218,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         let query = self.stretches.query();
         let problem = pose.problem(query, &terms)?.measuring();
         let kept = &mut self.schedule.scratch;
-        let answer = metered(&problem, self.oracle, kept, |oracle, meter| {
+        let answer = run_metered(&problem, self.oracle, kept, |oracle, meter| {
             (measured(&problem, oracle, meter), 0.0)
         });
         self.stretches.add(&answer.stats);
@@ -244,16 +244,17 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
     }
 }
 
-/// The relation of the bodies at a time.
+/// How the bodies are placed at a time: apart, meeting, or one inside the other.
 enum Place {
     Apart(Contact),
-    /// The surfaces meet, or nearly so. One of the bodies may be inside the other.
+    /// The surfaces meet, or nearly so, and one of the bodies may be inside the other. One of the bodies may be inside
+    /// the other.
     Meeting(Contact),
-    /// A point is in both bodies.
+    /// A point that is in both bodies.
     Inside(DVec3),
 }
 
-/// Measures bodies that do not move.
+/// Measures the distance of bodies at rest.
 fn measured<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -269,15 +270,15 @@ fn measured<O: DistanceOracle>(
         // Any two points bound the distance from above.
         _ => match nearest_at(problem, 0.0, f64::INFINITY, oracle, meter) {
             ControlFlow::Continue(Some(nearest)) => Ok(Place::Meeting(nearest.contact)),
-            ControlFlow::Break(Stop::Overlap(_, contact)) => Ok(Place::Meeting(contact)),
-            ControlFlow::Break(Stop::Limit(reason)) => Err(reason),
+            ControlFlow::Break(SearchEnd::Overlap(_, contact)) => Ok(Place::Meeting(contact)),
+            ControlFlow::Break(SearchEnd::Limit(reason)) => Err(reason),
             ControlFlow::Continue(None) => Err(Limit::OracleGaveUp),
         },
     }
 }
 
 impl Motions {
-    /// Returns a bound of the growth of the distance between two points, one of A and one of B, within `time` before
+    /// Returns an upper bound of the growth of the distance between a point of A and a point of B, within `time` before
     /// or after the middle of the stretch. The points are given at that middle.
     fn drift(&self, [on_a, on_b]: [DVec3; 2], time: f64) -> f64 {
         let middle = 0.5 * self.span.length();

@@ -1,4 +1,4 @@
-//! The first contact along trajectories, stretch by stretch in order of time.
+//! Computes the first contact along trajectories, by stretches in order of time.
 
 use super::contacts::{Seen, SoFar};
 use super::drive::{Question, drive};
@@ -14,7 +14,7 @@ use crate::problem::Problem;
 use crate::query::Query;
 use std::ops::ControlFlow;
 
-/// Returns the time at which the bodies first touch along their trajectories.
+/// Finds the time at which the bodies first touch along their trajectories.
 pub(crate) fn first_contact<O: DistanceOracle, S: Solve<O>>(
     schedule: &mut S,
     query: &Query<'_>,

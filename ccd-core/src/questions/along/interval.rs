@@ -1,4 +1,4 @@
-//! The first and the last contact along trajectories.
+//! Computes the first and the last contact along trajectories.
 
 use super::first::first_contact;
 use crate::answer::{Answer, Hit, Outcome, Unresolved};
@@ -14,8 +14,8 @@ use crate::rounding::U64;
 use std::time::Instant;
 
 impl<O: DistanceOracle> BestFirst<O> {
-    /// Answers when the bodies first and last touch along their trajectories. The last contact is the first contact
-    /// of the reversed trajectories.
+    /// Finds when the bodies first and last touch along their trajectories. The last contact is the first contact of
+    /// the reversed trajectories.
     ///
     /// # Guarantee
     /// The guarantee of [`Outcome`], for the trajectories themselves; ends on every input.
@@ -92,7 +92,7 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 }
 
-/// A trajectory that runs from its end to its start.
+/// A trajectory that runs backward in time, from its end to its start.
 struct Reversed<'t> {
     of: Movement<'t>,
     duration: f64,

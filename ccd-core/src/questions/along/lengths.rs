@@ -1,5 +1,5 @@
-//! The length of a stretch to try next: long enough for progress, and so short that the deviations are less than the
-//! bodies' distance.
+//! Chooses the length of the next stretch. It has to be long enough for progress, and so short that the deviations are
+//! less than the bodies' distance.
 
 use super::motions::Motions;
 use super::stretches::Stretches;
@@ -12,8 +12,8 @@ use crate::query::Query;
 use crate::settings::Terms;
 use crate::tuning::{COARSE, STRAY_SHARE};
 
-/// Cuts a stretch that is probably too long before it is searched: the bodies are measured where it meets a proven
-/// one. Returns false if the stretch is worth a search.
+/// Cuts a stretch that is probably too long before it is searched. The bodies are measured where it meets a proven
+/// stretch. Returns whether it was cut.
 pub(super) fn cut_at_once<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
     motions: &Motions,
@@ -36,7 +36,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
 }
 
-/// Returns the length of a stretch worth a search after a contact of the motions at a time.
+/// Returns the length of the next stretch to search after a contact of the motions at a time.
 pub(super) fn length<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
     motions: &Motions,
@@ -58,9 +58,9 @@ pub(super) fn length<O: DistanceOracle>(
     })
 }
 
-/// Returns the length of a stretch worth a search, from the bodies' distance at a contact and the rate at which they
-/// approach. In such a stretch the deviation is a part of the distance, and the bodies reach the time at which they
-/// meet or are nearest.
+/// Returns the length of stretch to search, from the bodies' distance at a contact and the rate at which they approach.
+/// In such a stretch the deviation is a part of the distance, and the bodies reach the time at which they meet or are
+/// nearest.
 ///
 /// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
 /// and pass each other closely, they are nearest after about `2 d/r`.

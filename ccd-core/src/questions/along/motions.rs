@@ -1,4 +1,4 @@
-//! One stretch of both trajectories, as a query about motions.
+//! The approximate motions of both bodies in a stretch of time, as a query about motions.
 
 use crate::answer::{Contact, Separation};
 use crate::error::InputError;
@@ -14,17 +14,17 @@ use crate::settings::{StartPolicy, Terms};
 use crate::tuning::{BLURRED, STRAY_SHARE, WORTH_A_CUT};
 use glam::DVec3;
 
-/// A stretch of time.
+/// A stretch of time within a query.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// The part of the query between two corners that contains the stretch.
+    /// The index of the part of the query, between two corners, that contains the stretch.
     pub(super) part: usize,
 }
 
 impl Span {
-    /// Returns the stretch of no length at the start of this one.
+    /// Returns the stretch of length 0 at the start of this one.
     pub(super) fn start(self) -> Self {
         Span {
             to: self.from,
@@ -36,17 +36,17 @@ impl Span {
         self.to - self.from
     }
 
-    /// Returns the middle of the stretch.
+    /// Returns the time in the middle of the stretch.
     pub(super) fn middle(&self) -> f64 {
         self.from + 0.5 * self.length()
     }
 }
 
-/// The motions of both bodies in a stretch of time, and the bodies' deviation from them.
+/// The approximate motions of both bodies in a stretch of time, with their deviations.
 #[derive(Debug)]
 pub(super) struct Motions {
     pub(super) stretches: [Stretch; 2],
-    /// The sum of both deviations.
+    /// The sum of the deviations of both bodies.
     pub(super) stray: f64,
     pub(super) span: Span,
 }
@@ -64,7 +64,7 @@ impl Motions {
         })
     }
 
-    /// Returns the motions without accelerations. The displacement by these counts as a deviation.
+    /// Removes the accelerations, and adds the displacements that they cause to the deviations.
     pub(super) fn straight(mut self) -> Self {
         let time = self.span.length();
         for stretch in &mut self.stretches {
@@ -75,7 +75,7 @@ impl Motions {
         self
     }
 
-    /// Returns true if queries accept the deviations and the displacements by acceleration.
+    /// Returns whether the deviations and the displacements by acceleration are in the range of a query's lengths.
     pub(super) fn is_in_range(&self, query: &Query<'_>) -> bool {
         let time = self.span.length();
         let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
@@ -85,18 +85,18 @@ impl Motions {
         self.stray >= 0.0 && self.stray <= most && far(a) <= most && far(b) <= most
     }
 
-    /// Estimates the length of a stretch with this deviation: deviations shrink with a power of the length.
+    /// Estimates the length of a stretch that has a given deviation. Deviations shrink with a power of the length.
     pub(super) fn length_for(&self, stray: f64) -> f64 {
         self.span.length() * (stray / self.stray).powf(1.0 / self.order())
     }
 
-    /// Estimates the length of a stretch in which the deviation is a share of the change of distance at a rate.
+    /// Estimates the length of a stretch in which the deviation is a fixed share of the change of a distance at `rate`.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole * (STRAY_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
     }
 
-    /// Returns the power of the time with which deviations grow.
+    /// Returns the exponent with which deviations grow with time.
     fn order(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
         if self.stretches.iter().any(accelerates) {
@@ -106,7 +106,7 @@ impl Motions {
         }
     }
 
-    /// Returns true if a part of this length is much shorter than the stretch.
+    /// Returns whether a part of this length is much shorter than the stretch.
     pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
         length < WORTH_A_CUT * self.span.length()
     }
@@ -123,8 +123,8 @@ impl Motions {
         normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
     }
 
-    /// Returns the problem of the motions. At any deviation the bodies keep the gap that a query about one motion
-    /// proves: half the tolerance beyond the margin.
+    /// Creates the problem of the motions. Whatever the deviations are, the bodies keep the gap that a query about one
+    /// motion proves: half the tolerance beyond the margin.
     pub(super) fn problem<'a>(
         &self,
         query: &Query<'a>,
@@ -148,7 +148,7 @@ impl Motions {
         )
     }
 
-    /// Returns the tolerance for the motions: that for the bodies, less four deviations. Two are lost on either side
+    /// Returns the tolerance for the motions: that for the bodies, minus four deviations. Two are lost on either side
     /// of its middle: for the gap that the motions keep, and for the contact that they show.
     fn tolerance(&self, whole: f64) -> f64 {
         // Written so that without deviations the result is the whole tolerance, to the last bit.
@@ -161,7 +161,7 @@ impl Motions {
         greater(least, LEAST_TOLERANCE)
     }
 
-    /// Returns the lower bound of the bodies' distance that a distance of the motions implies.
+    /// Converts a distance of the motions to a lower bound of the bodies' distance.
     pub(super) fn at_least(&self, distance: f64) -> f64 {
         if self.stray > 0.0 {
             (distance - self.stray).next_down()
@@ -170,7 +170,7 @@ impl Motions {
         }
     }
 
-    /// Returns a time of the query, rounded so that it is never late.
+    /// Converts a time of the stretch to a time of the query, rounded so that it is never late.
     pub(super) fn time(&self, time: f64) -> f64 {
         let Span { from, to, .. } = self.span;
         if from > 0.0 {
@@ -180,7 +180,7 @@ impl Motions {
         }
     }
 
-    /// Returns the contact with bounds that hold for the bodies despite their deviations.
+    /// Widens the bounds of a contact of the motions so that they hold for the bodies.
     pub(super) fn contact(&self, contact: Contact) -> Contact {
         let Separation { lower, upper, .. } = contact.separation;
         Contact {
@@ -194,13 +194,13 @@ impl Motions {
     }
 }
 
-/// Returns a bound of the distance of a body's points from the centre of a stretch's motion.
+/// Returns an upper bound of the distances of a body's points from the centre of a stretch's motion.
 fn reach(moving: &Moving<'_>, stretch: &Stretch) -> f64 {
     let (centre, radius) = moving.body.tree().ball();
     centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius
 }
 
-/// Returns a sum, rounded up; a sum with zero is exact.
+/// Returns a sum rounded up; exact if a term is zero.
 fn sum(a: f64, b: f64) -> f64 {
     if b > 0.0 && a != 0.0 {
         (a + b).next_up()

@@ -1,9 +1,9 @@
-//! The stretches of time that are still to be examined, and the work left for them.
+//! The waiting stretches of time of a search along trajectories, and the budget left for them.
 
 use super::motions::{Motions, Span};
 use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::metered;
+use crate::engine::answer::run_metered;
 use crate::engine::scratch::Scratch;
 use crate::engine::start::at_start;
 use crate::error::InputError;
@@ -15,21 +15,21 @@ use crate::tuning::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-/// The waiting stretches, the next one last, and the work so far.
+/// The stretches of time that wait to be searched, the next one last, with the work done so far.
 pub(super) struct Stretches<'j, 'a> {
     query: &'j Query<'a>,
     waiting: Vec<Span>,
     pub(super) stats: Stats,
     budgets: Budgets,
     looked_at_start: bool,
-    /// The last stretch that was proven, and its deviations.
+    /// The stretch that was proven last, with its deviation.
     proven: Option<(Span, f64)>,
-    /// The start of the query; `None` if there is no deadline. No clock is read then.
+    /// The time at which the query started; `None` if there is no deadline. No clock is read then.
     begun: Option<Instant>,
 }
 
 impl<'j, 'a> Stretches<'j, 'a> {
-    /// Starts with one stretch, the whole duration.
+    /// Starts with the whole duration as the only stretch.
     pub(super) fn new(query: &'j Query<'a>) -> Self {
         Stretches {
             query,
@@ -54,18 +54,18 @@ impl<'j, 'a> Stretches<'j, 'a> {
         self.waiting.pop()
     }
 
-    /// Returns the waiting stretches.
+    /// Returns the waiting stretches, the next one last.
     pub(super) fn waiting(&self) -> &[Span] {
         &self.waiting
     }
 
-    /// Returns the first time of all waiting stretches; infinite if there are none.
+    /// Returns the earliest time of all waiting stretches; infinite if there are none.
     pub(super) fn first(&self) -> f64 {
         let starts = self.waiting.iter().map(|span| span.from);
         starts.fold(f64::INFINITY, lesser)
     }
 
-    /// Returns the settings with the rest of the budget and of the deadline.
+    /// Returns the settings with what is left of the budget and of the time to the deadline.
     pub(super) fn terms(&self) -> Result<Terms<'a>, Limit> {
         let terms = &self.query.terms;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
@@ -87,21 +87,21 @@ impl<'j, 'a> Stretches<'j, 'a> {
         })
     }
 
-    /// Adds the work on a stretch.
+    /// Adds the work of the search of a stretch.
     pub(super) fn add(&mut self, stats: &Stats) {
         // Each stretch counts as one visit, even if its search made none.
         self.stats.iterations += 1;
         self.stats.add(stats);
     }
 
-    /// Adds work on the whole query, which is charged to no part.
+    /// Adds work on the whole query, which no part's budget pays for.
     pub(super) fn add_for_no_part(&mut self, stats: &Stats) {
         self.stats.add(stats);
         self.budgets.begun += stats.work();
     }
 
-    /// Returns the motions in a stretch with the settings, or the limit that was reached. The stretch is cut until
-    /// the deviations are lengths that queries accept.
+    /// Returns the motions in a stretch, with the settings; or the limit that was reached. The stretch is cut until the
+    /// deviations are in the range of a query's lengths.
     pub(super) fn motions(
         &mut self,
         mut span: Span,
@@ -127,28 +127,27 @@ impl<'j, 'a> Stretches<'j, 'a> {
         }
     }
 
-    /// Returns true if a contact of the motions in a stretch is accepted as one of the bodies: the tolerance is met, or
-    /// cutting does not improve it.
+    /// Returns whether a contact of a stretch's motions counts as one of the bodies: the tolerance is met, or cutting
+    /// does not improve it.
     pub(super) fn is_fine(&self, motions: &Motions) -> Result<bool, InputError> {
         Ok(motions.stray <= STRAY_SHARE * self.query.terms.tolerance
             || self.is_shortest(motions)?)
     }
 
-    /// Returns true if the deviations are hardly larger than in a stretch of no length: only rounding remains.
+    /// Returns whether the deviations are hardly larger than in a stretch of length 0: only rounding remains.
     fn is_shortest(&self, motions: &Motions) -> Result<bool, InputError> {
         let least = Motions::new(self.query, motions.span.start())?;
         Ok(motions.stray <= 2.0 * least.stray)
     }
 
-    /// Returns true if the poses at the start of a stretch are those of the bodies at the start, up to
-    /// rounding.
+    /// Returns whether the motions of a stretch start at the poses of the bodies at time 0, up to rounding.
     pub(super) fn begins_at_start(&self, motions: &Motions) -> Result<bool, InputError> {
         Ok(motions.span.from == 0.0 && (motions.stray == 0.0 || self.is_shortest(motions)?))
     }
 
-    /// Schedules the pose at the start, and then the stretch again, if the motions begin beside that pose: an
-    /// overlap of the motions at the start need not be one of the bodies. Returns false if the start was examined
-    /// already, and for stretches that begin later.
+    /// Schedules an examination of the start, and then the stretch again. An overlap of the stretch's motions at time 0
+    /// need not be one of the bodies. Returns false if the start was examined already, and for stretches that begin
+    /// later.
     pub(super) fn look_at_start(&mut self, motions: &Motions) -> Result<bool, InputError> {
         if motions.span.from > 0.0 || self.looked_at_start || self.begins_at_start(motions)? {
             return Ok(false);
@@ -158,13 +157,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
         Ok(true)
     }
 
-    /// Records that the bodies are apart in a stretch.
+    /// Records that the bodies are proven apart in a stretch.
     pub(super) fn prove(&mut self, motions: &Motions) {
         self.proven = Some((motions.span, motions.stray));
     }
 
-    /// Returns the time at which a stretch begins or ends beside the one that was proven last, if its deviations are
-    /// much larger: they are probably too large.
+    /// Returns the common time of a stretch and the last proven one, if the stretch's deviations are much larger: then
+    /// the stretch is probably too long.
     pub(super) fn looks_too_long(&mut self, motions: &Motions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
         let Span { from, to, .. } = motions.span;
@@ -173,12 +172,12 @@ impl<'j, 'a> Stretches<'j, 'a> {
         (motions.stray > MUCH_LONGER * stray).then_some(time)
     }
 
-    /// Charges the following work to the part of the query that contains a stretch.
+    /// Makes the budget of the part that contains a stretch pay for the work that follows.
     pub(super) fn turn_to(&mut self, span: Span) {
         self.budgets.turn_to(span.part, self.stats.work());
     }
 
-    /// Returns the pose at a time and the settings, or the limit that was reached.
+    /// Returns the poses of both bodies at a time, with the settings; or the limit that was reached.
     pub(super) fn pose(
         &self,
         time: f64,
@@ -195,8 +194,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         Ok(Ok((Motions::new(self.query, span)?, terms)))
     }
 
-    /// Measures the bodies at a time, up to rounding. Returns the contact and the rate at which the bodies approach;
-    /// `None` if they overlap, or a limit is reached.
+    /// Measures the distance of the bodies at a time, up to rounding. Returns the nearest points and the rate at which
+    /// the bodies approach; `None` if they overlap, or a limit is reached.
     pub(super) fn measure<O: DistanceOracle>(
         &mut self,
         time: f64,
@@ -207,7 +206,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             return Ok(None);
         };
         let problem = motions.problem(self.query, &terms)?.measuring();
-        let answer = metered(&problem, oracle, scratch, |oracle, meter| {
+        let answer = run_metered(&problem, oracle, scratch, |oracle, meter| {
             (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
         });
         self.stats.add(&answer.stats);
@@ -217,20 +216,20 @@ impl<'j, 'a> Stretches<'j, 'a> {
         })
     }
 
-    /// Removes and returns the waiting stretch beside a time; `None` if everything there is proven.
+    /// Removes and returns the waiting stretch that begins or ends at a time; `None` if there is none.
     pub(super) fn take_beside(&mut self, time: f64) -> Option<Span> {
         let is_beside = |span: &Span| span.from == time || span.to == time;
         let index = self.waiting.iter().rposition(is_beside)?;
         Some(self.waiting.remove(index))
     }
 
-    /// Makes a stretch the next one.
+    /// Adds a stretch, which is searched next.
     pub(super) fn push(&mut self, span: Span) {
         self.waiting.push(span);
     }
 
-    /// Cuts a stretch in two, at a corner or after about this length, and makes the earlier part the next one.
-    /// Returns false if it cannot be cut.
+    /// Cuts a stretch in two, at a corner or after about `length`, and makes the earlier part the next one. Returns
+    /// whether it could be cut.
     pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
         let Some([early, late]) = self.parts(span, length) else {
             return false;
@@ -240,7 +239,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Cuts a part of about this length around a time out of a stretch, and makes it the next one. At a corner it is
-    /// the part that contains the time. Returns false if the stretch cannot be cut.
+    /// the part that contains the time. Returns whether the stretch could be cut.
     pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
         let whole = span.length();
         let Some([early, late]) = self.parts(span, 0.5 * whole) else {
@@ -305,12 +304,12 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 }
 
-/// The work on each part of a query. Each part between two corners has its own budget.
+/// The work spent on each part of a query. Each part between two corners has its own budget.
 struct Budgets {
     spent: Vec<u64>,
-    /// The part that is charged now.
+    /// The index of the part that pays at present.
     part: usize,
-    /// The work on all parts when the charging of this part began.
+    /// The total work when this part began to pay.
     begun: u64,
 }
 
@@ -325,18 +324,18 @@ impl Default for Budgets {
 }
 
 impl Budgets {
-    /// Returns the work on the present part; `work` is the total of all parts.
+    /// Returns the work spent on the present part; `work` is the total of all parts.
     fn spent(&self, work: u64) -> u64 {
         self.spent[self.part] + (work - self.begun)
     }
 
-    /// Charges the following work to a part.
+    /// Makes another part pay for the work that follows.
     fn turn_to(&mut self, part: usize, work: u64) {
         self.spent[self.part] = self.spent(work);
         (self.part, self.begun) = (part, work);
     }
 
-    /// Returns a new part with its own budget; or the given part, which it was cut from, if there are too many.
+    /// Adds a part with a budget of its own, and returns its index; or returns `part` if there are too many.
     fn another(&mut self, part: usize) -> usize {
         if self.spent.len() >= MOST_PARTS {
             return part;

@@ -1,4 +1,4 @@
-//! Answers along trajectories, compared with sampled distances, and with the answers for plain motions.
+//! Compares answers along trajectories with sampled distances, and with the answers for plain motions.
 
 mod budgets;
 
@@ -21,7 +21,7 @@ use crate::tests::scene::{Kind, Look, Pcg64, RngExt, body, magnitude, rng, scene
 use crate::tests::trajectories::Swing;
 use glam::DVec3;
 
-/// Two bodies that swing near each other.
+/// Two bodies that swing back and forth near each other.
 struct Swings {
     soups: [Vec<Triangle>; 2],
     bodies: [Body; 2],
@@ -117,7 +117,7 @@ fn first_contacts_hold_at_sampled_times() {
     );
 }
 
-/// Schedules that take no accelerations into account find the same contacts, never late and equally early.
+/// Tests that schedules without support for accelerations find the same contacts, never late and equally early.
 #[test]
 fn every_schedule_finds_first_contacts_along_trajectories() {
     let mut rng = rng(31);
@@ -235,10 +235,10 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     assert!(apart > 60 && touching > 60, "{apart} {touching}");
 }
 
-/// A motion of constant velocities, given as a user's own trajectory.
+/// A motion of constant velocities behind a user's implementation of a trajectory.
 struct Own(Motion);
 
-/// A motion given as a trajectory that does not return it as one: the query is answered stretch by stretch.
+/// A motion behind a trajectory that does not return it as a motion, so that the query is answered stretch by stretch.
 struct Unknown(Motion);
 
 impl Trajectory for Unknown {

@@ -1,5 +1,4 @@
-//! Answers for any contact, compared with the first contact and with samples, with every budget and honest or lying
-//! oracles.
+//! Compares answers for any contact with the first contact and with samples, for every budget and for false claims.
 
 use super::*;
 use crate::answer::Unresolved;

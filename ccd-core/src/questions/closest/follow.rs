@@ -1,4 +1,4 @@
-//! Follows two pieces to the time at which they are nearest.
+//! Follows two pieces over time to a minimum of their distance.
 
 use super::Best;
 use crate::distance::oracle::DistanceOracle;
@@ -9,8 +9,8 @@ use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::tuning::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
 
-/// Follows the pieces of a contact to a nearby local minimum of their distance. Returns the nearest pieces that were
-/// measured.
+/// Follows the pieces of a contact to a nearby local minimum of their distance over time. Returns the nearest
+/// measurement.
 pub(crate) fn follow<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -38,7 +38,7 @@ struct Descent<'d, O: DistanceOracle> {
     best: Best,
 }
 
-/// The rate of the distance of two pieces at a clock.
+/// The rate of change of the distance of two pieces at a clock.
 #[derive(Clone, Copy)]
 struct Slope {
     clock: f64,
@@ -47,8 +47,8 @@ struct Slope {
 }
 
 impl<O: DistanceOracle> Descent<'_, O> {
-    /// Measures the pieces at a clock. Returns `None` if the oracle gives up, or if the pieces are already as near as
-    /// matters.
+    /// Measures the pieces at a clock. Returns `None` if the oracle gives up, or if the pieces are so near that the
+    /// search is done.
     fn look(&mut self, clock: f64) -> Option<Slope> {
         if self.best.contact.separation.upper <= self.problem.tolerance {
             return None;
@@ -74,8 +74,8 @@ impl<O: DistanceOracle> Descent<'_, O> {
         })
     }
 
-    /// Descends from a clock until the distance grows again. Returns two clocks with a local minimum of the distance
-    /// between them; the distance falls from the first one on.
+    /// Steps downhill from a clock until the distance grows again. Returns two clocks with a local minimum of the
+    /// distance between them; the distance decreases from the first one on.
     fn bracket(&mut self, from: f64) -> Option<[Slope; 2]> {
         let mut here = self.look(from)?;
         let forward = here.rate < 0.0;
@@ -109,7 +109,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         None
     }
 
-    /// Narrows the interval around a minimum of the distance, which falls from the first clock on.
+    /// Narrows the interval around a local minimum of the distance, which decreases from the clock of `falling` on.
     fn narrow(&mut self, mut falling: Slope, mut other: Slope) {
         for look in 0..FOLLOWING_LOOKS {
             let width = other.clock - falling.clock;

@@ -1,19 +1,19 @@
-//! A first guess of the least distance, from measurements at a few times.
+//! Estimates the least distance first, from measurements at a few times.
 
 use super::follow::follow;
 use super::{Best, unresolved};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::nearest::{Nearest, Stop};
+use crate::engine::nearest::{Nearest, SearchEnd};
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::shortcuts::out_of_reach::{least_distance, nearest_clock};
 use crate::tuning::{FOLLOWED, GUESSES};
 use std::ops::ControlFlow;
 
-/// Measures the bodies when bounding balls are nearest, and follows the nearest pieces from there. The search repeats
-/// this at the time found, as long as it finds nearer pieces.
+/// Measures the bodies at the time when their bounding balls are nearest, and follows the nearest pieces from there.
+/// The search repeats this at the time found, as long as it finds nearer pieces.
 ///
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
 pub(crate) fn guess<O: DistanceOracle>(
@@ -54,13 +54,13 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<Stop, Option<Best>> {
-    let mut lists = std::mem::take(&mut meter.memory().nearest);
-    let mut nearest = Nearest::new(problem, clock, &mut lists).nearer_than(beyond);
+) -> ControlFlow<SearchEnd, Option<Best>> {
+    let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
+    let mut nearest = Nearest::new(problem, clock, &mut lists).with_cutoff(beyond);
     let stopped = nearest.search(oracle, meter);
-    let found = nearest.pieces();
+    let found = nearest.nearest_pieces();
     lists.clear();
-    meter.memory().nearest = lists;
+    meter.scratch_memory().nearest = lists;
     let best = |(pieces, contact)| Best {
         clock,
         pieces,
@@ -68,7 +68,7 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
     };
     match stopped {
         // The bodies have met before.
-        Some(Stop::Overlap(pieces, contact)) if clock > 0.0 => {
+        Some(SearchEnd::Overlap(pieces, contact)) if clock > 0.0 => {
             ControlFlow::Continue(Some(best((pieces, contact))))
         }
         Some(stop) => ControlFlow::Break(stop),
@@ -76,12 +76,12 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
     }
 }
 
-/// Returns the answer for bodies that overlap at the start, or when a limit is reached.
-fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> Outcome {
+/// Returns the outcome when the bodies overlap at the start, or a limit is reached.
+fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: SearchEnd) -> Outcome {
     match stop {
-        Stop::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
-        Stop::Limit(limit) => {
-            let seen = |best: Best| (problem.time(best.clock), best.contact.no_nearer_than(0.0));
+        SearchEnd::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
+        SearchEnd::Limit(limit) => {
+            let seen = |best: Best| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
             let lower = greater(0.0, least_distance(problem));
             Outcome::Unresolved(Unresolved::least(lower, best.map(seen), limit))
         }

@@ -1,4 +1,4 @@
-//! Lower bounds of the distance, for a search that may reach a limit before it has its answer.
+//! Proves lower bounds of the distance step by step, for a search that may reach a limit before its answer.
 //!
 //! A search for the least distance proves it pair by pair, and has no bound for the whole bodies until its end. Half
 //! of the distance is proven much sooner. A long search therefore stops now and then, to prove such a part: a *rung*
@@ -7,30 +7,31 @@
 use crate::math::order::greater;
 use crate::problem::Problem;
 
-/// Parts of the least distance seen, proven one by one.
+/// A sequence of increasing shares of the least measured distance, each of which is proven as a lower bound.
 #[derive(Debug)]
 pub(crate) struct Ladder {
-    /// The work at which the next rung is due.
+    /// The amount of work at which the next rung is tried.
     next: u64,
-    /// The work at which the last rung is due. The rest of the budget is reserved for it.
+    /// The amount of work at which the last rung is tried. The rest of the budget is reserved for it.
     last: u64,
-    /// The part of the distance to prove next.
+    /// The share of the measured distance that is proven next.
     part: f64,
     /// The best lower bound of the distance at all times.
     pub(crate) lower: f64,
 }
 
-/// A query for any contact. If there is none, a lower bound is proven.
+/// One attempt to prove a lower bound: a query for any contact within a margin. If there is no contact, the margin is a
+/// lower bound.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rung {
     pub(crate) margin: f64,
     pub(crate) tolerance: f64,
-    /// The most work on the rung.
+    /// The largest amount of work for the attempt.
     pub(crate) budget: u64,
 }
 
 impl Rung {
-    /// Returns the problem of this rung.
+    /// Returns the problem of whether there is any contact within the rung's margin.
     pub(crate) fn problem<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
         let mut asking = problem.keeping(self.margin, self.tolerance);
         asking.budget = self.budget;
@@ -38,17 +39,17 @@ impl Rung {
     }
 }
 
-/// The work after which the first rung is tried. Most searches end sooner.
+/// The amount of work after which the first rung is tried. Most searches end sooner.
 const FIRST: u64 = 1 << 17;
 
-/// The work after which the first rung is tried in a search with a deadline or a stop flag.
+/// The amount of work after which the first rung is tried, if there is a deadline or a stop flag.
 const FIRST_TIMED: u64 = 1 << 14;
 
-/// The most rungs at the end of a search that reached a limit.
+/// The largest number of rungs that are tried after a search reached a limit.
 pub(crate) const LAST_RUNGS: usize = 8;
 
 impl Ladder {
-    /// Creates the ladder with a known lower bound, for a search with this budget.
+    /// Creates the ladder with a known lower bound, for a search with a given budget.
     pub(crate) fn new(lower: f64, budget: u64) -> Self {
         let last = budget - budget / 4;
         Ladder {
@@ -60,7 +61,7 @@ impl Ladder {
         }
     }
 
-    /// Returns the ladder for a search that a deadline or another thread may end.
+    /// Makes the first rung earlier, for a search that a deadline or another thread may end.
     pub(crate) fn timed(self) -> Self {
         Ladder {
             next: self.next.min(FIRST_TIMED),
@@ -68,7 +69,7 @@ impl Ladder {
         }
     }
 
-    /// Returns the next rung if it is due. The rung may take half as much work as was done before.
+    /// Returns the next rung if it is time for it. The rung may take half as much work as was done before.
     #[inline]
     pub(crate) fn due(&mut self, work: u64, upper: f64) -> Option<Rung> {
         if work < self.next {
@@ -82,7 +83,8 @@ impl Ladder {
         self.rung(upper, work / 2)
     }
 
-    /// Returns the next rung below a distance; `None` if the distance is unknown, or nothing can be gained.
+    /// Returns the next rung for a measured distance `upper`; `None` if the distance is unknown, or the rung would
+    /// improve nothing.
     pub(crate) fn rung(&self, upper: f64, budget: u64) -> Option<Rung> {
         let level = self.part * upper;
         // The tolerance leaves room for proofs.
@@ -94,7 +96,7 @@ impl Ladder {
         })
     }
 
-    /// Records the result of a rung: the proven bound, or `None`.
+    /// Records the lower bound that a rung proved, or `None` if it proved none.
     pub(crate) fn climb(&mut self, proven: Option<f64>) {
         match proven {
             Some(proven) => {

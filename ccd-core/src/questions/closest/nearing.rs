@@ -1,4 +1,4 @@
-//! The search for the least distance.
+//! Searches for the least distance of two bodies.
 
 use super::follow::follow;
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
@@ -16,13 +16,13 @@ use crate::problem::Problem;
 use crate::shortcuts::closer_look::CloserLook;
 use std::ops::ControlFlow;
 
-/// The search for the least distance. Each pair is proven to keep the least distance found so far.
+/// A search for the least distance, in which each pair is proven to keep the least distance found so far.
 pub(crate) struct Nearing {
     pub(crate) best: Option<Best>,
-    /// Distances above this are of no interest.
+    /// The distance above which pairs are ignored.
     pub(crate) beyond: f64,
     pub(crate) proven: Proven,
-    /// The reason why some pair could not be proven to the end.
+    /// The reason why some pair could not be proven to the end, if there is one.
     pub(crate) stuck: Option<Limit>,
     /// The lower bound that is proven for all pairs.
     pub(crate) ladder: Ladder,
@@ -36,20 +36,20 @@ impl Nearing {
 
     pub(crate) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
         let best = self.best.ok_or(Beyond { lower })?;
-        let contact = best.contact.no_nearer_than(lower);
+        let contact = best.contact.cap_lower_bound(lower);
         Ok(Outcome::least(lower, problem.time(best.clock), contact))
     }
 
     pub(crate) fn unresolved(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.ladder.lower, self.upper());
         let seen = |best: Best| {
-            let contact = best.contact.no_nearer_than(lower);
+            let contact = best.contact.cap_lower_bound(lower);
             (problem.time(best.clock), contact)
         };
         Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
     }
 
-    /// Searches for pairs nearer than a rung, in a separate search. It proves the rung, or finds nearer pieces.
+    /// Tries one rung of the ladder in a separate search, which proves it, or finds nearer pieces.
     ///
     /// Breaks with the answer for bodies that overlap.
     pub(crate) fn climb<O: DistanceOracle>(
@@ -99,8 +99,8 @@ impl Nearing {
         ControlFlow::Continue(())
     }
 
-    /// Returns the answer of a search. A search with a pair that could not be proven to the end proves the best bound
-    /// it can.
+    /// Returns the final outcome. If some pair could not be proven to the end, the best provable lower bound is proven
+    /// first.
     pub(crate) fn at_last<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,

@@ -1,4 +1,4 @@
-//! Decides whether a required distance is kept, by two queries for any contact.
+//! Decides whether bodies keep a required distance, by two queries for any contact.
 
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
@@ -6,20 +6,20 @@ use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
 use crate::math::order::{greater, lesser};
 
-/// A required distance, and the limits of the search for a violation.
+/// A required distance, and the tolerance and budget of the decision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Required {
     pub(crate) distance: f64,
     pub(crate) tolerance: f64,
     pub(crate) budget: u64,
-    /// The amounts by which the bodies may exceed their shapes: the distance is violated only by bodies that are
-    /// nearer by as much.
+    /// The excess of the bodies over their shapes. The shapes certainly violate the distance only if the bodies are
+    /// nearer than it by the excess.
     pub(crate) excess: Excess,
 }
 
 impl Required {
-    /// Decides whether bodies keep the distance. The first query is whether they come near it. If they do, the second
-    /// is whether they come nearer by the excess. In between, neither answer is certain for their shapes.
+    /// Decides whether the bodies keep the distance. The first query asks whether they come near it. If they do, the
+    /// second asks whether they come nearer by the excess. In between, neither answer is certain for the shapes.
     ///
     /// # Errors
     /// The errors of the query for any contact.
@@ -59,20 +59,21 @@ impl Required {
         })
     }
 
-    /// Returns the distance below which the bodies' shapes are certainly nearer than the required one; not above 0 if
-    /// there is none.
+    /// Returns the distance of bodies below which their shapes are certainly nearer than the required distance. It is 0
+    /// or less if there is none.
     fn certain(&self) -> f64 {
-        self.excess.below(self.distance)
+        self.excess.certainly_nearer_below(self.distance)
     }
 
-    /// Returns the outcome that a query's outcome implies, if the query had the distance as its margin.
+    /// Converts the outcome of a query with the distance as its margin to a decision.
     fn of(&self, found: Outcome) -> Outcome {
         match found {
             Outcome::Free { proven_gap } => Outcome::Free {
                 proven_gap: greater(proven_gap, self.distance),
             },
             Outcome::Contact { time, contact }
-                if !(self.excess.above(contact.separation.upper) < self.distance) =>
+                if !(self.excess.upper_bound_of_shapes(contact.separation.upper)
+                    < self.distance) =>
             {
                 bracket(0.0, time, contact)
             }
@@ -84,12 +85,12 @@ impl Required {
     }
 }
 
-/// The state of a decision about a required distance.
+/// A decision in progress, with the work spent so far.
 struct Asking<F> {
     required: Required,
     any_contact: F,
     stats: Stats,
-    /// The tolerance of the queries: half the tolerance of the answer.
+    /// The tolerance of each query: half the tolerance of the answer.
     half: f64,
 }
 
@@ -104,13 +105,13 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
         Ok(answer)
     }
 
-    /// Returns the work that is left.
+    /// Returns the work that is left of the budget.
     fn left(&self) -> u64 {
         self.required.budget.saturating_sub(self.stats.work())
     }
 
-    /// Decides whether shapes come nearer than the distance, after the bodies came within the tolerance of it, or
-    /// nearer by less than the excess.
+    /// Asks the second query: whether the bodies come nearer than the distance by more than the excess. `contact` at
+    /// `time` is the result of the first query, which found that they come near the distance.
     fn nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
         let (distance, half) = (self.required.certain(), self.half);
         // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
@@ -133,7 +134,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
         })
     }
 
-    /// Returns the best lower bound that can be proven with the rest of the work.
+    /// Proves the best lower bound that the rest of the budget allows.
     fn lower(&mut self, reason: Limit) -> Result<f64, E> {
         let mut ladder = Ladder::new(0.0, self.required.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {
@@ -155,5 +156,5 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
 
 fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
-    Outcome::least(lower, time, contact.no_nearer_than(lower))
+    Outcome::least(lower, time, contact.cap_lower_bound(lower))
 }

@@ -1,4 +1,4 @@
-//! Brackets of the least distance, compared with samples, with every budget and honest or lying oracles.
+//! Compares bounds of the least distance with samples, for every budget and for false claims.
 
 mod conforming;
 mod excess;
@@ -21,7 +21,7 @@ fn approach(problem: &Problem<'_>) -> Answer {
     DepthFirst::default().closest_approach_of(problem, &mut Exhaustive)
 }
 
-/// Returns the least of the distances at equal steps.
+/// Returns the least distance at equal time steps.
 fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
     let at = |k| distance(problem, f64::from(k) / f64::from(steps));
     (0..=steps).map(at).fold(f64::INFINITY, lesser)
@@ -80,7 +80,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     );
 }
 
-/// The brackets agree with the first contact, with their ends as margins.
+/// Tests the bounds as margins: there is a first contact with the upper bound, and none with the lower one.
 #[test]
 fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
     let mut rng = rng(2);

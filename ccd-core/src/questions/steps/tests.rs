@@ -1,4 +1,4 @@
-//! Tests that the answer is that of the best-first schedule, whatever the steps.
+//! Tests that a search in any steps gives the answer of the best-first schedule.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -11,7 +11,7 @@ use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, distance, rng, scene};
 use glam::DVec3;
 
-/// Answers a query in steps of random lengths, and counts them.
+/// Answers a query in steps of random lengths, and counts the steps.
 fn in_steps(
     problem: &Problem<'_>,
     memory: &mut BestFirst<Exhaustive>,
@@ -93,7 +93,8 @@ fn a_search_goes_no_further_than_it_is_asked() {
     assert!(less > 0 && 2 * less < all, "{less} of {all}");
 }
 
-/// The times have clocks that round, down to the least numbers.
+/// Tests times whose clocks are rounded, down to the least positive numbers: the reached time is not before the
+/// requested one.
 #[test]
 fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     let mut rng = rng(3);
@@ -122,7 +123,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
     assert!(reached > 500, "{reached}");
 }
 
-/// No pair of pieces meets, and no time passes before containment is tested.
+/// Tests a body inside another: no pair of pieces meets, and no time passes before containment is tested.
 #[test]
 fn a_body_inside_the_other_is_no_body_apart() {
     let room = room(4.0);
@@ -148,7 +149,7 @@ fn a_body_inside_the_other_is_no_body_apart() {
     }
 }
 
-/// A solid cube of twelve triangles.
+/// Creates a solid cube of twelve triangles.
 fn room(half: f64) -> Body {
     let corner = |k: u32| {
         let sign = |bit: u32| if k >> bit & 1 == 1 { half } else { -half };

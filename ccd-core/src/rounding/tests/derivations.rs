@@ -1,10 +1,10 @@
-//! The allowances, compared with the sums in their docs.
+//! Compares the error bounds with the sums in their documentation.
 
 use crate::rounding::*;
 use crate::tuning::*;
 use glam::DVec3;
 
-/// Asserts that an allowance is at least the sum that its docs derive, and no more than four times as much.
+/// Checks that a bound is at least the documented sum, and at most four times as much.
 fn covers(name: &str, taken: f64, derived: f64) {
     let ratio = taken / derived;
     assert!(

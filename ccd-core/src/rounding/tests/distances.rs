@@ -1,4 +1,4 @@
-//! The rounding of distances, in the worst cases that a search finds, against double-double arithmetic.
+//! Searches for the worst rounding of distances, against double-double arithmetic.
 //!
 //! Coordinates are about a unit or far from the origins of the bodies and of the world, and turns are up to a million
 //! radians: each is a part of the bound.
@@ -15,7 +15,7 @@ use crate::tests::worst::{Tape, Worst, share};
 use crate::{Body, Motion};
 use glam::DVec3;
 
-/// Two moving bodies.
+/// Two moving bodies, given by their points and motions.
 struct Scene {
     bodies: [Body; 2],
     motions: [Motion; 2],
@@ -40,7 +40,7 @@ impl Scene {
         }
     }
 
-    /// Returns the scene without turns.
+    /// Removes the rotation of both bodies.
     fn unturning(mut self) -> Self {
         self.motions = self.motions.map(|motion| {
             let spin = DVec3::ZERO;
@@ -55,7 +55,7 @@ impl Scene {
         Problem::accelerated(bodies, pulls, self.duration, &Settings::DEFAULT.terms()).ok()
     }
 
-    /// Returns the scene with accelerations, which move the bodies about as far as their velocities do.
+    /// Adds accelerations that move the bodies about as far as their velocities do.
     fn accelerating(self, tape: &mut Tape) -> Self {
         let pull = |motion: Motion| {
             let speed = motion.velocity().length() * magnitude(tape, -2.0, 2.0);
@@ -67,7 +67,7 @@ impl Scene {
         }
     }
 
-    /// Returns the exact position of a body's point at a share of the duration.
+    /// Returns the exact position of a body's point after a share of the duration.
     fn place(&self, body: usize, s: f64, point: DVec3) -> Double3 {
         let time = Double::from(self.duration) * Double::from(s);
         let fall = Double3::from(self.accelerations[body]).scale(time * time * Double::from(0.5));
@@ -75,13 +75,13 @@ impl Scene {
     }
 }
 
-/// Returns the shares that the errors of a random scene take.
+/// Draws a scene, and returns its errors as shares of the bound.
 fn look(tape: &mut Tape) -> Option<Shares> {
     let scene = Scene::new(tape);
     look_at(tape, &scene)
 }
 
-/// Returns the shares that the errors of a scene without turns take.
+/// Draws a scene without rotation, and returns its errors as shares of the bound.
 fn look_without_turns(tape: &mut Tape) -> Option<Shares> {
     let scene = Scene::new(tape).unturning();
     look_at(tape, &scene)
@@ -140,7 +140,7 @@ fn worst_distances_without_turns() {
     found.is_within(100.0);
 }
 
-/// Velocities are derived from poses at both ends.
+/// Measures positions between poses at both ends, from which velocities are derived.
 #[test]
 fn worst_places_between_poses() {
     let found = Worst::of("distance_rounding, between poses", 8_000).search(|tape| {
@@ -189,7 +189,7 @@ fn worst_places_of_accelerating_bodies() {
     found.is_within(100.0);
 }
 
-/// Compares a body as seen from the nodes of the other one with the exact one.
+/// Compares the relative pose of a body, as the other body's nodes see it, with the exact one.
 #[test]
 fn worst_views() {
     let found = Worst::of("distance_rounding, views", 8_000).search(|tape| {
@@ -209,7 +209,7 @@ fn worst_views() {
         let found = crate::vectorize!(level, level => {
             let seen = view.at(level, s);
             let arm = crate::math::packed::Packed::new(level, arm);
-            (seen.rotation * arm + seen.way).unpacked()
+            (seen.rotation * arm + seen.offset).unpacked()
         });
         let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));
         let exact = scene.place(1 - own, s, y) - scene.place(own, s, x);

@@ -1,4 +1,4 @@
-//! Allowances for sums of products, compared with fractions, in the worst cases that a search finds.
+//! Searches for the worst rounding of sums of products, against exact fractions.
 
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
@@ -12,10 +12,10 @@ use crate::tests::rational::{Exact3, error_of};
 use crate::tests::worst::{Tape, Worst, share};
 use glam::{DMat3, DVec3};
 
-/// The exponents of the accepted coordinates, and of far smaller ones: 1e-100 to 1e12.
+/// The binary exponents of accepted coordinates, and of far smaller ones: 1e-100 to 1e12.
 const COORDINATES: std::ops::RangeInclusive<i32> = -332..=39;
 
-/// Returns some points that may be near each other, compared to their distance from the origin.
+/// Draws points, which may be near each other compared to their distance from the origin.
 fn corners<const N: usize>(tape: &mut Tape) -> [DVec3; N] {
     let scale = tape.size(COORDINATES);
     let first = DVec3::from(tape.vector(-8..=0));
@@ -27,7 +27,7 @@ fn corners<const N: usize>(tape: &mut Tape) -> [DVec3; N] {
     })
 }
 
-/// Returns a direction that is a unit vector up to rounding; `None` instead of zero.
+/// Draws a direction and normalises it, up to rounding; `None` instead of zero.
 fn axis(tape: &mut Tape) -> Option<DVec3> {
     unit(tape.vector(-60..=0).into())
 }
@@ -47,7 +47,7 @@ fn height_f64() {
     found.is_within(3.0);
 }
 
-/// The sign is that of a corner's position along a ray.
+/// Tests the sign of a corner's position along a ray.
 #[test]
 fn sign_f64_of_a_product() {
     let found = Worst::of("SIGN_F64, a product", 40_000).search(|tape| {
@@ -60,7 +60,7 @@ fn sign_f64_of_a_product() {
     found.is_within(12.0);
 }
 
-/// The sign is the side of an edge on which a ray passes.
+/// Tests the sign that says on which side of an edge a ray passes.
 #[test]
 fn sign_f64_of_a_ray_and_an_edge() {
     let found = Worst::of("SIGN_F64, a ray and an edge", 40_000).search(|tape| {
@@ -74,7 +74,7 @@ fn sign_f64_of_a_ray_and_an_edge() {
     found.is_within(9.0);
 }
 
-/// The sign is the side of a triangle on which a ray starts.
+/// Tests the sign that says on which side of a triangle a ray starts.
 #[test]
 fn sign_f64_of_three_corners() {
     let found = Worst::of("SIGN_F64, three corners", 30_000).search(|tape| {
@@ -89,7 +89,7 @@ fn sign_f64_of_three_corners() {
     found.is_within(9.0);
 }
 
-/// The heights above planes are those that a tree of points and hulls use.
+/// Tests heights above planes, as the point tree and hulls use them.
 #[test]
 fn height_rounding_of_points() {
     let found = Worst::of("height_rounding, a point", 30_000).search(|tape| {
@@ -109,7 +109,7 @@ fn height_rounding_of_points() {
     found.is_within(30.0);
 }
 
-/// The height of a box is less than that of a point in it by at most the allowance.
+/// Tests that the height of a box is less than that of a point in it by at most the bound.
 #[test]
 fn height_rounding_of_boxes() {
     let found = Worst::of("height_rounding, a box", 30_000).search(|tape| {
@@ -141,7 +141,7 @@ fn height_rounding_of_boxes() {
     found.is_within(40.0);
 }
 
-/// The error is that of three columns, from unit length and right angles.
+/// Tests the deviation of three columns from unit length and right angles.
 #[test]
 fn frame_f64() {
     let found = Worst::of("FRAME_F64", 20_000).search(|tape| {
@@ -160,7 +160,7 @@ fn off_frame(frame: &DMat3) -> f64 {
     off.fold(0.0, greater)
 }
 
-/// The allowance is `4u`, for a square within the range and for one beyond it.
+/// Tests the bound of `4u` for lengths with squares within the range and beyond it.
 #[test]
 fn units_and_lengths() {
     for (name, exponents, looseness) in [
@@ -183,8 +183,8 @@ fn units_and_lengths() {
     }
 }
 
-/// If the squares of all coordinates vanish, the error is only the last digit of the least numbers. A bound without a
-/// constant would vanish too.
+/// Tests coordinates whose squares all vanish: only the last digit of the least numbers is wrong then. A bound without
+/// a constant would vanish too.
 #[test]
 fn least_rounding() {
     let found = Worst::of("LEAST_ROUNDING", 10_000).search(|tape| {
@@ -208,7 +208,7 @@ fn least_rounding() {
     found.is_within(f64::INFINITY);
 }
 
-/// A number of turns is a quotient of an angle, which is computed in a few steps.
+/// Tests numbers of turns, which are quotients of angles computed in a few steps.
 #[test]
 fn turns_f64() {
     // This is 2π to 107 bits: sine and cosine of the rounded angle correct it.

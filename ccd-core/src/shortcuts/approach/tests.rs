@@ -1,4 +1,4 @@
-//! Rates and second derivatives of two triangles, compared with double-double arithmetic.
+//! Compares rates and second derivatives of two triangles with double-double arithmetic.
 
 use super::Approach;
 use crate::math::vector::{length, unit};
@@ -13,14 +13,14 @@ use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
 use glam::DVec3;
 
-/// Returns a motion of any speed and turn, about a centre near the body or far from it.
+/// Draws a motion of any speed and rotation, about a centre near the body or far from it.
 fn motion(tape: &mut Tape) -> Option<Motion> {
     let start = Pose::new(tape.vector(-20..=4), rotation(tape)).ok()?;
     let [velocity, spin, centre] = [-20..=6, -20..=6, -20..=10].map(|range| tape.vector(range));
     Motion::about(start, velocity, spin, centre).ok()
 }
 
-/// The contributions of both sides to a rate and to a second derivative: without allowances and exact, and the
+/// The contributions of both bodies to a rate and a second derivative, without allowances and exact, with the
 /// allowances.
 struct Sums {
     rate: Double,
@@ -76,7 +76,7 @@ impl Sums {
     }
 }
 
-/// Returns the shares of the allowances that the errors of rate and second derivative of two triangles take.
+/// Returns the errors of the rate and the second derivative of two triangles, as shares of their allowances.
 fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
     let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
     let bodies = triangles.map(|triangle| body(&[triangle]));

@@ -1,4 +1,4 @@
-//! Free times of flat nodes, compared with distances at sampled times.
+//! Compares free times of flat nodes with distances at sampled times.
 
 mod worst;
 
@@ -10,7 +10,7 @@ use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{Pcg64, RngExt, body, distance, magnitude, rng, rotation, within};
 
-/// A few triangles in one plane, up to the rounding of their coordinates.
+/// Draws triangles in one plane, up to the rounding of their coordinates.
 fn plate(rng: &mut Pcg64, frame: glam::DQuat) -> Vec<Triangle> {
     let count = rng.random_range(2..8);
     let mut corner = || {

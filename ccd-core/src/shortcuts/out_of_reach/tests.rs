@@ -1,4 +1,4 @@
-//! Bodies proven apart, compared with samples of their distance and with balls.
+//! Compares bodies proven apart with samples of their distance, and with exact balls.
 
 use super::out_of_reach;
 use crate::body::Body;

@@ -11,7 +11,7 @@ use crate::tests::scene::{direction, long_box};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// Compares the reach of a box at its position, without the allowance, with the box's points.
+/// Compares the extent of a placed box, without the allowance, with that of the box's points.
 #[test]
 fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);

@@ -1,4 +1,4 @@
-//! Bodies that turn many times, compared with exact distances at all their passes.
+//! Compares answers for bodies that turn many times with exact distances at all their passes.
 
 use super::*;
 use crate::answer::Answer;
@@ -20,7 +20,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// Returns the motion of a ball of radius 1 that turns at a distance of 5 about a centre, from an angle at time 0 on.
+/// Creates the motion of a ball of radius 1 that turns about a centre at a distance of 5, from an angle at time 0 on.
 fn crank(centre: DVec3, velocity: DVec3, spin: f64, angle: f64) -> Motion {
     let at = centre + 5.0 * DVec3::new(angle.cos(), angle.sin(), 0.0);
     let start = Pose::new(at, DQuat::from_rotation_z(angle)).unwrap();
@@ -33,7 +33,7 @@ fn gap([a, b]: [&Motion; 2], time: f64) -> f64 {
     a.distance(b) - 2.0
 }
 
-/// Checks that a contact of two balls on cranks is one, and the first, and returns its time.
+/// Checks that a contact of two balls is the first one, and returns its time.
 fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
     let ball = Body::ball(1.0).unwrap();
     let [a, b] = motions.map(|motion| (&ball, *motion));
@@ -66,7 +66,7 @@ fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f6
     until
 }
 
-/// A wheel drifts by a millionth in a turn, and touches in turn 500.
+/// Tests a wheel that drifts by a millionth in a turn, and touches in turn 500.
 #[test]
 fn a_slow_drift_ends_in_a_late_turn() {
     let config = Settings {
@@ -81,7 +81,7 @@ fn a_slow_drift_ends_in_a_late_turn() {
     }
 }
 
-/// The rates of two cranks are nearly one to two: they miss each other for many turns, by ever less.
+/// Tests rotation rates of nearly one to two: the balls miss each other for many turns, by ever less.
 #[test]
 fn rates_that_are_nearly_a_fraction_jam_late() {
     let config = Settings::DEFAULT;
@@ -99,7 +99,7 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
     }
 }
 
-/// Returns two soups near each other, of which one or both turn many times.
+/// Draws two soups of triangles near each other, of which one or both turn many times.
 fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let count = rng.random_range(1..4);
     let bodies = [0; 2].map(|_| body(&soup(rng, Look::Plump, count, 0.7)));
@@ -182,7 +182,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
     );
 }
 
-/// A reference without periods finds the same contacts.
+/// Tests that a search without periods finds the same contacts.
 #[test]
 fn the_naive_schedule_agrees() {
     let mut rng = rng(4);
@@ -217,7 +217,7 @@ fn the_naive_schedule_agrees() {
     assert!(hits > 20 && misses > 20, "{hits} {misses}");
 }
 
-/// A step that ends within a round, and one that ends beyond it.
+/// Tests a step that ends within a round, and one that ends beyond it.
 #[test]
 fn steps_lead_to_the_same_answer() {
     let mut rng = rng(5);
@@ -246,7 +246,7 @@ fn steps_lead_to_the_same_answer() {
     assert!(steps > 1_000, "{steps}");
 }
 
-/// A thousand turns without a change cost as much as one.
+/// Tests that a thousand equal turns cost as much as one.
 #[test]
 fn a_thousand_turns_cost_what_one_does() {
     let mut rng = rng(6);
@@ -274,7 +274,7 @@ fn a_thousand_turns_cost_what_one_does() {
     assert!(free > 15, "{free}");
 }
 
-/// The first of a thousand periods gives the least distance of all.
+/// Tests that the first of a thousand periods gives the least distance of all.
 #[test]
 fn closest_approaches_of_many_turns_hold_at_sampled_times() {
     let mut rng = rng(7);

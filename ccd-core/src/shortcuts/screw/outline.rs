@@ -1,5 +1,5 @@
-//! A triangle as seen from the axis of a screw: its corners by their distances from the axis and their heights on the
-//! screw.
+//! The projection of a triangle along a screw: its corners by their distances `r` from the axis and their heights `ζ`
+//! along the screw.
 //!
 //! The distance `r` from the axis is a convex function. On a triangle, any `a r + b ζ` with a linear `ζ` is greatest
 //! at a corner. Everywhere `r` is at least `o·x`, with `x` from the axis and any unit vector `o` across it. The `o`
@@ -11,27 +11,27 @@ use crate::math::vector::{length, unit};
 use crate::rounding::profile_rounding;
 use glam::{DVec2, DVec3};
 
-/// The corners of a triangle in the plane of `r` and `ζ`.
+/// The projection of a triangle to the plane of `r` and `ζ`.
 #[derive(Debug)]
 pub(crate) struct Outline {
-    /// The corners with their distances from the axis.
+    /// The corners, with their distances from the axis as `r`.
     outer: [DVec2; 3],
-    /// The corners with lower bounds of these distances, linear over the triangle.
+    /// The corners, with lower bounds of these distances that are linear over the triangle.
     inner: [DVec2; 3],
-    /// A bound of the deviation of `ζ` from a linear function.
+    /// A bound of the deviation of `ζ` from a linear function over the triangle.
     twist: f64,
-    /// The factors with which the rounding of `r` and of `ζ` grows.
+    /// The factors by which the rounding of `r` and of `ζ` is multiplied.
     scale: [f64; 2],
     tilt: f64,
 }
 
-/// The linear terms of a node's `r` and `ζ` on a screw, and bounds of the rest.
+/// The linear approximation of `r` and `ζ` near a node, with bounds of the remainder.
 pub(crate) struct Linear {
-    /// A point on the axis, and the axis's direction.
+    /// A point on the axis, and the direction of the axis.
     pub(crate) axis: [DVec3; 2],
-    /// The `ζ` of the node's centre.
+    /// The value of `ζ` at the node's centre.
     pub(crate) zeta: f64,
-    /// The gradient of `ζ`.
+    /// The gradient of `ζ` at the node's centre.
     pub(crate) ahead: DVec3,
     pub(crate) twist: f64,
     pub(crate) scale: [f64; 2],
@@ -39,7 +39,7 @@ pub(crate) struct Linear {
 }
 
 impl Outline {
-    /// Returns the outline of a triangle; `None` for other nodes.
+    /// Projects a triangle; `None` for other nodes.
     pub(crate) fn new(node: &Placed, linear: &Linear) -> Option<Self> {
         let corners = node.corners()?;
         let [origin, along] = linear.axis;
@@ -66,7 +66,7 @@ impl Outline {
         })
     }
 
-    /// Returns the interval of `n.x r + n.y ζ`.
+    /// Returns the interval of values of `n.x r + n.y ζ` over the triangle.
     pub(crate) fn interval(&self, n: DVec2) -> [f64; 2] {
         let (least, most) = if n.x < 0.0 {
             (&self.outer, &self.inner)
@@ -83,8 +83,8 @@ impl Outline {
         [low - slack, high + slack]
     }
 
-    /// Returns the surfaces along the triangle's edges, as unit coefficients of `r` and `ζ`; those of `ζ` are not
-    /// negative.
+    /// Returns the surfaces along the triangle's edges, as unit vectors of coefficients of `r` and `ζ`; those of `ζ`
+    /// are not negative.
     pub(crate) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
         let [a, b, c] = self.outer;
         let edges = [b - a, c - b, a - c];

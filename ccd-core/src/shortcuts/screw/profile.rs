@@ -1,4 +1,5 @@
-//! A node as seen from the axis of a screw: the values that do not change while it moves along the screw.
+//! Bounds of a node in cylindrical coordinates about the axis of a screw, which do not change while it moves along the
+//! screw.
 //!
 //! Along a path past points at least `ρ` from the axis, `f = a r + b ζ` changes by at most `√(a² + b² (1 + p²/ρ²))`
 //! per length. Consider a convex set beyond a plane that faces the axis, at `ρ` from it. There `f` differs from its
@@ -15,36 +16,37 @@ use crate::tuning::LEAST_INNER;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The number of surfaces tried, evenly over all slopes. Eleven degrees between neighbouring surfaces cost at most a
-/// tenth of a node's width, for the flanks of a thread at any slope.
+/// The number of helical surfaces that are tried, evenly spread over all slopes. Eleven degrees between neighbouring
+/// surfaces cost at most a tenth of a node's width, for the flanks of a thread at any slope.
 const SURFACES: usize = 16;
 
-/// The axis of a screw, at the start.
+/// The axis of a screw, in its position at the start.
 #[derive(Debug)]
 pub(crate) struct ScrewAxis {
     origin: DVec3,
     unit: DVec3,
-    /// The advance along the axis, per radian.
+    /// The advance along the axis per radian.
     advance: f64,
-    /// The coefficients of `r` and `ζ` for each surface.
+    /// The coefficients of `r` and `ζ` of each surface.
     surfaces: [DVec2; SURFACES],
-    /// The directions of azimuth 0 and of a right angle.
+    /// The directions of azimuth 0 and of azimuth π/2.
     azimuths: [DVec3; 2],
 }
 
-/// The intervals of a node's `f` for each surface, and the rates at which they change near the node.
+/// Bounds of a node in the coordinates of a screw: the intervals of `f` for each surface, and the rates at which `f`
+/// changes near the node.
 #[derive(Debug)]
 pub(crate) struct Profile {
     low: [f64; SURFACES],
     high: [f64; SURFACES],
-    /// The azimuth of the centre, and a bound of the difference of other points' azimuths.
+    /// The azimuth of the node's centre.
     azimuth: f64,
     width: f64,
-    /// Paths from the node that are no longer than this are at least this far from the axis.
+    /// A length for which any path of at most this length from the node stays at least as far from the axis.
     close: f64,
-    /// The greatest change of any `f` per length on such paths.
+    /// The greatest change of any `f` per unit of length on such paths.
     steepest: f64,
-    /// The outline of a single triangle, which gives intervals for any surface.
+    /// The projection of a single triangle, which gives intervals for any surface.
     outline: Option<Outline>,
 }
 
@@ -66,13 +68,13 @@ impl ScrewAxis {
 }
 
 impl Profile {
-    /// Returns the profile of a node; `None` if it surrounds the axis, or nearly.
+    /// Computes the profile of a node; `None` if it surrounds the axis, or nearly does.
     pub(crate) fn new(node: &Placed, axis: &ScrewAxis) -> Option<Self> {
         Profile::beside(node, axis, None)
     }
 
-    /// Returns the profile that contains those of all parts, of which there is at least one; `None` if one of them
-    /// surrounds the axis, or nearly.
+    /// Computes the union of the profiles of one or more parts; `None` if one of them surrounds the axis, or nearly
+    /// does.
     pub(crate) fn about(mut parts: impl Iterator<Item = Placed>, axis: &ScrewAxis) -> Option<Self> {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
@@ -90,7 +92,7 @@ impl Profile {
         Some(all)
     }
 
-    /// Returns the profile of a node, with its azimuth in the turn nearest to a given azimuth.
+    /// Computes the profile of a node, with an azimuth within half a turn of `near`.
     fn beside(node: &Placed, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
@@ -154,8 +156,8 @@ impl Profile {
         Some(profile)
     }
 
-    /// Returns the interval of the shifts of another node's `ζ` for which no surface keeps more than the needed gap
-    /// between both nodes. The interval is empty if some surface keeps that gap for any shift.
+    /// Returns the interval of shifts of the other node's `ζ` for which no surface separates the nodes by more than the
+    /// needed gap. The interval is empty if some surface separates them for any shift.
     fn meeting(&self, other: &Profile, axis: &ScrewAxis, needed: f64) -> [f64; 2] {
         let common = axis.surfaces.iter().enumerate();
         let common = common.map(|(k, &n)| {
@@ -188,8 +190,8 @@ impl Profile {
         met
     }
 
-    /// Returns the least and the most whole turns by which the still node's azimuth may be ahead of its own while the
-    /// turning node passes it.
+    /// Returns the range of whole turns by which the nodes' azimuths may differ while the turning node passes the still
+    /// one: the least and the greatest number.
     fn passes(&self, still: &Profile, way: &Way) -> [f64; 2] {
         let ahead = still.azimuth - self.azimuth;
         let width = self.width + still.width + way.needed / greater(self.close, still.close);
@@ -203,24 +205,23 @@ fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [greater(a, c), lesser(b, d)]
 }
 
-/// Returns the least and the greatest whole number in an interval, which is first widened by far more than rounding.
+/// Returns the least and the greatest whole number in an interval, which is widened first to allow for rounding.
 fn outward([least, most]: [f64; 2]) -> [f64; 2] {
     let width = TURNS_F64 * (1.0 + greater(least.abs(), most.abs()));
     [(least - width).ceil(), (most + width).floor()]
 }
 
-/// The path of the turning node, and the distance to be kept on it.
+/// The part of the screw motion to examine, and the distance to keep on it.
 #[derive(Debug)]
 pub(crate) struct Way {
-    /// The advance per turn.
+    /// The advance along the axis per turn.
     pub(crate) pitch: f64,
-    /// The angles at which the path begins and ends, from the start on.
+    /// The angles of the turning body at the start and the end of the part, from the start of the query on.
     pub(crate) angles: [f64; 2],
     pub(crate) needed: f64,
 }
 
-/// Returns whether a node that turns and one that stands still certainly keep more than the needed
-/// distance.
+/// Returns whether a turning node and a still node certainly keep more than the needed distance.
 ///
 /// Each further turn lowers the still node's `ζ`, as seen from the turning node, by one pitch. The shifts for which
 /// no surface separates the nodes form a single interval. The number of turns therefore does not matter, only whether

@@ -1,4 +1,4 @@
-//! Nodes that are proven apart along a screw, compared with distances at sampled times.
+//! Compares nodes proven apart along a screw with distances at sampled times.
 
 mod worst;
 
@@ -12,15 +12,15 @@ use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Pcg64, RngExt, body, direction, magnitude, rng, rotation, within};
 use glam::{DQuat, DVec3};
 
-/// A few triangles, all near one point.
+/// Draws a few triangles that are all near one point.
 fn patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     let count = rng.random_range(1..6);
     let mut corner = || at + within(rng, size);
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
 }
 
-/// A body that moves along a screw, in some cases for thousands of turns, and one beside its path. The moving body
-/// passes the other after a share of the turn.
+/// Two bodies, one of which moves along a screw past the other. Some of them make thousands of turns before. The moving
+/// body passes the other after a share of the turn.
 struct Passage {
     bodies: [Body; 2],
     screwing: Motion,
@@ -68,7 +68,7 @@ impl MapAll for Vec<Triangle> {
     }
 }
 
-/// Returns the pairs of the roots and of all triangles, in bodies whose only node is the root.
+/// Returns the pairs of the roots and of all triangles, for bodies whose only node is the root.
 fn all_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
     let ids = |side: &Side<'_>| 0..=side.body.pieces().len() as NodeId;
     let of_a = ids(&problem.a);
@@ -76,7 +76,7 @@ fn all_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
         .collect()
 }
 
-/// Returns the least distance of two nodes at sampled times from `s` on, most of them near one.
+/// Returns the least distance of two nodes at sampled times from `s` on, most of them near the time `near`.
 fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64) -> f64 {
     let triangles = |side: &Side<'_>, id: NodeId, s: f64| -> Vec<Triangle> {
         let (frame, pieces) = (side.path.frame(s), side.body.pieces());
@@ -148,7 +148,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
     );
 }
 
-/// A body on a screw passes the same place again after later turns.
+/// Tests a body on a screw that passes the same place again after later turns.
 #[test]
 fn later_turns_count() {
     let triangle = |at: DVec3| [at, at + 0.02 * DVec3::Z, at + 0.02 * DVec3::X];
@@ -177,8 +177,8 @@ fn later_turns_count() {
     }
 }
 
-/// Turns without an advance are all alike. With one, a node as tall as many pitches is apart from a node outside of
-/// all of them, and meets others.
+/// Tests turns without an advance, which are all alike, and with one. A node as tall as many pitches is apart from a
+/// node outside of all of them, and meets others.
 #[test]
 fn any_number_of_turns_is_one_look() {
     let triangle = |r: f64, tall: f64| {
@@ -249,7 +249,7 @@ fn what_is_no_screw_has_no_profiles() {
     assert!(!falls([DVec3::ZERO, 9.8 * DVec3::Z]));
 }
 
-/// Rounding of the height of nodes far along an oblique axis must not tilt tall nodes.
+/// Tests that rounding far along an oblique axis does not tilt tall nodes.
 #[test]
 fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
     const COUNT: usize = 8;

@@ -1,4 +1,4 @@
-//! Planes that turn with a body, compared with samples, and their rounding, compared with double-double arithmetic.
+//! Compares planes that turn with a body with samples, and their rounding with double-double arithmetic.
 
 mod worst;
 
@@ -19,14 +19,14 @@ use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng,
 
 const SAMPLES: u32 = 48;
 
-/// The counts of the samples.
+/// Counters of the sampled cases.
 #[derive(Debug, Default)]
 struct Seen {
     some: usize,
     forever: usize,
-    /// The free times at whose end most of the slack was used up.
+    /// The number of free times at whose end most of the slack was used up.
     used: usize,
-    /// The samples with both bodies turning, those with many turns, and those with more points than three.
+    /// The number of samples in which both bodies turn.
     both: usize,
     fast: usize,
     many: usize,
@@ -51,7 +51,7 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
     assert!(4 * seen.used > seen.some, "{seen:?}");
 }
 
-/// Returns a scene with pieces of 1 to 300 points, some of them rounded, at up to a thousand radians.
+/// Draws a scene with pieces of 1 to 300 points, some of them rounded, with rotations of up to a thousand radians.
 fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
     let mut scene = scene(rng, kind, 2);
     for (body, motion) in scene.bodies.iter_mut().zip(&mut scene.motions) {
@@ -176,8 +176,8 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     assert!(height > 1e-3 && rate > 1e-3, "{height} {rate}");
 }
 
-/// Returns the height of a point of the second body along an axis that turns with the first one, from its centre, and
-/// the rate of that height.
+/// Returns the exact height of a point of the second body along an axis that turns with the first body, from that
+/// body's centre, and the rate of that height.
 fn exact(
     motions: [&Motion; 2],
     normal: DVec3,
@@ -198,8 +198,8 @@ fn exact(
     (normal.dot(way), rate)
 }
 
-/// A plate of size 200 turns about an axis along one of its edges, past a ball near that axis. Its rim is fast, but
-/// stays far away.
+/// Tests a plate of size 200 that turns about an axis along one of its edges, past a ball near that axis. Its rim is
+/// fast, but stays far away.
 #[test]
 fn a_large_plate_turns_past_a_small_ball_at_once() {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
@@ -244,7 +244,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
     }
 }
 
-/// Neither a lack of slack nor invalid numbers get any time.
+/// Tests that no slack, and invalid numbers, give no free time.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

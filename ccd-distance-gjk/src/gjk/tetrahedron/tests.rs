@@ -4,13 +4,13 @@ use crate::worst::{Tape, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Four corners, flat or not, near the origin or not.
+/// Draws four corners, flat or not, near the origin or not.
 fn corners(tape: &mut Tape) -> [DVec3; 4] {
     let (middle, small) = (DVec3::from(tape.vector(-8..=0)), tape.size(-30..=4));
     [(); 4].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// Heights over a face, times twice its area: of the origin, and of the opposite corner.
+/// Measures the rounding of the heights of the origin and of the opposite corner, times twice the face's area.
 #[test]
 fn worst_volume() {
     let found = Worst::of("VOLUME_ULPS", 10_000).search(|tape| {
@@ -30,7 +30,7 @@ fn worst_volume() {
     found.is_within(20.0);
 }
 
-/// A combination of four corners.
+/// Measures the rounding of combinations of four corners.
 #[test]
 fn worst_combination() {
     let found = Worst::of("TOUCHING_ULPS", 10_000).search(|tape| {

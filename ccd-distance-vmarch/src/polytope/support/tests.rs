@@ -1,4 +1,4 @@
-//! Climbing finds the same corner as a scan.
+//! Tests that climbing finds the same corner as a scan.
 
 use super::{DirectionTable, SQUARES, middle_of, square_of};
 use crate::tests::setting::{cube, prepared};

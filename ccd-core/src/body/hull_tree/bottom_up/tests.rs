@@ -1,7 +1,7 @@
 use super::*;
 use crate::body::hull_tree::HullFault;
 
-/// A tree over `pieces` pieces, each node before its children, split unevenly.
+/// Creates an unevenly split tree over `pieces` pieces, each node before its children.
 fn hierarchy(pieces: usize) -> Hierarchy {
     let mut nodes = vec![HierarchyNode::Leaf(0)];
     let mut stack = vec![(0, 0, pieces)];
@@ -34,7 +34,7 @@ fn results_do_not_depend_on_the_number_of_parts() {
     }
 }
 
-/// Every node has one leaf and the rest, so that the tree is as deep as there are pieces.
+/// Tests a tree as deep as there are pieces: every node has a leaf and the rest as children.
 #[test]
 fn chains_take_no_more_stack_than_other_trees() {
     const PIECES: u32 = 100_000;

@@ -1,4 +1,4 @@
-//! Surfaces with integer coordinates that are convex, or nearly so.
+//! Tests surfaces with integer coordinates that are convex, or nearly so.
 
 use super::is_convex;
 use crate::body::pieces::Pieces;
@@ -76,7 +76,7 @@ fn dented_turned_or_open_surfaces_are_not_convex() {
     assert!(!convex(&spare, &SLOPES));
 }
 
-/// A pyramid over a five-pointed star bends outward at every edge, but goes around its middle twice.
+/// Tests a pyramid over a five-pointed star, which is locally convex but winds about its middle twice.
 #[test]
 fn a_star_that_winds_twice_is_not() {
     let rim = [
@@ -106,7 +106,7 @@ fn a_star_that_winds_twice_is_not() {
     assert!(!check(2));
 }
 
-/// The lid of the box is cut into an L and a square. It is flat, but climbing along the L's outline ends in its
+/// Tests a box whose lid is cut into an L and a square. It is flat, but climbing along the L's outline ends in its
 /// reflex corner.
 #[test]
 fn facets_that_are_not_convex_are_not() {
@@ -134,7 +134,7 @@ fn facets_that_are_not_convex_are_not() {
     assert!(with(&[&[4, 5, 6, 7], &[4, 7, 8, 9], &[7, 6, 10, 8]]));
 }
 
-/// A spindle has a second, lower roof over the same rim.
+/// Tests a spindle with a second, lower roof over the same rim.
 #[test]
 fn surfaces_that_share_a_rim_are_not() {
     let points = [

@@ -2,19 +2,19 @@ use super::*;
 use crate::body::hull_tree::Loops;
 use std::collections::HashMap;
 
-/// Identifies the points by a table, point after point, as a reference.
+/// Numbers the points by a table, point after point, as a reference.
 fn twin(hull: &[DVec3], children: [&[DVec3]; 2]) -> (Vec<u32>, Vec<DVec3>) {
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let mut numbers: HashMap<[u64; 3], u32> = hull.iter().map(place).zip(0..).collect();
-    let mut places = hull.to_vec();
+    let mut positions = hull.to_vec();
     let points = children.into_iter().flatten();
     let number = |point: &DVec3| {
         *numbers.entry(place(point)).or_insert_with(|| {
-            places.push(*point);
-            places.len() as u32 - 1
+            positions.push(*point);
+            positions.len() as u32 - 1
         })
     };
-    (points.map(number).collect(), places)
+    (points.map(number).collect(), positions)
 }
 
 #[test]
@@ -40,8 +40,8 @@ fn points_get_the_numbers_that_a_table_gives() {
             facets: Loops::default(),
         };
         let found = Identity::new(&hull, [&left, &right]).unwrap();
-        let (numbers, places) = twin(&hull.points, [&left.points, &right.points]);
+        let (numbers, positions) = twin(&hull.points, [&left.points, &right.points]);
         assert_eq!([found.of_left, found.of_right].concat(), numbers);
-        assert_eq!(found.places, places);
+        assert_eq!(found.positions, positions);
     }
 }

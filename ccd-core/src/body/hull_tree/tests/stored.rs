@@ -71,7 +71,7 @@ fn trees_are_checked_when_read() {
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
 }
 
-/// Damaged bytes give an error or a valid tree.
+/// Tests that damaged bytes give an error or a valid tree.
 #[test]
 fn no_bytes_make_it_panic() {
     let (_, tree) = sample();

@@ -1,4 +1,4 @@
-//! The tree, compared with a scan of every point.
+//! Compares the tree search with a scan of every point.
 
 use super::looks;
 use crate::body::support::{Support, SupportTree};
@@ -6,7 +6,7 @@ use crate::rounding::HEIGHT_F64;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
 use glam::DVec3;
 
-/// Points of every kind: a ball's surface, a ball, a plane, a line, a single place, a grid, a needle.
+/// Returns random points: on a sphere, in a ball, a plane, a line, a single place, a grid, or a needle.
 fn cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
     let [u, v] = [direction(rng), direction(rng)];
     let whole = |rng: &mut Pcg64| f64::from(rng.random_range(-3..=3));
@@ -56,7 +56,7 @@ fn searching_agrees_with_a_scan() {
     }
 }
 
-/// The benefit of the tree: a search visits few points of a ball's surface.
+/// Tests that a search visits few points of a curved surface.
 #[test]
 fn few_points_of_a_curved_surface_are_visited() {
     let mut rng = rng(22);
@@ -77,7 +77,7 @@ fn invalid_directions_give_some_point() {
     }
 }
 
-/// The points are too close to each other to differ in f32, or their sizes are out of range of f32.
+/// Tests points too close to differ in f32, and sizes out of range of f32.
 #[test]
 fn the_finest_points_are_all_looked_at() {
     for size in [1e-320, 1e-300, 1e-60, 1e12] {

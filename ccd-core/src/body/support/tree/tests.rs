@@ -1,5 +1,4 @@
-//! Discs in f32, compared with the points in them, in f64. The error of f64 is a five hundred millionth of that of
-//! f32.
+//! Compares discs in f32 with the points in them in f64. The error of f64 is a five hundred millionth of that of f32.
 
 use super::{Disc, Discs, LANES, SupportTree};
 use crate::math::order::greater;
@@ -9,8 +8,8 @@ use crate::tests::scene::direction;
 use crate::tests::worst::{Tape, Worst, share};
 use glam::{DVec3, Vec3};
 
-/// Points in a ball of radius 1, and a direction along which a point at the rim of their disc is farthest, or next to
-/// it.
+/// Draws points in a ball of radius 1, and a direction along which a point at the rim of their disc, or next to it, is
+/// farthest.
 fn points(tape: &mut Tape) -> (Vec<DVec3>, DVec3) {
     let half = direction(tape) * tape.size(-10..=-1);
     let middle = direction(tape) * (tape.fraction() * (1.0 - half.length()));
@@ -21,7 +20,7 @@ fn points(tape: &mut Tape) -> (Vec<DVec3>, DVec3) {
     (shares.into_iter().enumerate().map(point).collect(), along)
 }
 
-/// A direction whose largest component is 1, exact and rounded.
+/// Scales a direction so that its largest component is 1; returns it exact and rounded.
 fn unit(d: DVec3) -> (DVec3, Vec3) {
     let d = d / d.abs().max_element();
     (d, d.as_vec3())
@@ -64,7 +63,8 @@ fn worst_tilt() {
     found.is_within(20.0);
 }
 
-/// Points at any place that are level up to rounding: the guarantee allows two roundings of heights.
+/// Measures the worst error of extremal points among points of nearly equal height: two roundings of heights are
+/// allowed.
 #[test]
 fn worst_farthest() {
     let found = Worst::of("HEIGHT_F64, twice: the farthest point", 6_000).search(|tape| {

@@ -4,17 +4,20 @@ use crate::tests::scene::{Look, body, rng, soup};
 #[test]
 fn layers_grow_evenly_up_to_all_pieces() {
     for pieces in [1, 8, 9, 48, 49, 10_000, 69_664, 1_000_000, 1 << 30] {
-        let layers = layers(pieces);
-        assert_eq!(layers[..2], [LANES, 48]);
-        assert!(layers[layers.len() - 1] <= pieces.max(48));
-        for pair in layers.windows(2) {
+        let layer_capacities = layer_capacities(pieces);
+        assert_eq!(layer_capacities[..2], [LANES, 48]);
+        assert!(layer_capacities[layer_capacities.len() - 1] <= pieces.max(48));
+        for pair in layer_capacities.windows(2) {
             assert!(
                 pair[0] < pair[1] && pair[1] <= LANES * pair[0],
-                "{layers:?}"
+                "{layer_capacities:?}"
             );
         }
         // A node of all pieces is at most one layer above the last one.
-        assert!(layers[layers.len() - 1] * LANES >= pieces, "{layers:?}");
+        assert!(
+            layer_capacities[layer_capacities.len() - 1] * LANES >= pieces,
+            "{layer_capacities:?}"
+        );
     }
 }
 

@@ -1,53 +1,53 @@
-//! A sample of a node's points, on which many frames are tried at once.
+//! A sample of a node's points, to compare the boxes of many frames quickly.
 
-use super::Cloud;
+use super::NodePoints;
 use crate::body::hierarchy::bounds;
 use crate::math::order::{greater, lesser};
 use crate::tuning::SAMPLED_TRIANGLES;
 use glam::{DMat3, DVec3, Vec3};
 
-/// The number of values that are compared at once.
+/// The number of values that are computed at once.
 const LANES: usize = 8;
 
 const POINTS: usize = 3 * SAMPLED_TRIANGLES;
 
-/// Points, moved and scaled so that they fill a unit. The memory is reused by one sample after the other.
+/// Points of a node, moved and scaled to unit size. The memory is reused by one sample after the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Sample {
     list: [DVec3; POINTS],
     count: usize,
-    /// The points by coordinate; the last block repeats the last point.
+    /// The points, coordinate by coordinate; the last block repeats the last point.
     blocks: [[[f32; LANES]; 3]; POINTS / LANES],
 }
 
 impl Sample {
-    /// A sample of no points.
+    /// A sample without points.
     pub(crate) const EMPTY: Sample = Sample {
         list: [DVec3::ZERO; POINTS],
         count: 0,
         blocks: [[[0.0; LANES]; 3]; POINTS / LANES],
     };
 
-    /// Takes all points, or as many as there is room for, at even steps. Triangles are taken whole.
-    pub(in super::super) fn take(&mut self, cloud: &Cloud<'_>) {
+    /// Fills the sample with the points, at even steps if there are too many. Triangles are taken whole.
+    pub(in super::super) fn take(&mut self, node_points: &NodePoints<'_>) {
         self.count = 0;
-        let size = if cloud.triangles { 3 } else { 1 };
-        let groups = cloud.points.len() / size;
+        let size = if node_points.triangles { 3 } else { 1 };
+        let groups = node_points.points.len() / size;
         let step = groups.div_ceil(POINTS / size).max(1);
         for group in (0..groups).step_by(step) {
-            let points = &cloud.points[size * group..size * (group + 1)];
+            let points = &node_points.points[size * group..size * (group + 1)];
             self.list[self.count..][..size].copy_from_slice(points);
             self.count += size;
         }
         self.fill_unit();
     }
 
-    /// Returns the points.
+    /// Returns the points, moved and scaled.
     pub(super) fn points(&self) -> &[DVec3] {
         &self.list[..self.count]
     }
 
-    /// Returns half the surface of the box about the points along the columns of a frame.
+    /// Returns half the surface area of the bounding box along the columns of a frame.
     pub(super) fn surface(&self, frame: &DMat3) -> f32 {
         let axes = [0, 1, 2].map(|k| frame.col(k).as_vec3());
         let mut low = [[f32::INFINITY; LANES]; 3];

@@ -1,4 +1,4 @@
-//! Fitted boxes, compared with those of a slow fit that tries every frame on all points in f64.
+//! Compares fitted boxes with a slow fit that tries every frame on all points in f64.
 
 use super::*;
 use crate::math::order::lesser;
@@ -6,7 +6,7 @@ use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use crate::tuning::SAMPLED_TRIANGLES;
 use glam::DQuat;
 
-/// Returns the least surface of the boxes along all frames.
+/// Returns the least surface area of the boxes along all frames.
 fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
     let mut frames = vec![DMat3::IDENTITY];
     frames.push(principal_axes(|| points.iter().map(|&p| (p, 1.0))));
@@ -28,23 +28,23 @@ fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
     surfaces.fold(f64::INFINITY, lesser)
 }
 
-/// Returns half the surface of the box along a frame.
+/// Returns half the surface area of the bounding box along a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
-    let Fitted { low, high, .. } = Fitted::along(frame, points);
+    let FittedBox { low, high, .. } = FittedBox::along(frame, points);
     let size = high - low;
     size.x * size.y + size.y * size.z + size.z * size.x
 }
 
-/// The corners of triangles.
-fn triangles(points: &[DVec3]) -> Cloud<'_> {
-    Cloud {
+/// Creates the input of a fit from the corners of triangles.
+fn triangles(points: &[DVec3]) -> NodePoints<'_> {
+    NodePoints {
         points,
         radius: 0.0,
         triangles: true,
     }
 }
 
-/// Triangles of about a tenth of the size of a bent sheet.
+/// Returns triangles of a bent sheet, each about a tenth of its size.
 fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
     let turn = DQuat::from_axis_angle(direction(rng), 1.0);
     let middle = 3.0 * size * direction(rng);
@@ -57,7 +57,7 @@ fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
         .collect()
 }
 
-/// Triangles with the same winding in a rectangle. In a square no principal axes stand out, and frames turned about
+/// Returns triangles of equal winding in a rectangle. In a square no principal axes stand out, and frames turned about
 /// the normal fit best. If half of the triangles are a cluster of tiny ones, principal axes by area fit best.
 fn rectangle(rng: &mut Pcg64, count: usize, [long, cluster]: [f64; 2]) -> Vec<DVec3> {
     let turn = DQuat::from_axis_angle(direction(rng), 1.0);
@@ -107,12 +107,12 @@ fn boxes_are_as_small_as_those_of_all_points() {
         for count in [1, 2, 8, 40, SAMPLED_TRIANGLES, 4 * SAMPLED_TRIANGLES, 1_000] {
             for triangles in [true, false] {
                 let points = sheet(&mut rng, count, size);
-                let cloud = Cloud {
+                let node_points = NodePoints {
                     points: &points,
                     radius: 0.0,
                     triangles,
                 };
-                let node = fit(&cloud, Below::Piece(0), &mut sample);
+                let node = fit(&node_points, Below::Piece(0), &mut sample);
                 let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
                 assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
@@ -144,12 +144,12 @@ fn degenerate_points_have_a_box() {
     for shape in shapes {
         let points = shape.map(|x| DVec3::new(x, 2.0 * x, -x));
         for triangles in [true, false] {
-            let cloud = Cloud {
+            let node_points = NodePoints {
                 points: &points,
                 radius: 0.0,
                 triangles,
             };
-            let node = fit(&cloud, Below::Piece(0), &mut sample);
+            let node = fit(&node_points, Below::Piece(0), &mut sample);
             for (point, k) in points.iter().zip([0, 1, 2, 0]) {
                 let way = (*point - node.centre).dot(node.axes[k].as_dvec3());
                 assert!(way.abs() <= f64::from(node.half[k]));
@@ -158,11 +158,11 @@ fn degenerate_points_have_a_box() {
     }
 }
 
-/// A box along axes that are not orthonormal would not contain its points.
+/// Tests that frames which are not orthonormal are refused: their boxes would not contain the points.
 #[test]
 fn only_orthonormal_frames_are_frames() {
     let turned = DMat3::from_quat(DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0));
-    assert!(is_frame(&turned));
+    assert!(is_orthonormal(&turned));
     for column in 0..3 {
         let next = turned.col((column + 1) % 3);
         // The column has the right length, but is tilted.
@@ -172,12 +172,12 @@ fn only_orthonormal_frames_are_frames() {
         for fault in [tilted, long, nan, infinite] {
             let mut frame = turned;
             *frame.col_mut(column) = fault;
-            assert!(!is_frame(&frame), "{frame}");
+            assert!(!is_orthonormal(&frame), "{frame}");
         }
     }
 }
 
-/// Samples fill a unit about the origin, and nothing of an earlier sample remains.
+/// Tests that a sample has unit size about the origin, and contains nothing of an earlier sample.
 #[test]
 fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut rng = rng(9);

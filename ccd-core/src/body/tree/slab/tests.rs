@@ -5,7 +5,7 @@ use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
-/// Compares half the distance of the planes, without the added 16u, with the exact one.
+/// Compares half the distance of the planes, without the added 16u, with the exact distance.
 #[test]
 fn worst_slab() {
     let found = Worst::of("Slab::about: 16u", 20_000).search(|tape| {

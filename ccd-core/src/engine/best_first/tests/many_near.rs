@@ -1,10 +1,10 @@
-//! Very many pairs of triangles near each other at once, at few visits: flat contact, and threads.
+//! Tests that many pairs of near triangles need few visits, in flat contact and in screw threads.
 
 use super::*;
 use glam::DQuat;
 
-/// All pairs of triangles of two plates meet at the same time, at a tolerance that f32 cannot distinguish from
-/// contact. Few of the pairs are visited.
+/// Tests two plates whose triangles all meet at the same time, at a tolerance that f32 cannot distinguish from contact.
+/// Few of the pairs are visited.
 #[test]
 fn plates_that_fall_flat_meet_at_little_cost() {
     const SQUARES: usize = 24;
@@ -40,8 +40,8 @@ fn plates_that_fall_flat_meet_at_little_cost() {
     }
 }
 
-/// The surface of a thread, right-handed about z: a pitch of 1, with root and crest at these
-/// distances from the axis.
+/// Returns the triangles of a right-handed thread about z with a pitch of 1. The arguments are the distances of root
+/// and crest from the axis.
 fn thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
     const SEGMENTS: usize = 24;
     let profile = [
@@ -66,7 +66,7 @@ fn thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
     (0..turns * SEGMENTS).flat_map(strip).collect()
 }
 
-/// A bolt in a nut keeps its distance all the time.
+/// Tests a bolt that turns in a nut and keeps its distance all the time.
 #[test]
 fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
     let (bolt, nut) = (body(&thread(2.0, 2.4, 5)), body(&thread(2.15, 2.55, 3)));
@@ -92,7 +92,7 @@ fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
     assert!(problem(time) < 0.15, "{time}");
 }
 
-/// Needles turn about an axis along their own direction: their turning uses up no gap, though they are long.
+/// Tests long needles that turn about an axis along their own direction, which uses up none of their gap.
 #[test]
 fn long_needles_that_turn_about_their_own_direction_meet_at_little_cost() {
     for (length, tolerance) in [(10.0, 1e-5), (1.0, 1e-9), (10.0, 1e-9)] {

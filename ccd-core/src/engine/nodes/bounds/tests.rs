@@ -1,4 +1,4 @@
-//! The planes alone: every gap, rate and time in f32, compared with f64 along the same axis.
+//! Compares every gap, rate and free time in f32 with its value in f64 along the same axis.
 
 mod setting;
 mod shares;
@@ -19,30 +19,30 @@ use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
 use setting::{Setting, Shape};
 
-/// Some points, and the motion of their body.
+/// A rigid set of points with its motion.
 struct Solid {
     points: Vec<DVec3>,
-    /// The centre of rotation.
+    /// The position of the centre of rotation.
     centre: DVec3,
     spin: DVec3,
 }
 
 impl Solid {
-    /// Returns `max n·x(τ)`, or `min` with a negative sign, at `τ` on.
+    /// Returns the largest height of a point along `n` after `tau`.
     fn highest(&self, n: DVec3, tau: f64) -> f64 {
         let turn = DQuat::from_scaled_axis(self.spin * tau);
         let heights = self.points.iter().map(|&x| n.dot(turn * (x - self.centre)));
         heights.fold(f64::NEG_INFINITY, greater) + n.dot(self.centre)
     }
 
-    /// Returns the greatest rate at which a point rises along `n` now, due to turning.
+    /// Returns the greatest present rate at which a point rises along `n` by rotation.
     fn fastest(&self, n: DVec3) -> f64 {
         let m = n.cross(self.spin);
         let rates = self.points.iter().map(|&x| m.dot(x - self.centre));
         rates.fold(f64::NEG_INFINITY, greater)
     }
 
-    /// Returns the largest second derivative along `n` at any time.
+    /// Returns the largest second derivative of a height along `n`, at any time.
     fn bend(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
@@ -54,36 +54,35 @@ impl Solid {
     }
 }
 
-/// A group and another node, in f32 and in f64; `P` and `C` as in the bounds.
+/// A group and another node, in f32 and in f64. `P` and `C` are their types, as in the bounds.
 struct Sample<C, P> {
     group: C,
     other: P,
     motion: RelativeMotionF32,
-    /// The gap to be kept: the slack minus the rounding of a gap.
+    /// The gap to keep, which is the slack minus the rounding of a gap.
     kept: f64,
     /// The error of a gap for which the slack allows.
     allowed: f32,
     children: Vec<Solid>,
     far: Solid,
-    /// The velocity of the children's centre of rotation relative to the other's, and the derivative of that
-    /// velocity.
+    /// The velocity of the children's centre of rotation relative to the other node's.
     velocity: DVec3,
     acceleration: DVec3,
 }
 
-/// The largest error among the samples, as a share of its allowance.
+/// The largest errors among the samples, as shares of their allowances.
 #[derive(Debug, Default)]
 struct Worst {
     support: f64,
     rate: f64,
     across: f64,
     clock: f64,
-    /// The smallest excess of a gap over the gap to be kept at the end of a free time, relative to that at the start.
+    /// The smallest excess of a gap over the gap to keep at the end of a free time, relative to that at the start.
     tightest: f64,
-    /// The number of free times of fixed planes, and of turning ones.
+    /// The number of free times that fixed planes gave.
     still: usize,
     attached: usize,
-    /// The number of free times beside bodies that accelerate, and of infinite ones.
+    /// The number of free times of bodies that accelerate.
     accelerating: usize,
     for_good: usize,
 }
@@ -118,9 +117,9 @@ struct Found {
     axis: [[f32; LANES]; 3],
     gap: [f32; LANES],
     rate: [f32; LANES],
-    /// The lengths of `n × ω` for the split and the other body.
+    /// The lengths of `n × ω` for the split body and the other body.
     across: [[f32; LANES]; 2],
-    /// The free times of planes that are fixed, or turn with the split or the other body.
+    /// The free times of planes that are fixed, turn with the split body, or turn with the other body.
     free: [[f32; LANES]; 3],
 }
 
@@ -129,7 +128,7 @@ impl Found {
         DVec3::from_array(self.axis.map(|row| row[lane].into()))
     }
 
-    /// Returns all numbers; NaN values count as equal.
+    /// Returns all values for comparison, with NaN replaced so that NaN values are equal.
     fn numbers(&self) -> Vec<Option<f32>> {
         let rows = [
             &self.axis[..],
@@ -164,7 +163,7 @@ impl Worst {
     }
 }
 
-/// Computes along three axes: two that the bounds try, and an arbitrary one.
+/// Computes the values along three axes: two that the bounds try, and a given one.
 ///
 /// Nothing is inlined: in one function without vectors, the compiler would take minutes.
 fn find<L: Simd, C: Children, P: OtherNode>(
@@ -173,11 +172,11 @@ fn find<L: Simd, C: Children, P: OtherNode>(
     some: Vec3,
 ) -> [Found; 3] {
     let pairs = sample.pairs(level);
-    let some = axis::towards(Vec3x8::splat(level, some), pairs.way);
+    let some = axis::towards(Vec3x8::splat(level, some), pairs.offset);
     let axes = [
         widest(&pairs),
         passing(&pairs),
-        axis::along(pairs.children, pairs.other, pairs.way, some),
+        axis::along(pairs.children, pairs.other, pairs.offset, some),
     ];
     axes.map(|axis| along(&pairs, axis))
 }
@@ -186,13 +185,13 @@ type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
 fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
-    axis::widest(pairs.children, pairs.other, pairs.way)
+    axis::widest(pairs.children, pairs.other, pairs.offset)
 }
 
 #[inline(never)]
 fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
-    let travel = pairs.velocity * splat(pairs.way.level(), pairs.motion.horizon);
-    axis::passing(pairs.children, pairs.other, pairs.way, travel)
+    let travel = pairs.velocity * splat(pairs.offset.level(), pairs.motion.horizon);
+    axis::passing(pairs.children, pairs.other, pairs.offset, travel)
 }
 
 #[inline(never)]
@@ -237,7 +236,7 @@ fn free_with_other<L: Simd, C: Children, P: OtherNode>(
     *pairs.free_with_other(axis)
 }
 
-/// Returns the free times for the rates, with other second derivatives.
+/// Returns the free times for the same rates with other second derivatives.
 fn clocks(
     level: Level,
     aparts: &[f32; LANES],
@@ -276,7 +275,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// Checks that all vector instructions of this machine compute the same as none.
+    /// Computes the values with all sets of vector instructions, and checks that they are equal.
     fn found_on_all_levels(&self, some: Vec3) -> [Found; 3] {
         let [best, baseline] = [Instructions::Best, Instructions::Baseline]
             .map(|instructions| vectorize!(instructions.level(), level => find(level, self, some)));
@@ -286,7 +285,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         best
     }
 
-    /// Compares each rounded quantity with the same in f64.
+    /// Compares each rounded value with the same in f64, and records the error.
     fn sample_allowances(&self, found: &Found, worst: &mut Worst) {
         let frees = self.clocks(found);
         for lane in 0..self.children.len() {
@@ -315,7 +314,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// Checks that a plane that turns with one of the bodies keeps the pair apart, too.
+    /// Checks that a plane that turns with a body keeps the pair apart for its whole free time.
     fn check_attached(&self, found: &Found, with: Larger, worst: &mut Worst) {
         let [_, with_split, with_other] = found.free;
         let free = match with {
@@ -337,7 +336,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// Returns whether there was a free time to check.
+    /// Checks one free time against samples of a gap, and returns whether there was a free time.
     fn check(&self, lane: usize, free: f32, gap: impl Fn(f64) -> f64, worst: &mut Worst) -> bool {
         assert!(free >= 0.0, "{:?}", self.motion);
         if free == 0.0 {

@@ -1,5 +1,5 @@
 use super::reach;
-use crate::body::tree::Named;
+use crate::body::tree::NodeOrTriangle;
 use crate::tests::scene::{Kind, rng, scene};
 
 #[test]
@@ -12,7 +12,7 @@ fn no_point_of_a_node_is_beyond_the_reach() {
         for side in [&problem.a, &problem.b] {
             let tree = side.body.tree();
             for id in 0..tree.nodes() as u32 {
-                let Named::Node(node) = tree.get(id) else {
+                let NodeOrTriangle::Node(node) = tree.get(id) else {
                     continue;
                 };
                 let farthest = node.centre.distance(side.path.centre) + f64::from(node.radius);

@@ -1,4 +1,4 @@
-//! Every free time of every lane is compared with samples, in f64, vertex by vertex.
+//! Compares the free times of all lanes with samples, vertex by vertex in f64.
 
 use super::*;
 use crate::math::order::{greater, lesser};
@@ -10,20 +10,20 @@ use crate::tuning::MUCH_LARGER;
 /// The number of samples of a lane within its free time, ends included.
 const SAMPLES: usize = 17;
 
-/// The counts of an audit, which show that a test covers its cases.
+/// Counters that show that a test covers its cases.
 #[derive(Debug, Default)]
 struct Tally {
-    /// The lanes with a free time, which are all checked, and the lanes without.
+    /// The number of lanes with a free time, all of which are checked.
     free: usize,
     none: usize,
-    /// The free times that only planes turning with a body give.
+    /// The number of free times that only planes turning with a body give.
     attached: usize,
-    /// The lanes whose pieces are not apart at the clock.
+    /// The number of lanes whose pieces are not apart at the clock.
     overlapping: usize,
-    /// The samples proven apart by one axis, and those proven by comparing all triangles.
+    /// The number of samples proven apart by one axis.
     by_axis: usize,
     by_pieces: usize,
-    /// The split roles, by kind and by the other node.
+    /// The number of splits by the kind of the split node, and by that of the other node.
     by_role: [usize; 2],
     boxes: usize,
     triangles: usize,
@@ -107,7 +107,7 @@ struct Lane {
 }
 
 impl Audit<'_> {
-    /// Descends from the roots to a pair of pieces, splitting either side, each time at another clock.
+    /// Descends from the roots to a pair of pieces, splitting either side, and checks each split at another clock.
     fn descend(&self, rng: &mut Pcg64, tally: &mut Tally) {
         let mut ids = [0, 0];
         let (a, b) = (self.problem.a.body.tree(), self.problem.b.body.tree());
@@ -137,7 +137,7 @@ impl Audit<'_> {
         }
     }
 
-    /// Returns a clock at which the bodies are near each other, or an arbitrary one.
+    /// Returns a clock at which the bodies are near each other, or a random one.
     fn clock(&self, rng: &mut Pcg64) -> f64 {
         let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.window;
         match rng.random_range(0..8) {
@@ -148,9 +148,9 @@ impl Audit<'_> {
         }
     }
 
-    /// Returns the child to continue with: mostly the one of least free time.
+    /// Chooses the child with which to continue, mostly the one of least free time.
     fn next(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
-        let free = |k: &u32| expansion.bounds.free.of(*k as usize);
+        let free = |k: &u32| expansion.bounds.free.time_of_lane(*k as usize);
         let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
         if rng.random_bool(0.8) {
             least.unwrap_or(0)
@@ -163,12 +163,12 @@ impl Audit<'_> {
     fn below(&self, split: Which, node: NodeId) -> (u32, bool) {
         let tree = split.of(self.problem).body.tree();
         match tree.get(node) {
-            Named::Node(node) => match node.below {
+            NodeOrTriangle::Node(node) => match node.below {
                 Below::Boxes(group) => (tree.box_group(group).members.count, false),
                 Below::Triangles(group) => (tree.triangle_members(group).count, true),
                 Below::Piece(_) => (0, false),
             },
-            Named::Triangle(_) => (0, false),
+            NodeOrTriangle::Triangle(_) => (0, false),
         }
     }
 
@@ -184,7 +184,7 @@ impl Audit<'_> {
         let still = planes_that_stand_still(self.problem, split, node, other, s);
         let (count, triangles) = self.below(split, node);
         for lane in 0..count {
-            let free = expansion.bounds.free.of(lane as usize);
+            let free = expansion.bounds.free.time_of_lane(lane as usize);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
             let pair = Lane {
                 split,
@@ -197,7 +197,7 @@ impl Audit<'_> {
                 self.verify(&pair, tally);
                 tally.free += 1;
                 tally.by_role[split as usize] += 1;
-                tally.attached += usize::from(free > 1.5 * still.free.of(lane as usize));
+                tally.attached += usize::from(free > 1.5 * still.free.time_of_lane(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
                 tally.against_triangle += usize::from(other_tree.piece(other).is_some());
                 if triangles {
@@ -212,14 +212,14 @@ impl Audit<'_> {
         }
     }
 
-    /// Returns whether some pieces of a small lane are not farther apart than the gap to be kept.
+    /// Returns whether some pieces of a small lane are not farther apart than the gap to keep.
     fn overlap(&self, lane: &Lane) -> bool {
         let (near, far) = self.at(lane, lane.from);
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
-    /// Checks that every triangle below the child is farther than the gap of all clocks from every one below the
-    /// other node, at every sampled time.
+    /// Checks all triangles below the child against all below the other node, at every sampled time. They have to be
+    /// farther apart than the gap of all clocks.
     fn verify(&self, lane: &Lane, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
@@ -255,7 +255,7 @@ impl Audit<'_> {
         least
     }
 
-    /// Returns the triangles below both nodes, at a clock.
+    /// Returns the triangles below both nodes, at the poses at a clock.
     fn at(&self, lane: &Lane, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
         let placed = |which: Which, id: NodeId| {
             let side = which.of(self.problem);
@@ -278,12 +278,12 @@ impl Audit<'_> {
     }
 }
 
-/// Visits all pieces below a node.
+/// Calls `visit` with all pieces below a node.
 fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     let tree = side.body.tree();
     let members = match tree.get(id) {
-        Named::Triangle(piece) => return visit(piece),
-        Named::Node(node) => match node.below {
+        NodeOrTriangle::Triangle(piece) => return visit(piece),
+        NodeOrTriangle::Node(node) => match node.below {
             Below::Piece(piece) => return visit(piece),
             Below::Boxes(group) => tree.box_group(group).members,
             Below::Triangles(group) => *tree.triangle_members(group),
@@ -294,7 +294,7 @@ fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     }
 }
 
-/// A search for one axis that separates two sets of triangles, starting with the last one that did.
+/// Searches for an axis that separates two sets of triangles, starting with the axis that did last time.
 #[derive(Default)]
 struct Prover {
     axis: Option<DVec3>,
@@ -339,7 +339,7 @@ fn lowest(triangles: &[Triangle], n: DVec3) -> DVec3 {
         .1
 }
 
-/// Returns the bounds of [`expand`] without planes that turn with a body.
+/// Like [`expand`], with fixed planes only.
 fn planes_that_stand_still(
     problem: &Problem<'_>,
     split: Which,
@@ -348,13 +348,13 @@ fn planes_that_stand_still(
     s: f64,
 ) -> Bounds {
     let tree = split.of(problem).body.tree();
-    let Named::Node(below) = tree.get(node) else {
+    let NodeOrTriangle::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
     let common = Common::new(problem);
     let split_all = Split::all(split, node, other);
     vectorize!(problem.level, level => {
-        let motion = RelativeMotion::new(level, &common, &split_all, s, Pace::AsTheyMove);
+        let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::OfMotion);
         match below.below {
             Below::Boxes(group) => {
                 let group = tree.box_group(group);
@@ -370,8 +370,8 @@ fn planes_that_stand_still(
     })
 }
 
-/// Bounds a group without planes that turn. These turn only with much larger nodes: a reach that is neither much
-/// larger nor much smaller than the other node's excludes them.
+/// Like the bounds of a group, with fixed planes only. A radius that is neither much larger nor much smaller than the
+/// other node's excludes planes that turn.
 #[inline(always)]
 fn still<L: Simd, C: Children>(
     motion: &RelativeMotion<'_, L>,
@@ -380,8 +380,8 @@ fn still<L: Simd, C: Children>(
 ) -> Bounds {
     let far = motion.other_side;
     let radius = match far.body.tree().get(motion.split.other) {
-        Named::Node(node) => node.radius,
-        Named::Triangle(piece) => {
+        NodeOrTriangle::Node(node) => node.radius,
+        NodeOrTriangle::Triangle(piece) => {
             let [a, b, c] = far.body.pieces().triangle(piece as usize);
             let mean = (a + b + c) / 3.0;
             [a, b, c]

@@ -1,4 +1,4 @@
-//! Free times, compared with a sorted list.
+//! Compares free times with a sorted list.
 
 use super::{FreeTimes, LANE_BITS};
 use crate::body::tree::LANES;
@@ -7,7 +7,7 @@ use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;
 
-/// Returns times with many equal ones and extremes.
+/// Draws a time; many are equal or extreme.
 fn time(rng: &mut Pcg64) -> f32 {
     match rng.random_range(0..7) {
         0 => 0.0,

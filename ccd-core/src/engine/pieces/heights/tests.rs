@@ -1,4 +1,4 @@
-//! Bounds of many points at once, compared with the tracks of all of them.
+//! Compares the bounds for many points at once with the tracks of all points.
 
 mod worst;
 
@@ -12,7 +12,7 @@ use crate::settings::Settings;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DQuat;
 
-/// Returns 4 to 5,000 points: in space, on a ball, in a plane, on a line.
+/// Draws 4 to 5,000 points in space, on a sphere, in a plane, or on a line.
 fn points(rng: &mut Pcg64, kind: usize, size: f64) -> Vec<DVec3> {
     let count = magnitude(rng, 0.6, 3.7) as usize;
     let [u, v] = [direction(rng), direction(rng)];
@@ -99,7 +99,7 @@ fn many_points_are_bounded_like_all_of_them() {
     assert!(tight.into_iter().all(|count| count > 900), "{tight:?}");
 }
 
-/// Heights, rates and second derivatives of few points and of many, compared with the rotated points.
+/// Tests heights, rates and second derivatives of few and many points against rotated points.
 #[test]
 fn points_rise_and_sink_as_their_body_turns() {
     let mut rng = rng(32);
@@ -144,7 +144,7 @@ fn points_rise_and_sink_as_their_body_turns() {
     assert!(many > 50, "{many}");
 }
 
-/// The points, relative to the centre.
+/// The points relative to the centre of rotation, as a reference.
 struct Twin {
     arms: Vec<DVec3>,
     normal: DVec3,
@@ -154,7 +154,7 @@ struct Twin {
 }
 
 impl Twin {
-    /// Returns the height of a point, its rate, and the second derivative due to its turning.
+    /// Returns the height of a point, its rate, and the second derivative due to rotation.
     fn point(&self, k: usize, tau: f64) -> Point {
         let arm = DQuat::from_scaled_axis(self.spin * tau) * self.arms[k];
         let turning = self.spin.cross(arm);
@@ -167,7 +167,7 @@ impl Twin {
         }
     }
 
-    /// Returns the rise that all points share, without their turning.
+    /// Returns the rise that all points share, without rotation.
     fn drift(&self, tau: f64) -> f64 {
         self.normal
             .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
@@ -209,7 +209,7 @@ impl Twin {
         self.check_descent(heights, 0.7);
     }
 
-    /// Compares the descent of the lowest point by turning with samples.
+    /// Compares the largest descent by rotation with samples.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
         let many = heights.piece.ball().is_some();
         let Some(descent) = heights.descent_until(horizon) else {

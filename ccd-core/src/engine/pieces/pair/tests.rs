@@ -1,4 +1,4 @@
-//! A single pair of pieces: its clock, and the time of its contact.
+//! Tests the clocks of a single pair of pieces, and the time of its contact.
 
 use super::*;
 use crate::body::Body;
@@ -10,7 +10,7 @@ use crate::query::Moving;
 use crate::settings::Settings;
 use crate::tests::oracle::{Always, Exhaustive};
 
-/// Poses a ball of radius 1 at `x`, moving along −x by `speed`, and one at the origin at rest.
+/// Creates a ball of radius 1 at `x` that moves along −x by `speed`, and a resting ball at the origin.
 fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let ball = Body::ball(1.0).unwrap();
     let start = Pose::at(x * DVec3::X).unwrap();
@@ -22,7 +22,7 @@ fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_
     then(&Problem::about(a, b, 1.0, config).unwrap())
 }
 
-/// Advances a new pair, clock by clock, until another kind of step.
+/// Advances a new pair until the step is not a later clock.
 fn run(problem: &Problem<'_>) -> (f64, Step) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
@@ -96,7 +96,7 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");
 }
 
-/// Poses a bar that turns about z away from the one it touches, and back to it from the other side.
+/// Creates a bar that turns about z away from the one it touches, and back to it from the other side.
 fn returning<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let bar = Body::capsule(0.1, 1.0).unwrap();
     let ball = Body::ball(0.1).unwrap();

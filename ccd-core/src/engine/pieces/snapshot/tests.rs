@@ -1,4 +1,4 @@
-//! Free times of pieces, compared with samples, along the axis and in distance.
+//! Compares free times of pieces with samples of the gap along the axis and of the distance.
 
 mod directed;
 mod planes;
@@ -106,7 +106,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
     assert!(some > 2_000 && forever > 2_000, "{some} {forever}");
 }
 
-/// Claims without slack, or with invalid numbers, get no time.
+/// Tests that claims without slack, or with invalid numbers, get no free time.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

@@ -1,4 +1,4 @@
-//! Points of a thin piece on both sides of another piece's edges on it.
+//! Computes points of a thin piece on both sides of edges that lie on it.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -7,9 +7,8 @@ use crate::math::vector::unit_or_any;
 use crate::rounding::BESIDE_EDGE;
 use glam::DVec3;
 
-/// For every edge of `other` that is on a thin piece, returns points of the piece on either side of
-/// the middle of their common part. An edge counts as on the piece if it leaves its plane by at
-/// most `reach`.
+/// Returns points of a thin piece beside the edges of `other` that lie on it: two for each edge, on either side of the
+/// middle of the common part. An edge counts as on the piece if it leaves its plane by at most `reach`.
 ///
 /// A surface that passes through a piece's inside, without any of its faces intersecting it, does
 /// so along such edges. For a part that is entirely in the plane, the faces beyond its edges
@@ -38,17 +37,17 @@ pub(crate) fn beside_edges(
     })
 }
 
-/// A thin piece, by its largest facet, or by its points in their order.
+/// The outline of a thin piece: its largest facet, or its points in order.
 #[derive(Clone, Copy)]
 struct Flat<'a> {
     points: &'a [DVec3],
-    /// The indices of the corners among the points; `None` if the corners are all points in their order.
+    /// The indices of the outline's corners; `None` if they are all points in order.
     corners: Option<&'a [u32]>,
     normal: DVec3,
 }
 
 impl<'a> Flat<'a> {
-    /// Returns `None` for a piece without three corners.
+    /// Creates the outline; `None` for a piece of fewer than three corners.
     fn of(piece: &Piece<'a>) -> Option<Self> {
         let spread = |corners: &[u32]| match *corners {
             [a, b, c, ..] => {
@@ -87,7 +86,7 @@ impl<'a> Flat<'a> {
         self.normal.dot(point - self.corner(0))
     }
 
-    /// Returns a point on each side of the piece, and the inward direction there.
+    /// Returns for each side of the outline a point on it, and the inward direction.
     fn sides(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let count = self.count();
         (0..count).map(move |k| {
@@ -101,7 +100,7 @@ impl<'a> Flat<'a> {
             .all(|(from, inward)| inward.dot(point - from) > 0.0)
     }
 
-    /// Returns points on both sides of the middle of the common part with an edge.
+    /// Returns points on both sides of the middle of the part of an edge within the outline.
     fn beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let way = to - from;
         let (mut enter, mut leave) = (0.0, 1.0);

@@ -1,4 +1,4 @@
-//! The inside and outside of solids, points on the surface, and shells within shells.
+//! Tests the inside and outside of solids, points on the surface, and nested shells.
 
 use super::{Containment, at_start};
 use crate::answer::Overlap;
@@ -71,7 +71,7 @@ fn a_point_on_the_surface_is_not_inside() {
     }
 }
 
-/// Rays that pass exactly through corners and edges are counted correctly.
+/// Tests that rays exactly through corners and edges are counted correctly.
 #[test]
 fn regular_points_in_line_with_edges_are_decided() {
     let body = solid(&cube(1.0, 8));
@@ -141,7 +141,7 @@ fn a_surface_contains_nothing() {
     assert!(matches!(overlap, Some(Overlap::BInsideA(_))));
 }
 
-/// All extreme points of the triangle are on the cube: the touching pieces decide, if there are any.
+/// Tests a triangle whose extreme points are all on a cube: the touching pieces decide, if there are any.
 #[test]
 fn a_part_on_the_surface_is_left_to_its_pieces() {
     let on_top = [[0.5, 0.0, 1.0], [0.75, 0.25, 1.0], [0.5, 0.25, 1.0]].map(DVec3::from);
@@ -184,7 +184,7 @@ fn placement_and_size_do_not_matter() {
     }
 }
 
-/// Two pyramids on one square have corners on a large triangle, and no face passes through the triangle.
+/// Tests a large triangle through the common square of two pyramids: no face passes through the triangle.
 #[test]
 fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let tip = |k: usize| match k % 2 {
@@ -220,7 +220,7 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     assert_eq!(found(&above), Containment::Outside);
 }
 
-/// The fuzz target `query` found this case: no face meets the needle but at an edge, and its end is inside.
+/// Tests a case that the fuzz target `query` found: no face meets the needle but at an edge, and its end is inside.
 #[test]
 fn a_lone_needle_through_an_edge_is_inside() {
     let needle = [-4.0 * DVec3::Z, DVec3::ZERO, DVec3::ZERO];
@@ -239,8 +239,7 @@ fn a_lone_needle_through_an_edge_is_inside() {
     ));
 }
 
-/// The fuzz target `query` found this case: the vectors to the corners are long, and the errors of their volumes
-/// exceed the height of the face.
+/// Tests a case that the fuzz target `query` found: the errors of volumes exceed the height of a very long face.
 #[test]
 fn points_near_very_long_faces_are_decided() {
     let long = cube(1.0, 1).into_iter().map(|face| {
@@ -253,7 +252,7 @@ fn points_near_very_long_faces_are_decided() {
     assert_eq!(contains(&beam, DVec3::X * 3.75), Some(true));
 }
 
-/// Tests a plate along the plane y = 0, of half extents x and z, so thin that no face proves an intersection.
+/// Tests a plate along the plane y = 0, so thin that no face proves an intersection; x and z are its half extents.
 fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Containment {
     let cube = solid(&cube(1.0, n));
     let plate = Body::cuboid([x, 1e-33, z]).unwrap();
@@ -292,8 +291,8 @@ fn a_thin_piece_is_examined_beside_edges_on_it() {
     assert_eq!(beside, Containment::Outside);
 }
 
-/// A thick piece is not examined: a face that passes through it intersects it. A piece without known sides is not
-/// examined either.
+/// Tests that thick pieces, and pieces without a known outline, are not tested beside edges. A piece without known
+/// sides is not examined either.
 #[test]
 fn only_thin_pieces_are_examined_beside_edges() {
     let cube = solid(&cube(1.0, 1));

@@ -1,4 +1,4 @@
-//! The results found so far in a search for the closest approach along trajectories.
+//! The results so far of a search for the closest approach along trajectories.
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::error::InputError;
@@ -12,7 +12,7 @@ use crate::shortcuts::out_of_reach::least_distance;
 use crate::tuning::LEAST_CUT;
 
 impl Query<'_> {
-    /// Returns the query for distances: the margin plays no role in it.
+    /// Returns the query for measuring distances, with a margin of 0.
     pub(in crate::questions::along) fn measuring(&self) -> Self {
         Query {
             terms: Terms {
@@ -25,7 +25,7 @@ impl Query<'_> {
         }
     }
 
-    /// Returns the query for contacts with a margin and a tolerance, within a budget.
+    /// Returns the query for contacts with the margin, tolerance and budget of a rung.
     pub(super) fn asking(&self, rung: Rung) -> Self {
         let Rung {
             margin,
@@ -43,11 +43,11 @@ impl Query<'_> {
     }
 }
 
-/// The result of one stretch: bounds of the distance of its motions.
+/// The bounds of the distance of a stretch's motions, and where they are nearest.
 pub(super) struct Seen {
     pub(super) lower: f64,
     pub(super) upper: f64,
-    /// The amount by which the deviations widen these bounds.
+    /// The amount by which the deviations widen the bounds for the bodies.
     pub(super) blur: f64,
     /// The time in the stretch at which the motions are nearest.
     pub(super) time: f64,
@@ -56,7 +56,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Returns the result if the motions are farther apart than the least distance found so far. The bodies are so
+    /// Creates the result for motions that are farther apart than the least distance found so far. The bodies are so
     /// despite their deviations.
     pub(super) fn beyond(lower: f64) -> Self {
         Seen {
@@ -68,13 +68,15 @@ impl Seen {
         }
     }
 
-    /// Returns true if f64 does not certify the tolerance for the motions. Cutting the stretch does not help then.
+    /// Returns whether the bounds are wider than the tolerance only because of rounding. Cutting the stretch does not
+    /// help then.
     pub(super) fn is_loose(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
         width > tolerance && self.blur <= width
     }
 
-    /// Returns the end of the stretch beyond which the motions get nearer by more than the deviations.
+    /// Returns the end of the stretch at which the motions are nearest, if they would get nearer beyond it by more than
+    /// the deviations; `None` otherwise.
     pub(super) fn falls_beyond(&self, motions: &Motions) -> Option<f64> {
         let Span { from, to, .. } = motions.span;
         let (near, falls) = (
@@ -92,12 +94,12 @@ impl Seen {
     }
 }
 
-/// The least distance found so far.
+/// The bounds of the least distance found so far.
 pub(super) struct Found {
-    /// A lower bound of the distance on all finished stretches.
+    /// A lower bound of the distance in all finished stretches.
     pub(super) lower: f64,
     pub(super) best: Option<(f64, Contact)>,
-    /// The lower bound that is proven for all stretches.
+    /// The lower bound that is proven for all times.
     pub(super) ladder: Ladder,
 }
 
@@ -117,7 +119,7 @@ impl Found {
         self.best.map_or(f64::INFINITY, upper)
     }
 
-    /// Records the result of the motions in a stretch.
+    /// Records the outcome for the motions of a stretch.
     ///
     /// # Errors
     /// The limit that was reached.
@@ -169,11 +171,11 @@ impl Found {
             return self.answer(query, stretches, self.known(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = Outcome::least(lower, time, contact.no_nearer_than(lower));
+        let nearest = Outcome::least(lower, time, contact.cap_lower_bound(lower));
         self.answer(query, stretches, nearest)
     }
 
-    /// Returns the answer when a limit is reached at a stretch. For this stretch and the waiting ones, bounding balls
+    /// Returns the answer when a limit is reached in a stretch. For this stretch and the waiting ones, bounding balls
     /// of the bodies give the lower bound.
     pub(super) fn unresolved(
         &self,
@@ -195,10 +197,10 @@ impl Found {
         self.answer(query, stretches, self.known(lower, reason))
     }
 
-    /// Returns the outcome when a limit is reached; `lower` is proven for each stretch.
+    /// Returns the outcome when a limit is reached; `lower` is a lower bound for all times.
     fn known(&self, lower: f64, limit: Limit) -> Outcome {
         let lower = lesser(greater(self.ladder.lower, lower), self.upper());
-        let seen = |(time, contact): (f64, Contact)| (time, contact.no_nearer_than(lower));
+        let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
         Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
     }
 

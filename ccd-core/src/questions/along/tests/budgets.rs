@@ -1,4 +1,4 @@
-//! Answers along trajectories with every budget: each part between two corners has its own.
+//! Tests answers along trajectories with every budget: each part between two corners has its own.
 
 use super::*;
 use crate::answer::Limit;
@@ -171,7 +171,7 @@ fn each_part_between_two_corners_has_a_budget() {
     assert!(first.stats.work() <= 4 * u64::from(laps) * 2, "{first:?}");
 }
 
-/// A trajectory with unbounded deviations, a corner near the end of every stretch, or bounds that are none.
+/// A trajectory with unbounded deviations, with a corner near the end of every stretch, or with invalid bounds.
 struct Hostile {
     stray: Stray,
     step: f64,

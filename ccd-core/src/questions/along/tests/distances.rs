@@ -1,11 +1,11 @@
-//! Required, greatest and least distances along trajectories, and bounds if a search does not end.
+//! Tests required, greatest and least distances along trajectories, and bounds after a limit.
 
 use super::*;
 use crate::answer::Clearance;
 use crate::answer::Limit;
 use crate::answer::Unresolved;
 
-/// Returns the least and greatest of distances at equal steps, from which no distance in between differs by much.
+/// Returns the least and the greatest distance at equal time steps, so short that distances in between hardly differ.
 fn sampled(swings: &Swings) -> [f64; 2] {
     let distances = (0..=200).map(|k| swings.distance(f64::from(k) / 200.0));
     distances.fold([f64::INFINITY, 0.0], |[least, most], found| {

@@ -1,4 +1,4 @@
-//! Bodies with surfaces that stay beside each other while one of them turns.
+//! Tests bodies whose surfaces stay close to each other while one of them turns.
 
 use super::*;
 use crate::engine::solve::Solve;
@@ -26,7 +26,7 @@ fn revolved(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
     outline.windows(2).flat_map(strip).collect()
 }
 
-/// The closest approach of a wheel on its axle takes at most twenty times the work of the first contact.
+/// Tests that the closest approach of a wheel on its axle takes at most twenty times the work of the first contact.
 #[test]
 fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
     let wheel = body(&revolved(&[[5.2, 0.0], [5.2, 8.0]], 192));

@@ -1,9 +1,9 @@
-//! Bodies that exceed their shapes: upper bounds hold for the shapes, and bodies alone violate no clearance.
+//! Tests bodies that exceed their shapes: upper bounds hold for the shapes, and bodies alone violate no clearance.
 
 use super::*;
 use crate::tests::scene::Scene;
 
-/// Returns the scene with bodies that together exceed their shapes by this.
+/// Returns the scene with bodies that together exceed their shapes by `excess`.
 fn exceeding(mut scene: Scene, excess: f64) -> Scene {
     scene.bodies = scene
         .bodies
@@ -44,7 +44,8 @@ fn upper_bounds_have_the_excess_added_once() {
     );
 }
 
-/// Shapes may keep a distance that their bodies do not, up to the excess. Nearer bodies certainly violate it.
+/// Tests a clearance that bodies violate by less than the excess, which their shapes may keep, and by more. Nearer
+/// bodies certainly violate it.
 #[test]
 fn a_clearance_is_violated_by_more_than_the_excess_only() {
     let mut rng = rng(22);

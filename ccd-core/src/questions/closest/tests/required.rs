@@ -1,4 +1,4 @@
-//! Required distances above and below the least one, and bounds if a search does not end.
+//! Tests required distances above and below the least one, and bounds after a limit.
 
 use super::*;
 
@@ -69,7 +69,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     );
 }
 
-/// Bodies that keep a distance cost as much as with a margin, and others at most twice as much.
+/// Tests that the decision about a required distance costs as much as a margin, or at most twice as much.
 #[test]
 fn a_required_distance_costs_little_more_than_a_margin() {
     let mut rng = rng(12);

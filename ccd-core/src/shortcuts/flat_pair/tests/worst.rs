@@ -1,4 +1,4 @@
-//! The reach of a flat node, compared with that of all points between its planes and in its ball.
+//! Compares the extent of a flat node with that of all points between its planes and in its ball.
 
 use super::super::Flat;
 use crate::motion::Motion;

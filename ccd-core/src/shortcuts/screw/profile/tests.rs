@@ -1,4 +1,4 @@
-//! Profiles, compared with the exact surfaces through the corners of a triangle.
+//! Compares profiles with exact surfaces through the corners of a triangle.
 
 use super::{Profile, ScrewAxis};
 use crate::math::order::greater;
@@ -14,7 +14,7 @@ use crate::tests::scene::body;
 use crate::tests::worst::{Tape, Worst, share};
 use glam::DVec3;
 
-/// Returns the radius and the height of a point, and its azimuth near a given one.
+/// Returns the cylindrical coordinates of a point, with the azimuth within half a turn of `near`.
 fn cylindrical(axis: &ScrewAxis, point: Double3, near: f64) -> [Double; 3] {
     let unit = Double3::from(axis.unit).unit();
     let way = point - Double3::from(axis.origin);
@@ -36,7 +36,7 @@ fn cylindrical(axis: &ScrewAxis, point: Double3, near: f64) -> [Double; 3] {
     [radius, height, angle + tau * Double::from(turns)]
 }
 
-/// Returns the largest share that the error of an interval takes at a corner.
+/// Returns the largest error of an interval at a corner, as a share of its allowance.
 fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let body = body(&[corners]);
@@ -80,7 +80,7 @@ fn axis(tape: &mut Tape, advance: f64) -> Option<ScrewAxis> {
     Some(ScrewAxis::new(origin, direction, advance))
 }
 
-/// A tiny triangle is anywhere about the axis.
+/// Tests tiny triangles anywhere about the axis.
 #[test]
 fn worst_of_an_arm() {
     let found = Worst::of("profile_rounding, an arm", 20_000).search(|tape| {
@@ -94,7 +94,7 @@ fn worst_of_an_arm() {
     found.is_within(40.0);
 }
 
-/// A triangle is in a plane with the axis, and much longer than its distance from the axis.
+/// Tests a triangle in a plane with the axis that is much longer than its distance from the axis.
 #[test]
 fn worst_of_a_radius() {
     let found = Worst::of("profile_rounding, a radius", 20_000).search(|tape| {

@@ -1,4 +1,4 @@
-//! The deviation of the motion along a rounded screw from the given motion, by double-double arithmetic.
+//! Compares the motion along a rounded screw with the given motion, by double-double arithmetic.
 
 use crate::math::vector::length;
 use crate::motion::Motion;

@@ -1,4 +1,4 @@
-//! Heights and rates along an axis that turns with a body, in the worst cases that a search finds.
+//! Searches for the worst errors of heights and rates along an axis that turns with a body.
 //!
 //! The reference takes the axis, the rounded frame and the offset between the bodies as given, and computes
 //! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
@@ -17,14 +17,14 @@ use crate::tests::worst::{Tape, Worst, share};
 use crate::tuning::ATTACHED_TIME;
 use glam::DVec3;
 
-/// Returns a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
+/// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
 fn motion(tape: &mut Tape) -> Option<Motion> {
     let ranges = [-20..=6, -20..=15, -20..=8, -20..=6];
     let [velocity, spin, centre, at] = ranges.map(|range| tape.vector(range));
     Motion::about(Pose::new(at, rotation(tape)).ok()?, velocity, spin, centre).ok()
 }
 
-/// A sweep after some time, as computed and exact.
+/// A point and a turning plane, as computed and exact.
 struct Setting<'s> {
     sweep: &'s SweepingPiece<'s>,
     motions: [Motion; 2],
@@ -33,7 +33,7 @@ struct Setting<'s> {
 }
 
 impl Setting<'_> {
-    /// Returns the height of the point, and its rate.
+    /// Returns the computed height of the point, and its rate.
     fn found(&self, tau: f64) -> [Double; 2] {
         let Turned {
             height,
@@ -62,24 +62,27 @@ impl Setting<'_> {
         let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
         let arm = turned(x + y + z, own);
         let passing = velocity - away;
-        let way = Double3::from(self.sweep.way) + passing.scale(Double::from(tau)) + arm;
+        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau)) + arm;
         let rate = spin.cross(normal).dot(way) + normal.dot(passing + own.cross(arm));
         [normal.dot(way), rate]
     }
 
-    /// Returns the bound of the second derivative twice: exact, and as computed without allowances.
+    /// Returns the bound of the second derivative, exact and as computed without allowances.
     fn bends(&self, tau: f64) -> [Double; 2] {
         let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
         let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
         let (passing, time) = (velocity - away, Double::from(f64::from(ATTACHED_TIME)));
-        let way = Double3::from(self.sweep.way) + passing.scale(Double::from(tau));
+        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau));
         let arm = spin.unit().cross(way).length() + passing.length() * time;
         let across = spin.cross(Double3::from(self.normal)).length();
         let two = Double::from(2.0);
         let exact = across * (spin.length() * arm + two * passing.length())
             + (spin - own).length() * (across + own.length()) * Double::from(self.sweep.radius);
         let sweep = self.sweep;
-        let arm = sweep.unit.cross(sweep.way + sweep.velocity * tau).length()
+        let arm = sweep
+            .unit
+            .cross(sweep.offset + sweep.velocity * tau)
+            .length()
             + sweep.speed * f64::from(ATTACHED_TIME);
         let across = sweep.omega * sweep.normal.slope();
         let plain = across * (sweep.omega * arm + 2.0 * sweep.speed)
@@ -88,7 +91,7 @@ impl Setting<'_> {
     }
 }
 
-/// Returns the shares of the allowances that the errors of a change of height, a rate and a second derivative take.
+/// Returns the errors of a height change, a rate and a second derivative, as shares of their allowances.
 fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
     let bodies = triangles.map(|triangle| body(&[triangle]));

@@ -1,4 +1,4 @@
-//! Random groups and nodes that meet, in f64 and rounded as in an expansion.
+//! Draws groups and other nodes that come near each other, in f64 and rounded to f32.
 
 use super::{Sample, Solid};
 use crate::body::tree::{
@@ -20,7 +20,7 @@ fn spin(rng: &mut impl RngExt) -> DVec3 {
     }
 }
 
-/// Returns the centre of rotation of a body with nodes of this size at a place.
+/// Draws the centre of rotation of a body with a node of this size and position.
 fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
     let reach = size * magnitude(rng, -1.0, 4.0);
     if rng.random_bool(0.3) {
@@ -37,7 +37,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Creates a box of any proportions, a needle, or a tiny one.
+    /// Draws a box of any proportions, a needle, or a tiny box.
     pub(super) fn new(rng: &mut impl RngExt) -> Self {
         let size = magnitude(rng, -4.0, 4.0);
         Shape::of_size(rng, size, DVec3::ZERO)
@@ -66,7 +66,7 @@ impl Shape {
         let node = Node {
             centre,
             axes,
-            half: axes.map(|u| farthest(&|way| way.dot(u.as_dvec3()).abs())),
+            half: axes.map(|u| farthest(&|offset| offset.dot(u.as_dvec3()).abs())),
             rounding: 0.0,
             radius: farthest(&DVec3::length),
             below: Below::Boxes(0),
@@ -74,7 +74,7 @@ impl Shape {
         Shape { points, node }
     }
 
-    /// Returns the triangle of three of the shape's corners, about their mean. The node still contains it.
+    /// Returns a triangle of three corners of the shape, relative to their mean.
     pub(super) fn triangle(mut self) -> Self {
         self.points.truncate(3);
         let mean = (self.points[0] + self.points[1] + self.points[2]) / 3.0;
@@ -90,7 +90,7 @@ pub(super) struct Setting {
     /// The rotation from the other body's frame to the split body's.
     turn: DMat3,
     place: DVec3,
-    /// The children's size, and the position of the group in the split body's frame.
+    /// The size of the children.
     size: f64,
     origin: DVec3,
     velocity: DVec3,
@@ -135,7 +135,7 @@ impl Setting {
         self.size
     }
 
-    /// Returns the setting with the other node at a distance in units of both sizes.
+    /// Moves the other node to a distance, in units of both sizes.
     pub(super) fn at_distance(self, far: f64, other: &Shape) -> Self {
         let far = far * (f64::from(other.node.radius) + self.size);
         Setting {
@@ -144,7 +144,7 @@ impl Setting {
         }
     }
 
-    /// Returns the setting in which only the other node turns, about a point at `arm` from its middle.
+    /// Makes only the other node turn, about a point at `arm` from its middle.
     pub(super) fn turning_in_place(self, spin: DVec3, arm: DVec3) -> Self {
         Setting {
             velocity: DVec3::ZERO,
@@ -226,7 +226,7 @@ impl Setting {
         self.sample(group, triangle, reach, children, far)
     }
 
-    /// Returns a sample with the allowances of an expansion.
+    /// Creates a sample with the allowances that an expansion uses.
     fn sample<C, P: OtherNode>(
         &self,
         group: C,

@@ -8,14 +8,14 @@ use crate::rounding::{ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_BEND_F32};
 use crate::settings::Instructions;
 use crate::tests::worst::share;
 
-/// The values of an axis for eight pairs: the gaps, second derivatives and free times.
+/// The gaps, second derivatives and free times of eight pairs along an axis.
 pub(super) struct Clocks {
     pub(super) apart: [f32; LANES],
     pub(super) bend: [f32; LANES],
     pub(super) free: [f32; LANES],
 }
 
-/// The shares of the allowances that the errors of one pair take along one axis.
+/// The errors of one pair along one axis, as shares of their allowances.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Shares {
     pub(super) support: f64,
@@ -24,7 +24,7 @@ pub(super) struct Shares {
     pub(super) clock: f64,
 }
 
-/// Returns the share of [`CLOCK_F32`] that the error of a free time takes.
+/// Returns the error of a free time as a share of [`CLOCK_F32`].
 pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
     let [free, apart, rate, bend] = numbers.map(f64::from);
     let root = (rate * rate + 2.0 * bend * apart).sqrt();
@@ -38,7 +38,7 @@ pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
 }
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
-    /// Returns the free times for the gaps and rates of an axis, with exact second derivatives.
+    /// Computes the free times from the gaps and rates of an axis, with exact second derivatives.
     pub(super) fn clocks(&self, found: &Found) -> Clocks {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
         let bend = std::array::from_fn(|lane| {
@@ -54,7 +54,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// Returns the shares of the allowances that the errors of a lane take.
+    /// Returns the errors of a lane as shares of their allowances.
     pub(super) fn shares(&self, found: &Found, clocks: &Clocks, lane: usize) -> Shares {
         let (motion, child) = (&self.motion, &self.children[lane]);
         let (n, rate) = (found.normal(lane), found.rate[lane]);

@@ -1,5 +1,4 @@
-//! The choice of the pairs that wait for a second visit, and of the node of a pair to split, compared with the same
-//! in f64.
+//! Compares the choices of the pairs that wait, and of the nodes to split, with choices in f64.
 
 use super::setting::{Setting, Shape};
 use super::{Sample, find, widest};
@@ -15,15 +14,15 @@ use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
-/// The values of eight pairs, one number for each.
+/// The values of eight pairs from which the bounds choose.
 struct Rows {
     radius: [f32; LANES],
-    /// The distances from the other body's centre of rotation.
+    /// The distances of the small nodes from the other body's centre of rotation.
     arms: [f32; LANES],
     split_reach: [f32; LANES],
     other_reach: [f32; LANES],
     gap: [f32; LANES],
-    /// The times of the two fixed planes, and of the planes that turn with the split and the other body.
+    /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
     free: [[f32; LANES]; 4],
     pieces: u8,
     found: Bounds,
@@ -53,7 +52,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         })
     }
 
-    /// Returns the setting with the much larger side recorded, if there is one.
+    /// Records which side is much larger, if one is.
     fn beside_a_larger_one(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
@@ -68,43 +67,43 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 }
 
-/// Returns whether one number is greater than another; `None` within rounding.
+/// Returns whether one number is greater than another; `None` if they are equal up to rounding.
 fn exceeds(one: f64, other: f64) -> Option<bool> {
     let near = 1e-4 * (one.abs() + other.abs());
     ((one - other).abs() > near).then_some(one > other)
 }
 
-/// The numbers of decisions against and for.
+/// The number of choices against and for an option.
 #[derive(Debug, Default)]
 struct Decisions {
-    waits: [usize; 2],
+    revisit: [usize; 2],
     swept: [usize; 2],
-    thicker: [usize; 2],
+    split_child: [usize; 2],
 }
 
 impl Decisions {
     fn check<C: Children, P: OtherNode>(&mut self, sample: &Sample<C, P>) {
         let rows = sample.rows();
         for lane in 0..LANES {
-            let waits = rows.found.waits >> lane & 1 == 1;
-            let thicker = rows.found.thicker >> lane & 1 == 1;
-            if let Some(expected) = rows.waits(lane, sample) {
-                assert_eq!(waits, expected, "{:?} of {:?}", rows.found, sample.motion);
+            let revisit = rows.found.revisit >> lane & 1 == 1;
+            let split_child = rows.found.split_child >> lane & 1 == 1;
+            if let Some(expected) = rows.revisit(lane, sample) {
+                assert_eq!(revisit, expected, "{:?} of {:?}", rows.found, sample.motion);
                 match sample.motion.larger {
-                    Some(_) => self.swept[usize::from(waits)] += 1,
-                    None => self.waits[usize::from(waits)] += 1,
+                    Some(_) => self.swept[usize::from(revisit)] += 1,
+                    None => self.revisit[usize::from(revisit)] += 1,
                 }
             }
-            if let Some(expected) = rows.thicker(lane, sample) {
-                assert_eq!(thicker, expected, "{:?}", rows.found);
-                self.thicker[usize::from(thicker)] += 1;
+            if let Some(expected) = rows.split_child(lane, sample) {
+                assert_eq!(split_child, expected, "{:?}", rows.found);
+                self.split_child[usize::from(split_child)] += 1;
             }
         }
     }
 }
 
 impl Rows {
-    fn waits<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
+    fn revisit<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
         let motion = &sample.motion;
         let (radius, other) = (
             f64::from(self.radius[lane]),
@@ -125,17 +124,25 @@ impl Rows {
             None => (Some(false), Some(false)),
             Some(Larger::Split) => {
                 let arm = motion.split.arm(sample.other.centre());
-                let whole = self.pieces >> lane & 1 == 1;
+                let other_is_piece = self.pieces >> lane & 1 == 1;
                 (
                     swept(greater(fixed, free(2)), motion.split.rate, arm, radius),
-                    if whole { clear_of(other) } else { Some(false) },
+                    if other_is_piece {
+                        clear_of(other)
+                    } else {
+                        Some(false)
+                    },
                 )
             }
             Some(Larger::Other) => {
-                let (rate, whole) = (motion.other.rate, sample.other.is_piece());
+                let (rate, other_is_piece) = (motion.other.rate, sample.other.is_piece());
                 (
                     swept(greater(fixed, free(3)), rate, self.arms[lane], other),
-                    if whole { clear_of(radius) } else { Some(false) },
+                    if other_is_piece {
+                        clear_of(radius)
+                    } else {
+                        Some(false)
+                    },
                 )
             }
         };
@@ -147,7 +154,7 @@ impl Rows {
         }
     }
 
-    fn thicker<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
+    fn split_child<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
         let thick = |reach: f32, radius: f32| f64::from(reach) + f64::from(THICKNESS * radius);
         let split = thick(self.split_reach[lane], self.radius[lane]);
         let other = thick(self.other_reach[lane], sample.other.radius());
@@ -177,10 +184,10 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
         check(&mut rng);
     }
     let Decisions {
-        waits,
+        revisit,
         swept,
-        thicker,
+        split_child,
     } = decisions;
-    let each = [waits, swept, thicker].concat();
+    let each = [revisit, swept, split_child].concat();
     assert!(each.iter().all(|&count| count > 500), "{each:?}");
 }

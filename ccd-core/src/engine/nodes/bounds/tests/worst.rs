@@ -1,5 +1,4 @@
-//! The allowances of the bounds in f32, in the worst cases that a search finds, with every set of vector
-//! instructions that this machine has.
+//! Searches for the worst rounding errors of the bounds in f32, with every set of vector instructions.
 //!
 //! References are in f64, whose own error is a five hundred millionth of that of f32.
 
@@ -19,7 +18,7 @@ use crate::tests::worst::{Tape, Worst, share};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
 
-/// A search for the worst share of one allowance, in settings that it draws.
+/// A search for the largest share of one allowance among random settings.
 #[derive(Clone, Copy)]
 struct Search {
     name: [&'static str; 2],
@@ -29,7 +28,7 @@ struct Search {
 }
 
 impl Search {
-    /// Searches nodes with boxes, and then triangles.
+    /// Runs the search over nodes with boxes, then over triangles.
     fn run(self) {
         let boxes = Worst::of(self.name[0], 3_000).search(|tape| {
             let other = Shape::new(tape);
@@ -45,7 +44,7 @@ impl Search {
         triangles.is_within(self.looseness);
     }
 
-    /// Returns the largest share among eight pairs and three axes.
+    /// Returns the largest share of the allowance among eight pairs and three axes.
     fn share_of<C: Children, P: OtherNode>(self, tape: &mut Tape, sample: &Sample<C, P>) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
         let of = |found: &Found, lane: usize| {
@@ -59,7 +58,7 @@ impl Search {
     }
 }
 
-/// The nodes are far: the contribution of their size is less than a hundredth of the allowance.
+/// Tests nodes that are far apart: their size contributes less than a hundredth of the allowance.
 #[test]
 fn way_f32() {
     Search {
@@ -74,7 +73,7 @@ fn way_f32() {
     .run();
 }
 
-/// The nodes are near: the contribution of their distance is less than a hundredth of the allowance.
+/// Tests nodes that are close: their distance contributes less than a hundredth of the allowance.
 #[test]
 fn reach_f32() {
     Search {
@@ -100,7 +99,8 @@ fn rate_f32() {
     .run();
 }
 
-/// A node turns about its own middle far from the group. Its speed is tiny, except for the share of its position.
+/// Tests a node that turns about its own middle far from the group. Its speed is tiny, except for the share of its
+/// position.
 #[test]
 fn places() {
     Search {
@@ -117,14 +117,14 @@ fn places() {
     .run();
 }
 
-/// Returns the values of a function of eight numbers each, and checks that all instructions give the same.
+/// Computes eight numbers with every set of vector instructions, and checks that all are equal.
 fn on_all_levels<T: PartialEq + std::fmt::Debug>(of: impl Fn(fearless_simd::Level) -> T) -> T {
     let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(|set| of(set.level()));
     assert_eq!(best, baseline);
     best
 }
 
-/// Returns the lengths of the cross products of two vectors.
+/// Returns the lengths of the cross products of `n` and `spin`.
 fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     let rows = [0, 1, 2].map(|k| n.map(|n| n[k]));
     on_all_levels(|level| {
@@ -134,7 +134,7 @@ fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     })
 }
 
-/// Returns eight rounded axes, and an angular velocity.
+/// Draws eight axes, rounded to f32, and an angular velocity.
 fn turned(tape: &mut Tape) -> Option<([DVec3; LANES], DVec3)> {
     let spin = DVec3::from(tape.vector(-20..=5));
     let aside = tape.size(-30..=0);
@@ -159,7 +159,7 @@ fn across_f32() {
     found.is_within(8.0);
 }
 
-/// The product has two factors, neither of which is much shorter than the greatest possible length.
+/// Measures the error of products whose two factors are both close to their upper bounds.
 #[test]
 fn bend_f32() {
     let found = Worst::of("BEND_F32", 40_000).search(|tape| {
@@ -193,8 +193,8 @@ fn clock_f32() {
     found.is_within(16.0);
 }
 
-/// The underflow of a gap just above the least one takes less than the rounding of its time. The gap is that used up
-/// at the end of a free time, or of the duration.
+/// Measures the underflow of gaps just above the least gap, which takes less than the rounding of its time. The gap is
+/// that used up at the end of a free time, or of the duration.
 #[test]
 fn least_gap_f32() {
     let found = Worst::of("LEAST_GAP_F32", 40_000).search(|tape| {
@@ -222,7 +222,7 @@ fn least_gap_f32() {
     found.is_within(16.0);
 }
 
-/// The vectors are just long enough for an axis: their lengths are off by no more than those of longer ones.
+/// Tests the shortest vectors that give an axis: their lengths are as accurate as those of longer ones.
 #[test]
 fn least_axis_f32() {
     let found = Worst::of("LEAST_AXIS_F32", 40_000).search(|tape| {

@@ -1,4 +1,4 @@
-//! Heights along a fixed axis, compared with double-double arithmetic, in the worst cases that a search finds.
+//! Searches for the worst errors of heights along a fixed axis, against double-double arithmetic.
 //!
 //! The reference takes the axis and the body's rounded frame as given, and computes everything from there on exactly.
 //! Earlier rounding is that of distances.
@@ -19,7 +19,7 @@ use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
 use glam::DVec3;
 
-/// The exact rotation of a body, from a frame on.
+/// The exact rotation of a body from a given frame.
 struct Turning {
     frame: Frame,
     spin: Double3,
@@ -27,7 +27,7 @@ struct Turning {
 }
 
 impl Turning {
-    /// Returns the vector from the centre to a point after a turn by an angle.
+    /// Returns the vector from the centre to a point after a rotation by an angle.
     fn arm(&self, point: DVec3, angle: f64) -> Double3 {
         let local = Double3::from(point) - self.centre;
         let rotation = self.frame.rotation;
@@ -37,7 +37,7 @@ impl Turning {
     }
 }
 
-/// Returns a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
+/// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
 fn motion(tape: &mut Tape) -> Option<Motion> {
     let [velocity, spin, centre] = [-20..=6, -20..=15, -20..=8].map(|range| tape.vector(range));
     let start = Pose::new(DVec3::ZERO, rotation(tape)).ok()?;
@@ -46,7 +46,7 @@ fn motion(tape: &mut Tape) -> Option<Motion> {
         .filter(|motion| motion.spin() != DVec3::ZERO)
 }
 
-/// Returns the share that the rates of a triangle's corners take.
+/// Returns the largest error of the rates of a triangle's corners, as a share of its allowance.
 fn share_of_rates(tape: &mut Tape) -> Option<f64> {
     let body = body(&[[(); 3].map(|()| DVec3::from(tape.vector(-20..=4)))]);
     let (motion, ball) = (motion(tape)?, Body::ball(0.1).ok()?);
@@ -78,7 +78,7 @@ fn worst_rate() {
     found.is_within(10.0);
 }
 
-/// Compares a bound of distances by a ball with many points.
+/// Measures the error of distances that are bounded by a ball around many points.
 #[test]
 fn worst_farthest() {
     let found = Worst::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
@@ -91,8 +91,8 @@ fn worst_farthest() {
     found.is_within(16.0);
 }
 
-/// Returns the shares of [`TURNED_SUPPORT`] by which the lowest of many points, and the one with the least rate, are
-/// missed. The points are equally low up to rounding, and far from each other.
+/// Returns the errors of the lowest height and of the least rate of many points, as shares of [`TURNED_SUPPORT`]. The
+/// points are equally low up to rounding, and far from each other.
 fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.fraction());
     let ball = Body::ball(0.1).ok()?;
@@ -161,7 +161,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     Some([share(height, allowed), share(rate, path.rate * allowed)])
 }
 
-/// The number of points of a piece with many points: more than are scanned.
+/// The number of points of the tested pieces, more than are scanned.
 const COUNT: usize = 36;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Free times by a bound of each body's advance, compared with the sum of the bounds of both bodies.
+//! Compares free times from a bound of each body's velocity with the sum of both bounds.
 
 use super::super::*;
 use crate::tests::oracle::Exhaustive;
@@ -31,7 +31,7 @@ fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: Bound, reaches: [f64; 2])
     sum
 }
 
-/// Returns the greatest speed of the pieces' points, added up: the rounding of rates is a share of it.
+/// Returns the sum of the greatest speeds of both pieces' points; the rounding of rates is a share of it.
 fn speed(problem: &Problem<'_>, reaches: [f64; 2]) -> f64 {
     let sides = [&problem.a, &problem.b];
     let speeds = sides.iter().zip(reaches).map(|(side, reach)| {

@@ -1,4 +1,4 @@
-//! The planes that are tried, and the work that is counted.
+//! Tests which planes are tried, and how the work is counted.
 
 use super::super::*;
 use crate::body::Body;
@@ -35,7 +35,7 @@ impl DistanceOracle for Telling {
     }
 }
 
-/// An oracle that has no answer.
+/// An oracle that always gives up.
 struct Silent;
 
 impl DistanceOracle for Silent {
@@ -66,7 +66,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
 }
 
-/// Returns the time of a plane; infinite if the plane keeps the pieces apart for good.
+/// Returns the free time of a plane; infinite if the plane keeps the pieces apart for good.
 fn time(free: Option<f64>) -> f64 {
     free.unwrap_or(f64::INFINITY)
 }
@@ -142,7 +142,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
     assert!((100..500).contains(&planes), "{planes}");
 }
 
-/// The allowance is a share of all speeds, not of the rate of approach, which may be much less.
+/// Tests that the allowance for rounding is a share of all speeds, not of the rate of approach, which may be much less.
 #[test]
 fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     let [a, b] = [0.5, 0.25].map(|size| body(&[[DVec3::ZERO, size * DVec3::X, size * DVec3::Y]]));
@@ -170,8 +170,8 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     }
 }
 
-/// The least slack with which turning points pass is the sum of their descent and of the parts that drift and
-/// rounding take.
+/// Tests that pieces pass with exactly the slack that the points' descent by rotation, the common motion and rounding
+/// take.
 #[test]
 fn points_that_turn_pass_with_all_the_slack_they_need() {
     let mut rng = rng(13);
@@ -230,7 +230,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
 
-/// Compares the part of a slack that a changing drift takes with samples.
+/// Compares the slack that accelerated motion takes with samples.
 #[test]
 fn a_drift_is_least_at_an_end_or_where_it_turns() {
     let mut rng = rng(14);
@@ -252,7 +252,7 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
     assert!(within.iter().all(|&count| count > 200), "{within:?}");
 }
 
-/// Checks the plane between the witnesses at the time when they are nearest on straight paths.
+/// Checks the plane between the nearest points at their time of closest approach on straight paths.
 fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: Option<&Plane>) {
     let Problem { a, b, .. } = snapshot.problem;
     let [x, y] = [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].point(p));

@@ -1,8 +1,8 @@
-//! Triangles in one plane: the side on which each is kept, and the time.
+//! Tests triangles in one plane: the side on which each is kept, and the free time.
 
 use super::super::*;
 use crate::body::{Body, Volume};
-use crate::distance::separation::sharp::sharpened;
+use crate::distance::separation::sharp::sharpen;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
@@ -33,7 +33,7 @@ impl Resting {
         }
     }
 
-    /// Creates a solid on this side of the plane.
+    /// Creates a solid above the plane if `side` is positive, and below it otherwise.
     fn solid(side: f64) -> Self {
         Resting::new(&moved(&cube(0.5, 1), 0.5 * side * DVec3::Z), Volume::Solid)
     }
@@ -55,7 +55,8 @@ impl Resting {
         Resting::new(&[triangle], Volume::Surface)
     }
 
-    /// Creates a shell whose cross section is an eight: the solid is above one half of a face, and below the other.
+    /// Creates a shell with a figure of eight as cross section: the solid is above one half of a face, and below the
+    /// other.
     fn unclear() -> Self {
         let eight = [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, -1.0)];
         let at = |k: usize, y: f64| DVec3::new(eight[k % 4].0, y, eight[k % 4].1);
@@ -71,7 +72,7 @@ impl Resting {
     }
 }
 
-/// Returns the free time of B's triangle on A's, which keeps a gap of minus `k` roundings. B moves away along z by
+/// Returns the free time of B's triangle on A's, for a required gap of minus `k` roundings. B moves away along z by
 /// `speed` in the whole duration. Both are rotated together by `whole`.
 fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
     let pose = Pose::new(DVec3::ZERO, whole).unwrap();
@@ -86,13 +87,13 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
     let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
     let mut meter = Meter::new(&problem);
     let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
-    let checked = sharpened(&snapshot.pieces, &checked, problem.rounding);
+    let checked = sharpen(&snapshot.pieces, &checked, problem.rounding);
     let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
     free.map(|free| free * speed.abs() / problem.rounding)
 }
 
-/// Checks that all but one of `k` roundings are used up.
+/// Checks that the free time uses up all but one of `k` roundings.
 fn check(free: f64, k: f64) {
     assert!(
         (free / (k - 1.0) - 1.0).abs() < 0.1,

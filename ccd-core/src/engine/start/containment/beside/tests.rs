@@ -1,4 +1,4 @@
-//! Points beside edges, compared with densely sampled edges. Coordinates are whole numbers, so that edges run along
+//! Compares the points beside edges with densely sampled edges. Coordinates are whole numbers, so that edges run along
 //! sides, and end on them, exactly.
 
 use super::beside_edges;
@@ -32,7 +32,7 @@ impl Placement {
         DVec3::from([0, 1, 2].map(|k| p[(k + self.axes) % 3])) + self.shift
     }
 
-    /// Returns a point in the plate's plane, and its height.
+    /// Maps a point back to the plate's plane, and returns its height above the plane.
     fn unplace(&self, p: DVec3) -> (DVec2, f64) {
         let p = (p - self.shift).to_array();
         let [x, y, z] = [0, 1, 2].map(|k| p[(k + 3 - self.axes) % 3]);
@@ -40,7 +40,7 @@ impl Placement {
     }
 }
 
-/// Returns a vector of whole numbers below `most`.
+/// Draws a vector of whole numbers below `most`.
 fn whole(rng: &mut Pcg64, most: i32) -> DVec3 {
     DVec3::from([0; 3].map(|_| f64::from(rng.random_range(-most..=most))))
 }
@@ -49,7 +49,7 @@ fn in_plane(rng: &mut Pcg64) -> DVec2 {
     whole(rng, 7).truncate()
 }
 
-/// Returns the corners of a plate, counterclockwise: a triangle, or the two large faces of a box of no height.
+/// Draws the corners of a plate, counterclockwise: a triangle, or a rectangle.
 fn outline(rng: &mut Pcg64) -> Vec<DVec2> {
     loop {
         let (a, b, c) = (in_plane(rng), in_plane(rng), in_plane(rng));
@@ -63,7 +63,7 @@ fn outline(rng: &mut Pcg64) -> Vec<DVec2> {
     }
 }
 
-/// Returns the ends of an arbitrary edge, or of one along a side.
+/// Draws the ends of an edge, sometimes along a side.
 fn ends(rng: &mut Pcg64, outline: &[DVec2]) -> [DVec2; 2] {
     if rng.random_bool(0.2) {
         let k = rng.random_range(0..outline.len());
@@ -110,7 +110,7 @@ fn polytope(points: Vec<DVec3>, facets: &[&[u32]]) -> Body {
     .unwrap()
 }
 
-/// Returns a triangle or a tetrahedron with one edge. Its other corners are not in the plane of the edge.
+/// Creates a triangle or a tetrahedron with a given edge, whose other corners are off the plane of the edge.
 fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> Body {
     let mut apex = |height: f64| in_plane(rng).extend(from.z + height);
     let (mut points, facets): (Vec<DVec3>, &[&[u32]]) = if apex(0.0).x > 0.0 {
@@ -131,7 +131,7 @@ fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> 
     )
 }
 
-/// Returns the distance of a point from the nearest side; negative outside.
+/// Returns the distance of an inside point from the nearest side; negative for outside points.
 fn depth(outline: &[DVec2], p: DVec2) -> f64 {
     let side = |k: usize| {
         let (from, to) = (outline[k], outline[(k + 1) % outline.len()]);
@@ -142,7 +142,7 @@ fn depth(outline: &[DVec2], p: DVec2) -> f64 {
         .fold(f64::INFINITY, crate::math::order::lesser)
 }
 
-/// Returns the expected points, and by how much each may be off; `None` if samples cannot decide.
+/// Computes the expected points from samples, and how much each may be off; `None` if samples cannot decide.
 fn sampled(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec2>> {
     let at = |k: usize| from + (to - from) * (k as f64 / SAMPLES as f64);
     let held: Vec<usize> = (0..=SAMPLES)
@@ -212,7 +212,7 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
     assert!(none > 300 && one > 100 && two > 300, "{counts:?}");
 }
 
-/// For pieces in one plane, the faces beyond the edges decide.
+/// Tests pieces in one plane, about which the faces beyond the edges decide.
 #[test]
 fn pieces_in_one_plane_have_no_points() {
     let [a, b] = [DVec3::ZERO, DVec3::ONE.with_z(0.0)].map(|p| {
