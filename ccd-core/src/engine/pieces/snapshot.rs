@@ -14,7 +14,7 @@ use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{RATE_F64, RESTING};
 use crate::shortcuts::Shortcut;
-use crate::shortcuts::sweeping_piece::{Member, SweepingPiece};
+use crate::shortcuts::turning_pieces::{Member, TurningPiece};
 use crate::tuning::{A_WHILE, AXIS_ROUNDS, RESTED, TURNED_SHARE, USUAL_STEPS};
 use glam::DVec3;
 use std::cell::Cell;
@@ -280,7 +280,7 @@ impl<'p> Snapshot<'p> {
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
-                let sweep = SweepingPiece::new(holder, other, normal, self.problem.rounding);
+                let sweep = TurningPiece::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.slack, self.horizon());
                 self.look(sweep.looks.get());
                 longest = greater(longest, free?);

@@ -54,7 +54,7 @@ impl<'p> Member<'p> {
 }
 
 /// A piece of one body in the frame of a plane that turns with the other body.
-pub(crate) struct SweepingPiece<'p> {
+pub(crate) struct TurningPiece<'p> {
     /// The plane's normal `n`, which turns at `ω`.
     normal: Spinning,
     unit: DVec3,
@@ -92,7 +92,7 @@ struct Turned {
     closing: DVec3,
 }
 
-impl<'p> SweepingPiece<'p> {
+impl<'p> TurningPiece<'p> {
     /// Creates the view of a piece that moves past a plane which turns with the body of `holder`. The `normal` points
     /// from that body to the piece, and `rounding` is the problem's.
     pub(crate) fn new(
@@ -113,7 +113,7 @@ impl<'p> SweepingPiece<'p> {
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
         let radius = other.piece.max_distance_from(reference);
-        SweepingPiece {
+        TurningPiece {
             normal: Spinning::new(path.axis, normal),
             unit: path.axis,
             omega: path.rate,

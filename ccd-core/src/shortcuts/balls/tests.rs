@@ -1,12 +1,12 @@
 //! Compares bodies proven apart with samples of their distance, and with exact balls.
 
-use super::out_of_reach;
+use super::keep_apart;
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::settings::Settings;
-use crate::shortcuts::roots::keep_apart;
+use crate::shortcuts::boxes;
 use crate::tests::scene::{
     Look, Passage, RngExt, body, direction, distance, magnitude, rng, rotation, soup, within,
 };
@@ -14,12 +14,12 @@ use glam::DVec3;
 
 #[test]
 fn bodies_told_apart_by_balls_keep_their_gap_at_all_sampled_times() {
-    told_apart_keep_their_gap(out_of_reach);
+    told_apart_keep_their_gap(keep_apart);
 }
 
 #[test]
 fn bodies_told_apart_by_boxes_keep_their_gap_at_all_sampled_times() {
-    told_apart_keep_their_gap(keep_apart);
+    told_apart_keep_their_gap(boxes::keep_apart);
 }
 
 fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
@@ -92,7 +92,7 @@ fn balls_are_told_apart_up_to_the_gap() {
                 1.0,
                 &config,
             );
-            assert_eq!(out_of_reach(&problem.unwrap()), expected);
+            assert_eq!(keep_apart(&problem.unwrap()), expected);
         }
     }
 }

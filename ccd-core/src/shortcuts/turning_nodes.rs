@@ -18,7 +18,7 @@ use crate::tuning::ATTACHED_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// A node of one body in the frame of a plane that turns with the other body.
-struct SweepingNode<L: Simd> {
+struct TurningNode<L: Simd> {
     /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus a bound for the
     /// points around it.
     rate: f32x8<L>,
@@ -45,7 +45,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             axis,
             second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
-            &SweepingNode {
+            &TurningNode {
                 rate: axis.n.dot(velocity) + other.reach(own - across),
                 distance: motion.split.arms(at) + other.radius(),
                 speed: self.other_speed,
@@ -68,7 +68,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             axis,
             second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
-            &SweepingNode {
+            &TurningNode {
                 rate: axis.n.dot(velocity) + children.reach(own - across),
                 distance: motion.other.arms(at) + children.radius(level),
                 speed: self.speed,
@@ -83,7 +83,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         axis: Axis<L>,
         across: f32x8<L>,
         spin: f32,
-        sweep: &SweepingNode<L>,
+        sweep: &TurningNode<L>,
     ) -> f32x8<L> {
         let motion = self.motion;
         let change = match motion.acceleration {

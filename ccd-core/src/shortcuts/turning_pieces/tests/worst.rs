@@ -3,7 +3,7 @@
 //! The reference takes the axis, the rounded frame and the offset between the bodies as given, and computes
 //! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
 
-use super::super::{SweepingPiece, Turned};
+use super::super::{Turned, TurningPiece};
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::vector::unit;
 use crate::motion::Motion;
@@ -26,7 +26,7 @@ fn motion(tape: &mut Tape) -> Option<Motion> {
 
 /// A point and a turning plane, as computed and exact.
 struct Setting<'s> {
-    sweep: &'s SweepingPiece<'s>,
+    sweep: &'s TurningPiece<'s>,
     motions: [Motion; 2],
     normal: DVec3,
     point: DVec3,
@@ -104,7 +104,7 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     if !own.side.path.turns() {
         return None;
     }
-    let sweep = SweepingPiece::new(&own, &other, normal, problem.rounding);
+    let sweep = TurningPiece::new(&own, &other, normal, problem.rounding);
     let setting = Setting {
         sweep: &sweep,
         motions,

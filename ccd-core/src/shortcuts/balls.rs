@@ -14,7 +14,7 @@ use glam::DVec3;
 ///
 /// # Guarantee
 /// The result is true only for bodies that are never in contact, up to the tolerance.
-pub(crate) fn out_of_reach(problem: &Problem<'_>) -> bool {
+pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
     // Written so that NaN is within reach.
     least_distance(problem) > problem.contact_distance()
 }
