@@ -2,6 +2,7 @@
 //!
 //! Public only because the command of `ccd-bench` shares it; no stable interface.
 
+mod answering;
 mod audit;
 mod bad_rows;
 mod causes;
