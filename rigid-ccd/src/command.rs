@@ -7,6 +7,7 @@ mod audit;
 mod bad_rows;
 mod causes;
 mod completions;
+mod counts;
 mod decompose;
 mod files;
 mod man;

@@ -1,10 +1,11 @@
 //! `ccd audit`: certifies motions that another checker has called free, and lists those that are not.
 
 use super::answering::{Answered, Answering};
+use super::counts::Counts;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::numbers::{not_negative, seconds, tolerance};
 use super::output::{CannotWrite, Output};
-use super::pair::{BodiesArgs, Loading, Pair};
+use super::pair::{BodiesArgs, Pair};
 use super::progress::Progress;
 use super::table::Table;
 use super::view::title;
@@ -89,11 +90,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     }
     let (mut rows, length) = open_courses(&args.motions, Question::FirstContact.grouping())?;
     let out = Output::claim_table(&args.out)?;
-    let pair = Pair::load(Loading {
-        bodies: &args.bodies,
-        method: SolverKind::default(),
-        quiet: args.quiet,
-    })?;
+    let pair = args.bodies.load(SolverKind::default(), args.quiet)?;
     let mut columns = names(&COLUMNS);
     columns.extend(args.pages.as_ref().map(|_| PAGE));
     let (timing, progress) = (timing(args), Progress::of_rows(length, args.quiet));
@@ -102,7 +99,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
         answering: Answering::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         out: Table::start(out, &columns)?,
         pages: pages(args, &pair)?,
-        counts: [0; Status::ALL.len()],
+        counts: Counts::default(),
     };
     audit.all(&mut rows)?;
     let exit = audit.finish()?;
@@ -157,8 +154,7 @@ struct Audit<'a> {
     answering: Answering<'a>,
     out: Table,
     pages: Option<Folder<'a>>,
-    /// The number of rows of each status, in the order of [`Status::ALL`].
-    counts: [usize; Status::ALL.len()],
+    counts: Counts,
 }
 
 impl Audit<'_> {
@@ -180,7 +176,7 @@ impl Audit<'_> {
 
     /// Counts a row, and writes it unless it is free.
     fn take(&mut self, Answered { course, row, .. }: &Answered) -> Result<()> {
-        self.counts[row.status as usize] += 1;
+        self.counts.add(row.status);
         if row.status == Status::Free {
             return Ok(());
         }
@@ -204,15 +200,12 @@ impl Audit<'_> {
         drop(self.answering.progress);
         self.out.finish()?;
         self.answering.bad_rows.close();
-        let count = |status: Status| self.counts[status as usize];
-        let (rows, free) = (self.counts.iter().sum::<usize>(), count(Status::Free));
+        let (rows, free) = (self.counts.rows(), self.counts.of(Status::Free));
         if !self.args.quiet {
-            let others = Status::ALL
-                .into_iter()
-                .filter(|&status| status != Status::Free);
+            let others = self.counts.some();
             let others: String = others
-                .filter(|&status| count(status) > 0)
-                .map(|status| format!(", {} {}", count(status), status.name()))
+                .filter(|(status, _)| *status != Status::Free)
+                .map(|(status, count)| format!(", {count} {}", status.name()))
                 .collect();
             complain(&format!(
                 "{free} of {rows} rows are free: that is proven{others}"
@@ -227,7 +220,7 @@ impl Audit<'_> {
                 ));
             }
         }
-        Ok(match (count(Status::Error), rows - free) {
+        Ok(match (self.counts.of(Status::Error), rows - free) {
             (0, 0) => Exit::AllAnswered,
             (0, _) => Exit::SomeNotFree,
             _ => Exit::SomeRowsBad,

@@ -17,10 +17,9 @@ use super::output::{Output, is_standard_output};
 use super::view::{Chosen, Drawn, title, write_rows};
 use super::{Exit, complain, complain_of};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
-use crate::command::pair::{Loading, Pair};
+use crate::command::pair::Pair;
 use crate::command::progress::Progress;
 use crate::picture::{Asked, Claim};
-use crate::table::results::Status;
 use anyhow::{Result, bail};
 use ccd_core::{Settings, StartPolicy};
 use journal::{CONTENT, Checkpoint, Recorded};
@@ -40,11 +39,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_rows(args, &rows)?;
     let places = Places::claim(args)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
-    let pair = Pair::load(Loading {
-        bodies: &args.bodies,
-        method: method(args),
-        quiet: args.quiet,
-    })?;
+    let pair = args.bodies.load(method(args), args.quiet)?;
     let (mut outputs, earlier) = match Opened::new(args, places, &recorded(args, &pair))? {
         Opened::New(outputs) => (outputs, None),
         Opened::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
@@ -75,7 +70,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     drop(run.answering.progress);
     run.answering.bad_rows.close();
     let shown = write_page(args, &pair, run.shown.zip(html))?;
-    if run.summary.rows() == 0 && earlier.is_none() {
+    if run.summary.counts.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
     }
     if !args.quiet {
@@ -290,13 +285,10 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
 
 /// Returns the exit of a run, and prints how many rows failed a check.
 fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
-    let counts = Status::ALL.into_iter().zip(end.counts);
-    let failed: usize = counts
-        .filter(|(status, _)| !status.is_proof())
-        .map(|(_, count)| count)
-        .sum();
+    let failed = end.counts.some().filter(|(status, _)| !status.is_proof());
+    let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
-        let rows: usize = end.counts.iter().sum();
+        let rows = end.counts.rows();
         complain(&format!(
             "--check: {failed} of {rows} rows are not proven free or kept"
         ));

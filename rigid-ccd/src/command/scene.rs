@@ -1,6 +1,5 @@
 //! `ccd scene`: lists which bodies of a scene touch, in order of time.
 
-use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::numbers::{not_negative, tolerance};
 use super::output::Output;
@@ -75,20 +74,14 @@ const LEFT_OUT: &[&str] = &["id", "iterations", "oracle_calls", "micros"];
 
 /// Runs `ccd scene`.
 pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
-    refuse_overwriting(("the scene", &args.scene), ("--out", &args.out))?;
-    let table = scene_table::read(
-        &args.scene,
-        SceneArgs {
-            meshes: &args.meshes,
-            pieces: &args.pieces,
-            duration: args.duration,
-        },
-    )?;
+    let how = SceneArgs {
+        meshes: &args.meshes,
+        pieces: &args.pieces,
+        duration: args.duration,
+    };
+    let table = scene_table::read(("the scene", &args.scene), how, &args.out)?;
     if !args.quiet {
         table.report(args.tolerance);
-    }
-    for (option, path) in table.files() {
-        refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let out = Output::claim_table(&args.out)?;
     let settings = Settings {

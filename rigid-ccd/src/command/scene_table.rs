@@ -1,5 +1,6 @@
 //! The table of a scene: one row for each body.
 
+use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
 use super::{complain, complain_of, print_line};
@@ -56,8 +57,14 @@ struct Row {
     motion: Motion,
 }
 
-/// Reads a table, and loads each distinct body once.
-pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
+/// Reads a table that `option` names, and loads each distinct body once. Refuses an output that would overwrite a file
+/// that is read.
+pub(super) fn read(
+    (option, path): (&str, &Path),
+    how: SceneArgs<'_>,
+    out: &Path,
+) -> Result<SceneTable> {
+    refuse_overwriting((option, path), ("--out", out))?;
     let name = || path.display().to_string();
     let duration = how.duration.unwrap_or(DURATION);
     let (rows, remarks) = read_rows(path, duration).with_context(name)?;
@@ -84,6 +91,9 @@ pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
             name,
             motion,
         });
+    }
+    for file in &scene.files {
+        refuse_overwriting(("a body of the scene", file), ("--out", out))?;
     }
     Ok(scene)
 }
@@ -159,12 +169,6 @@ impl SceneTable {
         self.bodies.insert(text.to_owned(), prepared.body);
         self.files.extend(source.files()?);
         Ok(())
-    }
-
-    /// Returns the files that were read, each with its option or body.
-    pub(super) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
-        let files = self.files.iter();
-        files.map(|path| ("a body of the scene", path.as_path()))
     }
 
     /// Prints the messages about the bodies, the duration and the remarks.

@@ -9,7 +9,7 @@ pub(super) use chosen::Chosen;
 
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::Output;
-use super::pair::{BodiesArgs, Loading, Pair};
+use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{Exit, complain, complain_of};
 use crate::batch::{Question, SolverKind, Timing, answer};
@@ -46,11 +46,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     }
     let (mut rows, _) = open_courses(motions, Question::FirstContact.grouping())?;
     let out = Output::claim(&args.out)?;
-    let pair = Pair::load(Loading {
-        bodies,
-        method: SolverKind::default(),
-        quiet: args.quiet,
-    })?;
+    let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = Chosen::new(args.ids.clone());
     let timing = timing(args);
@@ -199,13 +195,9 @@ fn timing(args: &ViewArgs) -> Timing {
 }
 
 fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
-    refuse_overwriting(("--scene", path), ("--out", &args.out))?;
-    let table = scene_table::read(path, how)?;
+    let table = scene_table::read(("--scene", path), how, &args.out)?;
     if !args.quiet {
         table.report(args.tolerance);
-    }
-    for (option, path) in table.files() {
-        refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let out = Output::claim(&args.out)?;
     let shown = table.shown();

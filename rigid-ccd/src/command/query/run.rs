@@ -41,7 +41,7 @@ impl Run<'_> {
                 rows: done.rows + count,
                 checksum: rows.checksum(),
                 bad: start.bad + self.answering.bad_rows.count(),
-                counts: self.summary.counts(),
+                counts: self.summary.counts,
                 ..done
             };
             self.outputs.save(done)?;
