@@ -125,8 +125,10 @@ fn ask(
         ),
     };
     let duration = pair.duration(duration)?;
-    warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    if question != Question::GreatestDistance {
+        warn(py, pair.remarks(duration), 1)?;
+        warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    }
     let bodies = pair.moving();
     let asked = Asked {
         question,
