@@ -3,8 +3,10 @@
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
+use rigid_ccd::batch::Question;
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::{Clearance, Hit, HitKind, Outcome};
+use rigid_ccd::table::results::Status;
+use rigid_ccd::{Hit, Outcome};
 
 /// Makes a `Contact`.
 pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, PyAny>> {
@@ -13,11 +15,7 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
     let separation = contact.map(|contact| contact.separation);
     CLASS.import(py, "rigid_ccd._answers", "Contact")?.call1((
         hit.time,
-        match hit.kind {
-            HitKind::Contact(_) => "contact",
-            HitKind::Touching(_) => "touching",
-            HitKind::Overlapping(_) => "overlapping",
-        },
+        Status::from(&hit.kind).name(),
         tuple(hit.witness_a()),
         tuple(hit.witness_b()),
         separation.map(|separation| tuple(separation.normal)),
@@ -34,11 +32,7 @@ pub(crate) fn distance<'py>(
     clearance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let nearest = found.nearest().map(|(_, contact)| contact.separation);
-    let compared = clearance.map(|required| match found.clearance(required) {
-        Clearance::Kept => "kept",
-        Clearance::Violated => "violated",
-        Clearance::Unverified => "unverified",
-    });
+    let compared = clearance.map(|_| Status::of(Question::Distance, found, clearance).name());
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     CLASS.import(py, "rigid_ccd._answers", "Distance")?.call1((
         found.lower(),

@@ -4,7 +4,7 @@ use crate::body::body_of;
 use crate::errors::{input as refuse, of_file};
 use crate::polled::polled;
 use crate::settings::{OF_CONTACTS, read};
-use crate::table::answering::{Micros, TableQuestion, each};
+use crate::table::answering::{TableQuestion, each};
 use crate::table::input::{self, Reader};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -37,7 +37,7 @@ pub(crate) fn write_pages(
         question: Question::FirstContact,
         settings: &settings,
         threads: Some(1),
-        micros: Micros::LeftOut,
+        has_micros: false,
     };
     let reader = input::open(motions)?;
     let work = |stop: &Arc<_>| write(asked, reader, &rows, &folder, stop);

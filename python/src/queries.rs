@@ -9,7 +9,10 @@ use crate::polled::polled;
 use crate::settings::{OF_APPROACHES, OF_CONTACTS, OF_DISTANCES, read};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::{Answer, Hit, InputError, Limit, Outcome, Settings, Solver, Unresolved};
+use rigid_ccd::batch::Question;
+use rigid_ccd::{
+    Answer, Hit, InputError, Limit, Moving, Outcome, Query, Settings, Solver, Unresolved,
+};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -27,80 +30,91 @@ thread_local! {
     static SOLVER: Cell<Solver> = Cell::new(Solver::new());
 }
 
-/// Runs a query, without the GIL. Ctrl-C ends it.
-///
-/// `farther` compares what two answers without a result prove: the larger number is the better bound.
-fn run(
-    py: Python<'_>,
-    settings: Settings,
-    farther: impl Fn(&Unresolved) -> f64,
-    question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
-) -> PyResult<Answer> {
-    let begin = Instant::now();
-    let deadline = settings.deadline;
-    let short = Settings {
-        budget: settings.budget.min(SHORT),
-        deadline: Some(deadline.map_or(MOMENT, |deadline| deadline.min(MOMENT))),
-        ..settings.clone()
-    };
-    let first = py.detach(|| {
-        catch_unwind(AssertUnwindSafe(|| {
-            let mut solver = SOLVER.take();
-            solver.set_settings(short);
-            let found = question(&mut solver);
-            SOLVER.set(solver);
-            found
-        }))
-    });
-    let first = first
-        .map_err(|panic| fault(panic.as_ref()))?
-        .map_err(input)?;
-    let until = match &first.outcome {
-        Outcome::Unresolved(known)
-            if known.limit == Limit::Budget && settings.budget > SHORT
-                || known.limit == Limit::Deadline
-                    && deadline.is_none_or(|deadline| deadline > MOMENT) =>
-        {
-            farther(known)
+/// Two moving bodies, and what is asked about them.
+struct Asked<'a> {
+    question: Question,
+    bodies: [Moving<'a>; 2],
+    duration: f64,
+}
+
+impl Asked<'_> {
+    fn answer(&self, solver: &mut Solver, settings: &Settings) -> Result<Answer, InputError> {
+        let [a, b] = self.bodies;
+        let query = Query::new(a, b, self.duration, settings)?;
+        solver.answer(self.question, &query)
+    }
+
+    /// Compares what two answers without a result prove: the larger number is the better bound.
+    fn proven(&self, known: &Unresolved) -> f64 {
+        match self.question {
+            Question::GreatestDistance => -known.upper,
+            question if question.is_for_a_distance() => known.lower,
+            _ => known.safe_until,
         }
-        _ => return Ok(first),
-    };
-    let left = deadline.map(|deadline| deadline.saturating_sub(begin.elapsed()));
-    let (found, seen) = polled(
-        py,
-        |stop| {
-            question(&mut Solver::new().with_settings(Settings {
+    }
+
+    /// Answers the question, without the GIL. Ctrl-C ends it.
+    fn run(&self, py: Python<'_>, settings: &Settings) -> PyResult<Answer> {
+        let begin = Instant::now();
+        let deadline = settings.deadline;
+        let short = Settings {
+            budget: settings.budget.min(SHORT),
+            deadline: Some(deadline.map_or(MOMENT, |deadline| deadline.min(MOMENT))),
+            ..settings.clone()
+        };
+        let first = py.detach(|| {
+            catch_unwind(AssertUnwindSafe(|| {
+                let mut solver = SOLVER.take();
+                let found = self.answer(&mut solver, &short);
+                SOLVER.set(solver);
+                found
+            }))
+        });
+        let first = first
+            .map_err(|panic| fault(panic.as_ref()))?
+            .map_err(input)?;
+        let until = match &first.outcome {
+            Outcome::Unresolved(known)
+                if known.limit == Limit::Budget && settings.budget > SHORT
+                    || known.limit == Limit::Deadline
+                        && deadline.is_none_or(|deadline| deadline > MOMENT) =>
+            {
+                self.proven(known)
+            }
+            _ => return Ok(first),
+        };
+        let left = deadline.map(|deadline| deadline.saturating_sub(begin.elapsed()));
+        let work = |stop: &Arc<_>| {
+            let settings = Settings {
                 deadline: left,
                 stop: Some(Arc::clone(stop)),
-                ..settings
-            }))
-        },
-        |_| Ok(()),
-    )?;
-    seen?;
-    let found = found.map_err(input)?;
-    // If little time is left, the first answer may be better.
-    Ok(match &found.outcome {
-        Outcome::Unresolved(known) if until > farther(known) => first,
-        _ => found,
-    })
+                ..settings.clone()
+            };
+            self.answer(&mut Solver::new(), &settings)
+        };
+        let (found, seen) = polled(py, work, |_| Ok(()))?;
+        seen?;
+        let found = found.map_err(input)?;
+        // If little time is left, the first answer may be better.
+        Ok(match &found.outcome {
+            Outcome::Unresolved(known) if until > self.proven(known) => first,
+            _ => found,
+        })
+    }
 }
 
-/// Runs a query about contacts.
-fn contact(
+/// A body and its motion, as arguments.
+type Given<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
+
+/// Asks a question about two moving bodies.
+fn ask(
     py: Python<'_>,
-    settings: Settings,
-    question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
-) -> PyResult<Option<Hit>> {
-    let answer = run(py, settings, |known| known.safe_until, question)?;
-    answer.hit().map_err(|known| unresolved(py, &known))
-}
-
-fn pair<'c>(
-    (a, motion_a): (&'c Bound<'_, PyAny>, Option<&'c Bound<'_, PyAny>>),
-    (b, motion_b): (&'c Bound<'_, PyAny>, Option<&'c Bound<'_, PyAny>>),
-) -> PyResult<Pair<'c>> {
-    Ok(Pair {
+    question: Question,
+    [(a, motion_a), (b, motion_b)]: [Given<'_, '_>; 2],
+    duration: Option<f64>,
+    settings: &Settings,
+) -> PyResult<Answer> {
+    let pair = Pair {
         a: (
             body_of(a, "a")?,
             GivenMovement::extract(motion_a, "motion_a")?,
@@ -109,7 +123,36 @@ fn pair<'c>(
             body_of(b, "b")?,
             GivenMovement::extract(motion_b, "motion_b")?,
         ),
-    })
+    };
+    let duration = pair.duration(duration)?;
+    if question != Question::GreatestDistance {
+        warn(py, pair.remarks(duration), 1)?;
+        warn_of_tolerance([a, b], settings.tolerance, 1)?;
+    }
+    let bodies = pair.moving();
+    let asked = Asked {
+        question,
+        bodies,
+        duration,
+    };
+    asked.run(py, settings)
+}
+
+/// Returns the contact of an answer.
+fn hit(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
+    answer.hit().map_err(|known| unresolved(py, &known))
+}
+
+/// Returns the distance of an answer.
+fn measured<'py>(
+    py: Python<'py>,
+    answer: &Answer,
+    settings: &Settings,
+) -> PyResult<Bound<'py, PyAny>> {
+    match &answer.outcome {
+        Outcome::Unresolved(known) => Err(unresolved_distance(py, known)),
+        outcome => answers::distance(py, outcome, settings.clearance),
+    }
 }
 
 /// Finds the first contact of two moving bodies, from time 0 to `duration`; None if they stay apart.
@@ -148,12 +191,9 @@ pub(crate) fn first_contact<'py>(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let settings = read(settings, OF_CONTACTS)?;
-    let pair = pair((a, motion_a), (b, motion_b))?;
-    let duration = pair.duration(duration)?;
-    warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], settings.tolerance, 1)?;
-    let [a, b] = pair.moving();
-    let hit = contact(py, settings, |solver| solver.first_contact(a, b, duration))?;
+    let bodies = [(a, motion_a), (b, motion_b)];
+    let answer = ask(py, Question::FirstContact, bodies, duration, &settings)?;
+    let hit = hit(py, answer)?;
     hit.map(|hit| answers::contact(py, &hit)).transpose()
 }
 
@@ -173,13 +213,9 @@ pub(crate) fn is_free(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
     let settings = read(settings, OF_CONTACTS)?;
-    let pair = pair((a, motion_a), (b, motion_b))?;
-    let duration = pair.duration(duration)?;
-    warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], settings.tolerance, 1)?;
-    let [a, b] = pair.moving();
-    let hit = contact(py, settings, |solver| solver.any_contact(a, b, duration))?;
-    Ok(hit.is_none())
+    let bodies = [(a, motion_a), (b, motion_b)];
+    let answer = ask(py, Question::IsFree, bodies, duration, &settings)?;
+    Ok(hit(py, answer)?.is_none())
 }
 
 /// Brackets the least distance of two moving bodies, to within the tolerance.
@@ -208,17 +244,9 @@ pub(crate) fn closest_approach<'py>(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let settings = read(settings, OF_APPROACHES)?;
-    let pair = pair((a, motion_a), (b, motion_b))?;
-    let duration = pair.duration(duration)?;
-    warn(py, pair.remarks(duration), 1)?;
-    warn_of_tolerance([a, b], settings.tolerance, 1)?;
-    let [a, b] = pair.moving();
-    measure(
-        py,
-        settings,
-        |known| known.lower,
-        |solver| solver.closest_approach(a, b, duration),
-    )
+    let bodies = [(a, motion_a), (b, motion_b)];
+    let answer = ask(py, Question::ClosestApproach, bodies, duration, &settings)?;
+    measured(py, &answer, &settings)
 }
 
 /// Brackets the greatest distance over time of two moving bodies, to within the tolerance.
@@ -242,15 +270,9 @@ pub(crate) fn greatest_distance<'py>(
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let settings = read(settings, OF_DISTANCES)?;
-    let pair = pair((a, motion_a), (b, motion_b))?;
-    let duration = pair.duration(duration)?;
-    let [a, b] = pair.moving();
-    measure(
-        py,
-        settings,
-        |known| -known.upper,
-        |solver| solver.greatest_distance(a, b, duration),
-    )
+    let bodies = [(a, motion_a), (b, motion_b)];
+    let answer = ask(py, Question::GreatestDistance, bodies, duration, &settings)?;
+    measured(py, &answer, &settings)
 }
 
 /// Brackets the distance of two bodies at rest, each at a pose as in `Motion.between`; None is the world's origin.
@@ -277,24 +299,10 @@ pub(crate) fn distance<'py>(
     let settings = read(settings, OF_DISTANCES)?;
     warn_of_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (body_of(a, "a")?, body_of(b, "b")?);
-    measure(
-        py,
-        settings,
-        |known| known.lower,
-        |solver| solver.distance((a, pose_a), (b, pose_b)),
-    )
-}
-
-/// Runs a query about a distance.
-fn measure<'py>(
-    py: Python<'py>,
-    settings: Settings,
-    farther: impl Fn(&Unresolved) -> f64,
-    question: impl Fn(&mut Solver) -> Result<Answer, InputError> + Send + Sync,
-) -> PyResult<Bound<'py, PyAny>> {
-    let clearance = settings.clearance;
-    match run(py, settings, farther, question)?.outcome {
-        Outcome::Unresolved(known) => Err(unresolved_distance(py, &known)),
-        outcome => answers::distance(py, &outcome, clearance),
-    }
+    let asked = Asked {
+        question: Question::Distance,
+        bodies: [(a, pose_a).into(), (b, pose_b).into()],
+        duration: 0.0,
+    };
+    measured(py, &asked.run(py, &settings)?, &settings)
 }

@@ -16,27 +16,8 @@ pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
 /// The settings of a query about the least distance.
 pub(crate) const OF_APPROACHES: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
 
-/// The settings of a table query about contacts, including those in its signature.
-pub(crate) const CONTACTS_OF_TABLES: &[&str] = &[
-    "tolerance",
-    "margin",
-    "budget",
-    "deadline",
-    "threads",
-    "progress",
-    "micros",
-];
-
-/// The settings of a table query about distances, including those in its signature.
-pub(crate) const DISTANCES_OF_TABLES: &[&str] = &[
-    "clearance",
-    "tolerance",
-    "budget",
-    "deadline",
-    "threads",
-    "progress",
-    "micros",
-];
+/// The further settings of a table query, which are in its signature.
+pub(crate) const OF_TABLES: &[&str] = &["threads", "progress", "micros"];
 
 /// The maximum number of threads, as in the command.
 const MOST_THREADS: u16 = 1024;

@@ -3,8 +3,8 @@
 use crate::body::{body_of, warn_of_tolerance};
 use crate::errors::{input as refuse, interrupted, of_table, warn, with_attribute, wrong_type};
 use crate::polled::polled;
-use crate::settings::{self, CONTACTS_OF_TABLES, DISTANCES_OF_TABLES};
-use crate::table::answering::{Answered, Micros, TableQuestion, answer};
+use crate::settings::{self, OF_APPROACHES, OF_CONTACTS, OF_TABLES};
+use crate::table::answering::{Answered, TableQuestion, answer};
 use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -33,7 +33,7 @@ pub(crate) fn answer_table(
     let question = self::question(question)?;
     let settings = Settings {
         clearance,
-        ..settings::read(settings, known(question))?
+        ..settings::read(settings, &known(question))?
     };
     let asked = TableQuestion {
         bodies: Bodies {
@@ -43,11 +43,7 @@ pub(crate) fn answer_table(
         settings: &settings,
         question,
         threads: settings::threads(threads)?,
-        micros: if micros {
-            Micros::Measured
-        } else {
-            Micros::LeftOut
-        },
+        has_micros: micros,
     };
     // One query checks the settings, whose error each row would only repeat.
     check(asked)?;
@@ -108,12 +104,13 @@ fn question(name: &str) -> PyResult<Question> {
     })
 }
 
-fn known(question: Question) -> &'static [&'static str] {
-    if question.is_for_a_distance() {
-        DISTANCES_OF_TABLES
+fn known(question: Question) -> Vec<&'static str> {
+    let of_query = if question.is_for_a_distance() {
+        OF_APPROACHES
     } else {
-        CONTACTS_OF_TABLES
-    }
+        OF_CONTACTS
+    };
+    [of_query, OF_TABLES].concat()
 }
 
 /// Refuses settings that are invalid for every query.

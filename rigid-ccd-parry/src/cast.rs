@@ -7,7 +7,7 @@ use crate::leaving::parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
 use crate::tolerance::{BEYOND, RELATIVE, SHARE_OF_SIZE};
-use crate::{CastError, Options, Prepared};
+use crate::{CastError, Options, Prepared, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
 use ccd_core::{InputError, Motion, Settings, StartPolicy, Stray, Stretch, Trajectory};
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// A cast of two shapes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cast<'a> {
-    pub(crate) operands: [Operand<'a>; 2],
+    pub(crate) shapes: [&'a Ready; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) interval: Interval,
     /// The distance at which they are in contact.
@@ -28,14 +28,7 @@ pub(crate) struct Cast<'a> {
     pub(crate) contact: f64,
 }
 
-/// A shape prepared for one cast.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Operand<'a> {
-    Body(&'a Prepared),
-    HalfSpace(HalfSpace),
-}
-
-/// A shape prepared for many casts.
+/// A shape prepared for casts.
 #[derive(Clone, Debug)]
 pub(crate) enum Ready {
     Body(Arc<Prepared>),
@@ -43,11 +36,14 @@ pub(crate) enum Ready {
 }
 
 impl Ready {
-    pub(crate) fn operand(&self) -> Operand<'_> {
-        match self {
-            Ready::Body(body) => Operand::Body(body),
-            Ready::HalfSpace(plane) => Operand::HalfSpace(*plane),
-        }
+    /// Prepares both shapes of a cast; an error names its shape.
+    pub(crate) fn both<S>(
+        [g1, g2]: [S; 2],
+        mut ready: impl FnMut(S) -> Result<Self, ShapeError>,
+    ) -> Result<[Self; 2], CastError> {
+        let mut named =
+            |which, shape| ready(shape).map_err(|error| CastError::Shape { which, error });
+        Ok([named(1, g1)?, named(2, g2)?])
     }
 }
 
@@ -71,15 +67,15 @@ impl Cast<'_> {
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
         let started = self.started()?;
-        match self.operands {
-            [Operand::Body(a), Operand::Body(b)] => then(&self.of_bodies([a, b], started)?),
-            [Operand::HalfSpace(plane), Operand::Body(body)] => {
-                self.on_plane(&plane, 0, body, started, then)
+        match self.shapes {
+            [Ready::Body(a), Ready::Body(b)] => then(&self.of_bodies([a, b], started)?),
+            [Ready::HalfSpace(plane), Ready::Body(body)] => {
+                self.on_plane(plane, 0, body, started, then)
             }
-            [Operand::Body(body), Operand::HalfSpace(plane)] => {
-                self.on_plane(&plane, 1, body, started, then)
+            [Ready::Body(body), Ready::HalfSpace(plane)] => {
+                self.on_plane(plane, 1, body, started, then)
             }
-            [Operand::HalfSpace(_), Operand::HalfSpace(_)] => Err(CastError::HalfSpaces),
+            [Ready::HalfSpace(_), Ready::HalfSpace(_)] => Err(CastError::HalfSpaces),
         }
     }
 

@@ -15,7 +15,7 @@ pub use question::Question;
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub(crate) use timed::{Timed, Timing, time};
+pub(crate) use timed::{Timed, Timing, answer};
 
 use crate::ParallelSolver;
 use crate::table::courses::Course;
@@ -47,10 +47,8 @@ impl<'q> Bodies<'q> {
             let [pose_a, pose_b] = course.poses(0.0)?;
             return Query::new((a, pose_a), (b, pose_b), 0.0, settings);
         }
-        match course {
-            Course::Motions(row) => Query::new((a, row.a), (b, row.b), row.duration, settings),
-            Course::Path(path) => Query::new((a, &path.a), (b, &path.b), path.duration, settings),
-        }
+        let [course_a, course_b] = course.trajectories();
+        Query::new((a, course_a), (b, course_b), course.duration(), settings)
     }
 }
 

@@ -2,10 +2,12 @@
 //!
 //! Public only because the command of `ccd-bench` shares it; no stable interface.
 
+mod answering;
 mod audit;
 mod bad_rows;
 mod causes;
 mod completions;
+mod counts;
 mod decompose;
 mod files;
 mod man;

@@ -1,6 +1,7 @@
 //! Many moving bodies: which of them touch, and in which order.
 
 mod clock;
+mod due;
 mod event;
 mod goal;
 mod groups;

@@ -25,14 +25,8 @@ pub(crate) struct TableQuestion<'a> {
     pub(crate) settings: &'a Settings,
     /// The number of threads; `None` is one for each core.
     pub(crate) threads: Option<u16>,
-    pub(crate) micros: Micros,
-}
-
-/// Whether the results have the time of each query.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Micros {
-    Measured,
-    LeftOut,
+    /// Whether the results have the time of each query.
+    pub(crate) has_micros: bool,
 }
 
 /// The results of a table's rows up to the first one without an answer, and the error after them.
@@ -62,7 +56,7 @@ pub(crate) fn answer(
         ..asked
     };
     let mut solver = on_threads(asked.threads, Solver::new);
-    let (size, source) = (PieceSize::new(solver.threads()), (reader, columns.form()));
+    let (size, source) = (PieceSize::new(solver.threads()), (reader, &columns));
     let mut pieces = Pieces::new(source, asked.question, Names::LeftOut, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
@@ -123,7 +117,7 @@ pub(crate) fn each(
     mut take: impl FnMut(&Course, &ResultRow),
 ) -> Result<(), TableError> {
     let columns = check(&reader)?;
-    let (size, source) = (PieceSize::new(1), (reader, columns.form()));
+    let (size, source) = (PieceSize::new(1), (reader, &columns));
     let mut pieces = Pieces::new(source, asked.question, Names::Read, &size, stop)?;
     let settings = stopped_by(asked, stop);
     let asked = TableQuestion {
@@ -202,7 +196,7 @@ fn result(asked: TableQuestion<'_>, answered: &RowAnswer<'_>) -> ResultRow {
     let compared = Compared::of(asked.bodies, asked.settings.clearance);
     match &timed.answer {
         Ok(answer) => ResultRow {
-            micros: (asked.micros == Micros::Measured).then_some(timed.micros),
+            micros: asked.has_micros.then_some(timed.micros),
             ..ResultRow::new(
                 timed.course,
                 (asked.question, answer),

@@ -2,11 +2,7 @@
 
 use crate::errors::{caused, input as refuse};
 use arrow_array::cast::AsArray;
-use arrow_array::types::{
-    Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
-    UInt32Type, UInt64Type,
-};
-use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array};
+use arrow_array::{Array, ArrayRef, Float64Array};
 use arrow_cast::cast;
 use arrow_schema::DataType;
 use pyo3::exceptions::PyMemoryError;
@@ -22,15 +18,8 @@ pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Boun
         DataType::Float64 => floats(py, column.as_primitive()),
         DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => texts(py, column),
         _ if column.null_count() > 0 => with_empty_cells(py, column),
-        DataType::Float32 => view::<Float32Type>(py, column, "float32"),
-        DataType::Int8 => view::<Int8Type>(py, column, "int8"),
-        DataType::Int16 => view::<Int16Type>(py, column, "int16"),
-        DataType::Int32 => view::<Int32Type>(py, column, "int32"),
-        DataType::Int64 => view::<Int64Type>(py, column, "int64"),
-        DataType::UInt8 => view::<UInt8Type>(py, column, "uint8"),
-        DataType::UInt16 => view::<UInt16Type>(py, column, "uint16"),
-        DataType::UInt32 => view::<UInt32Type>(py, column, "uint32"),
-        DataType::UInt64 => view::<UInt64Type>(py, column, "uint64"),
+        DataType::Float32 => view(py, column),
+        kind if kind.is_integer() => view(py, column),
         _ => objects(py, column),
     }
 }
@@ -40,7 +29,7 @@ fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, P
     let is_nan = |row| numbers.is_valid(row) || numbers.value(row).is_nan();
     if numbers.null_count() == 0 || rows.all(is_nan) {
         let column: ArrayRef = std::sync::Arc::new(numbers.clone());
-        return view::<Float64Type>(py, &column, "float64");
+        return view(py, &column);
     }
     let values: Vec<f64> = numbers
         .iter()
@@ -49,19 +38,16 @@ fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, P
     Ok(numpy::PyArray1::from_vec(py, values).into_any())
 }
 
-/// Returns a view of the values, ignoring validity.
-fn view<'py, T: ArrowPrimitiveType>(
-    py: Python<'py>,
-    column: &ArrayRef,
-    dtype: &str,
-) -> PyResult<Bound<'py, PyAny>> {
+/// Returns a view of a column of numbers, ignoring validity.
+fn view<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     let numpy = py.import("numpy")?;
-    let buffer = column.as_primitive::<T>().values().inner();
+    // Arrow's names of these types are NumPy's, but for the capital letters.
+    let dtype = column.data_type().to_string().to_lowercase();
     match column.len() {
         // NumPy accepts no empty buffer.
         0 => numpy.call_method1("empty", (0, dtype)),
         rows => {
-            let buffer = PyArrowBuffer::new(buffer.clone());
+            let buffer = PyArrowBuffer::new(column.to_data().buffers()[0].clone());
             numpy.call_method1("frombuffer", (buffer, dtype, rows))
         }
     }

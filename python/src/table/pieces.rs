@@ -5,7 +5,7 @@ use super::input::Reader;
 use arrow_array::ArrayRef;
 use rigid_ccd::Remark;
 use rigid_ccd::batch::Question;
-use rigid_ccd::table::columns::{Columns, Form};
+use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow, Courses};
 use rigid_ccd::table::motions::{self, RowError, TableError};
 use std::ops::Range;
@@ -90,23 +90,22 @@ pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
 impl<'p> Pieces<'p> {
     /// Starts to read a table with checked columns. One of paths is read to its end, or until the flag is set.
     pub(crate) fn new(
-        (reader, form): (Reader, Form),
+        (reader, columns): (Reader, &Columns),
         question: Question,
         names: Names,
         size: &'p PieceSize,
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
-        let source = match form {
-            Form::Motions => Source::Motions {
+        let source = if columns.are_of_paths() {
+            let table = whole(reader, stop);
+            let table = table.map_err(|error| TableError::Unreadable(error.to_string()))?;
+            let rows = Rows::new(&table)?;
+            let batch = rows.batch();
+            Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
+        } else {
+            Source::Motions {
                 batches: Batches::new(reader, names),
                 rest: None,
-            },
-            Form::Paths => {
-                let table = whole(reader, stop);
-                let table = table.map_err(|error| TableError::Unreadable(error.to_string()))?;
-                let rows = Rows::new(&table)?;
-                let batch = rows.batch();
-                Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
             }
         };
         Ok(Pieces {

@@ -6,7 +6,7 @@ use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
 use rigid_ccd::batch::Question;
-use rigid_ccd::table::results::{COLUMNS, LAST_TIME, ResultRow};
+use rigid_ccd::table::results::{self, Cells, Column, ResultRow};
 use std::sync::Arc;
 
 /// Returns the columns of the results of a question, as in the command, for a given column of ids.
@@ -43,63 +43,38 @@ pub(crate) fn joined(
 }
 
 /// Converts rows to columns.
-///
-/// The values of empty cells are NaN, so that the buffers can be read without their validity.
 pub(crate) fn batch(
     question: Question,
     ids: ArrayRef,
     rows: &[ResultRow],
 ) -> Result<RecordBatch, ArrowError> {
-    let number = |of: fn(&ResultRow) -> Option<f64>| numbers(rows.iter().map(of).collect());
-    let part = |of: fn(&ResultRow) -> &[Option<f64>; 3], k: usize| {
-        numbers(rows.iter().map(|row| of(row)[k]).collect())
-    };
-    let count = |of: fn(&ResultRow) -> Option<u64>| -> ArrayRef {
-        // Counts stay below the budget of 2^63.
-        let counts = rows.iter().map(|row| of(row).map(|count| count as i64));
-        Arc::new(Int64Array::from_iter(counts))
-    };
-    let text = |of: fn(&ResultRow) -> Option<&str>| -> ArrayRef {
-        Arc::new(StringArray::from_iter(rows.iter().map(of)))
-    };
-    let mut columns = vec![
-        ids,
-        text(|row| Some(row.status.name())),
-        number(|row| row.time),
-        number(|row| row.distance_lower),
-        number(|row| row.distance_upper),
-    ];
-    for of in [
-        (|row| &row.normal) as fn(&ResultRow) -> &[Option<f64>; 3],
-        |row| &row.witness_a,
-        |row| &row.witness_b,
-    ] {
-        columns.extend((0..3).map(|k| part(of, k)));
-    }
-    columns.extend([
-        text(|row| row.feature_a.as_deref()),
-        text(|row| row.feature_b.as_deref()),
-        count(|row| row.iterations),
-        count(|row| row.oracle_calls),
-        number(|row| row.micros),
-        text(|row| row.reason.as_deref()),
-    ]);
-    let mut names = COLUMNS.to_vec();
-    if question == Question::ContactInterval {
-        names.push(LAST_TIME);
-        columns.push(number(|row| row.last_time));
-    }
-    let fields = names.iter().zip(&columns);
-    let fields = fields.map(|(&name, column)| Field::new(name, column.data_type().clone(), true));
+    let columns = results::columns(question);
+    let others = columns[1..]
+        .iter()
+        .map(|Column(_, cells)| array(*cells, rows));
+    let arrays: Vec<ArrayRef> = std::iter::once(ids).chain(others).collect();
+    let fields = columns.iter().zip(&arrays);
+    let fields =
+        fields.map(|(Column(name, _), array)| Field::new(*name, array.data_type().clone(), true));
     let schema = Schema::new(fields.collect::<Vec<_>>());
-    RecordBatch::try_new(Arc::new(schema), columns)
+    RecordBatch::try_new(Arc::new(schema), arrays)
 }
 
-fn numbers(cells: Vec<Option<f64>>) -> ArrayRef {
-    let nulls: NullBuffer = cells.iter().map(Option::is_some).collect();
-    let values: Vec<f64> = cells
-        .into_iter()
-        .map(|cell| cell.unwrap_or(f64::NAN))
-        .collect();
-    Arc::new(Float64Array::new(values.into(), Some(nulls)))
+/// Returns the cells of rows in a column.
+fn array(cells: Cells, rows: &[ResultRow]) -> ArrayRef {
+    match cells {
+        Cells::Text(of) => Arc::new(StringArray::from_iter(rows.iter().map(of))),
+        Cells::Number(of) => {
+            let nulls: NullBuffer = rows.iter().map(|row| of(row).is_some()).collect();
+            // With NaN in empty cells, the values can be read without their validity.
+            let values = rows.iter().map(|row| of(row).unwrap_or(f64::NAN));
+            let values = values.collect::<Vec<f64>>();
+            Arc::new(Float64Array::new(values.into(), Some(nulls)))
+        }
+        Cells::Count(of) => {
+            // Counts stay below the budget of 2^63.
+            let counts = rows.iter().map(|row| of(row).map(|count| count as i64));
+            Arc::new(Int64Array::from_iter(counts))
+        }
+    }
 }

@@ -83,7 +83,7 @@ impl Question {
 
     fn cast<'a>(&self, interval: Interval, shapes: [&'a Ready; 2], options: &Options) -> Cast<'a> {
         Cast {
-            operands: shapes.map(Ready::operand),
+            shapes,
             motions: self.motions,
             interval,
             target: self.target,

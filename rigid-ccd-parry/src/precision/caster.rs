@@ -135,7 +135,7 @@ impl Caster {
     ) -> Result<Recording, CastError> {
         let times = [start_time, end_time];
         let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
-        let [a, b] = self.both([g1, g2])?;
+        let [a, b] = Ready::both([g1, g2], |shape| self.ready(shape))?;
         question.recorded([&a, &b], &self.options)
     }
 
@@ -183,16 +183,8 @@ impl Caster {
         question: &Question,
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = self.both(shapes)?;
+        let [a, b] = Ready::both(shapes, |shape| self.ready(shape))?;
         question.answer([&a, &b], &self.options, &mut self.solver)
-    }
-
-    fn both(&mut self, [g1, g2]: [&SharedShape; 2]) -> Result<[Ready; 2], CastError> {
-        let mut ready = |which, shape| {
-            let named = |error| CastError::Shape { which, error };
-            self.ready(shape).map_err(named)
-        };
-        Ok([ready(1, g1)?, ready(2, g2)?])
     }
 }
 

@@ -144,14 +144,10 @@ impl ThreadMemory {
     fn answer(
         &mut self,
         question: &Question,
-        [g1, g2]: [&dyn Shape; 2],
+        shapes: [&dyn Shape; 2],
         options: &Options,
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let mut ready = |which, shape| {
-            let named = |error| CastError::Shape { which, error };
-            self.ready(shape, options).map_err(named)
-        };
-        let (a, b) = (ready(1, g1)?, ready(2, g2)?);
+        let [a, b] = Ready::both(shapes, |shape| self.ready(shape, options))?;
         question.answer([&a, &b], options, &mut self.solver)
     }
 

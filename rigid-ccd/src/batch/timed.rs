@@ -3,6 +3,7 @@
 use super::{Bodies, Question, Solve, SolverKind, median};
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
+use crate::table::results::{Compared, ResultRow};
 use ccd_core::{Answer, Settings};
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -40,6 +41,24 @@ pub(crate) struct Timed {
     pub(crate) micros: f64,
 }
 
+/// Answers a row. Without an answer, the row of results has the reason.
+pub(crate) fn answer(
+    bodies: Bodies<'_>,
+    course: &Course,
+    timing: &Timing,
+    solver: &mut dyn Solve,
+) -> (ResultRow, Option<Timed>) {
+    match time(bodies, course, timing, solver) {
+        Ok(timed) => {
+            let asked = (timing.question, &timed.answer);
+            let compared = Compared::of(bodies, timing.settings.clearance);
+            let row = ResultRow::new(course, asked, timed.micros, compared);
+            (row, Some(timed))
+        }
+        Err(problem) => (ResultRow::error(course.id(), &problem), None),
+    }
+}
+
 /// Answers a query `repeat` times and returns the median time.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
@@ -47,7 +66,7 @@ pub(crate) struct Timed {
 ///
 /// # Errors
 /// The query is not valid, or the method does not answer the question.
-pub(crate) fn time(
+fn time(
     bodies: Bodies<'_>,
     course: &Course,
     timing: &Timing,

@@ -1,27 +1,25 @@
 //! `ccd audit`: certifies motions that another checker has called free, and lists those that are not.
 
-use super::bad_rows::BadRows;
+use super::answering::{Answered, Answering};
+use super::counts::Counts;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::numbers::{not_negative, seconds, tolerance};
 use super::output::{CannotWrite, Output};
-use super::pair::{BodiesArgs, Loading, Pair};
+use super::pair::{BodiesArgs, Pair};
 use super::progress::Progress;
 use super::table::Table;
-use super::view::{answered, title};
+use super::view::title;
 use super::{Exit, complain, complain_of};
-use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Question, Solve, SolverKind, Timing, on_threads};
+use crate::batch::{Question, SolverKind, Timing};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
-use crate::table::courses::CourseRow;
-use crate::table::motions::TableError;
-use crate::table::results::{self, Extent, ResultRow, Status};
+use crate::table::results::{COLUMNS, Line, Status, names};
 use anyhow::{Context, Result};
 use ccd_core::Settings;
 use ccd_core::limits::DEFAULT_BUDGET;
 use ccd_file::check_folder;
 use clap::Args;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Certify motions that another checker has called free, and list those that are not
 #[derive(Clone, Debug, Args)]
@@ -92,28 +90,16 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     }
     let (mut rows, length) = open_courses(&args.motions, Question::FirstContact.grouping())?;
     let out = Output::claim_table(&args.out)?;
-    let pair = Pair::load(Loading {
-        bodies: &args.bodies,
-        method: SolverKind::default(),
-        quiet: args.quiet,
-    })?;
-    let mut columns = results::columns(Extent::default());
+    let pair = args.bodies.load(SolverKind::default(), args.quiet)?;
+    let mut columns = names(&COLUMNS);
     columns.extend(args.pages.as_ref().map(|_| PAGE));
-    let timing = timing(args);
-    let solver = on_threads(args.threads, || {
-        timing.method.solver(timing.settings.instructions)
-    });
+    let (timing, progress) = (timing(args), Progress::of_rows(length, args.quiet));
     let mut audit = Audit {
         args,
-        bodies: pair.bodies(),
-        batch: BatchSize::new(solver.threads()),
-        timing,
-        solver,
+        answering: Answering::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         out: Table::start(out, &columns)?,
         pages: pages(args, &pair)?,
-        counts: [0; Status::ALL.len()],
-        bad_rows: BadRows::new(input_name(&args.motions)),
-        progress: Progress::of_rows(length, args.quiet),
+        counts: Counts::default(),
     };
     audit.all(&mut rows)?;
     let exit = audit.finish()?;
@@ -165,89 +151,61 @@ fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, Can
 
 struct Audit<'a> {
     args: &'a AuditArgs,
-    bodies: Bodies<'a>,
-    timing: Timing,
-    solver: ParallelSolver<Box<dyn Solve>>,
-    batch: BatchSize,
+    answering: Answering<'a>,
     out: Table,
     pages: Option<Folder<'a>>,
-    /// The number of rows of each status, in the order of [`Status::ALL`].
-    counts: [usize; Status::ALL.len()],
-    bad_rows: BadRows,
-    progress: Progress,
+    counts: Counts,
 }
 
 impl Audit<'_> {
     fn all(&mut self, rows: &mut Rows) -> Result<()> {
         loop {
-            let batch: Vec<CourseRow> = rows
-                .take(self.batch.items())
-                .collect::<Result<_, TableError>>()
-                .with_context(|| input_name(&self.args.motions))?;
-            if batch.is_empty() {
+            let (batch, broken) = self.answering.next(rows, usize::MAX);
+            if batch.is_empty() && broken.is_none() {
                 return Ok(());
             }
-            self.progress.answering(batch.len(), rows.bytes());
-            let (bodies, timing, progress) = (self.bodies, &self.timing, &self.progress);
-            let start = Instant::now();
-            let answers = self.solver.map(&batch, |solver, row| {
-                let answer = match row {
-                    Ok((_, course)) => answered(bodies, course, timing, solver.as_mut()),
-                    Err(error) => ResultRow::error(&error.id, &error.problem),
-                };
-                progress.step();
-                answer
-            });
-            self.batch.adapt(start.elapsed());
-            for (row, answer) in batch.iter().zip(&answers) {
-                self.take(row, answer)?;
+            for answered in &batch {
+                self.take(answered)?;
             }
             self.out.flush()?;
+            if let Some(error) = broken {
+                return Err(error).with_context(|| input_name(&self.args.motions));
+            }
         }
     }
 
     /// Counts a row, and writes it unless it is free.
-    fn take(&mut self, row: &CourseRow, answer: &ResultRow) -> Result<()> {
-        self.counts[answer.status as usize] += 1;
-        if answer.status == Status::Free {
+    fn take(&mut self, Answered { course, row, .. }: &Answered) -> Result<()> {
+        self.counts.add(row.status);
+        if row.status == Status::Free {
             return Ok(());
         }
-        let position = match row {
-            Ok((position, _)) => *position,
-            Err(error) => error.position,
-        };
-        if let (Status::Error, Some(reason)) = (answer.status, &answer.reason) {
-            self.bad_rows.report(position, reason, &self.progress);
-        }
-        let page = match (&mut self.pages, row) {
-            (Some((pages, _)), Ok((_, course)))
-                if answer.status != Status::Error && pages.len() < self.args.most_pages =>
+        let page = match (&mut self.pages, course) {
+            (Some((pages, _)), Some(course))
+                if row.status != Status::Error && pages.len() < self.args.most_pages =>
             {
-                page(pages.write(course, answer))?
+                page(pages.write(course, row))?
             }
             _ => None,
         };
-        let page = self.args.pages.as_ref().map(|_| page);
-        self.out.write(|writer| match page {
-            Some(page) => writer.serialize((answer, page)),
-            None => results::write(writer, Extent::default(), answer),
-        })?;
+        let line = Line(&COLUMNS, row);
+        match &self.args.pages {
+            Some(_) => self.out.row(&(line, page))?,
+            None => self.out.row(&line)?,
+        }
         Ok(())
     }
 
     fn finish(self) -> Result<Exit> {
-        drop(self.progress);
+        drop(self.answering.progress);
         self.out.finish()?;
-        self.bad_rows.close();
-        let count = |status: Status| self.counts[status as usize];
-        let (rows, free) = (self.counts.iter().sum::<usize>(), count(Status::Free));
+        self.answering.bad_rows.close();
+        let (rows, free) = (self.counts.rows(), self.counts.of(Status::Free));
         if !self.args.quiet {
-            let others = Status::ALL
-                .into_iter()
-                .filter(|&status| status != Status::Free);
+            let others = self.counts.some();
             let others: String = others
-                .filter(|&status| count(status) > 0)
-                .map(|status| format!(", {} {}", count(status), status.name()))
+                .filter(|(status, _)| *status != Status::Free)
+                .map(|(status, count)| format!(", {count} {}", status.name()))
                 .collect();
             complain(&format!(
                 "{free} of {rows} rows are free: that is proven{others}"
@@ -262,7 +220,7 @@ impl Audit<'_> {
                 ));
             }
         }
-        Ok(match (count(Status::Error), rows - free) {
+        Ok(match (self.counts.of(Status::Error), rows - free) {
             (0, 0) => Exit::AllAnswered,
             (0, _) => Exit::SomeNotFree,
             _ => Exit::SomeRowsBad,

@@ -24,8 +24,7 @@ impl BadRows {
     pub fn report(&mut self, position: RowPosition, problem: &dyn Display, progress: &Progress) {
         self.count += 1;
         if self.count <= PRINTED {
-            let (RowPosition { row, line }, input) = (position, &self.input);
-            let message = format!("{input}, row {row} (line {line}): {problem}");
+            let message = format!("{}, {position}: {problem}", self.input);
             progress.aside(|| complain(&message));
         }
     }

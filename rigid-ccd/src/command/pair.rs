@@ -46,39 +46,20 @@ impl BodiesArgs {
         }
         Ok(found)
     }
-}
 
-/// How bodies are loaded.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Loading<'a> {
-    pub(super) bodies: &'a BodiesArgs,
-    pub(super) method: SolverKind,
-    /// Whether messages about the bodies are suppressed.
-    pub(super) quiet: bool,
-}
-
-/// Both bodies; `b` is `None` when both come from the same file or primitive.
-pub(super) struct Pair {
-    a: Body,
-    b: Option<Body>,
-    /// The checksums of the bodies' files, by option.
-    pub(super) checksums: [(&'static str, String); 2],
-}
-
-impl Pair {
-    pub(super) fn load(loading: Loading<'_>) -> Result<Self> {
-        let BodiesArgs { a, b, .. } = loading.bodies;
+    /// Loads both bodies, and prepares them for a method. If `quiet`, messages about them are suppressed.
+    pub(super) fn load(&self, method: SolverKind, quiet: bool) -> Result<Pair> {
         let source = |text: &str| text.parse::<BodySource>();
-        let source_a = source(a).context("--a")?;
-        let source_b = source(b).context("--b")?;
-        let (text_a, text_b) = (a, b);
-        let (a, unit_a) = load(loading, ("--a", text_a), &source_a)?;
+        let source_a = source(&self.a).context("--a")?;
+        let source_b = source(&self.b).context("--b")?;
+        let load = |option, text, source| self.load_one((option, text), source, method, quiet);
+        let (a, unit_a) = load("--a", &self.a, &source_a)?;
         let b = if same(&source_a, &source_b) {
             None
         } else {
-            Some(load(loading, ("--b", text_b), &source_b)?)
+            Some(load("--b", &self.b, &source_b)?)
         };
-        if let (Some((b, unit_b)), false) = (&b, loading.quiet) {
+        if let (Some((b, unit_b)), false) = (&b, quiet) {
             let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
             match mixed_units(sources) {
                 Some(remark) => complain(&remark),
@@ -91,6 +72,48 @@ impl Pair {
         Ok(Pair { a, b, checksums })
     }
 
+    /// Loads one body, and returns it with the unit of its file.
+    fn load_one(
+        &self,
+        (option, text): (&str, &str),
+        source: &BodySource,
+        method: SolverKind,
+        quiet: bool,
+    ) -> Result<(Body, Option<Unit>)> {
+        let detail = self.pieces.detail()?;
+        let progress = Progress::of(&format!("preparing {text}"), quiet);
+        let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
+        let Prepared {
+            mut body,
+            report,
+            unit,
+        } = loaded.with_context(|| option.to_owned())?;
+        if method.schedule.uses_hull_trees() && body.hull_tree().is_none() {
+            body = with_hull_tree(body).with_context(|| format!("{option} {text}"))?;
+        }
+        method.prepare(&body);
+        drop(progress);
+        let remarks = &report.repairs.remarks;
+        if !quiet {
+            let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
+            let unit = unit.unwrap_or_default();
+            print_line(&format!("{option} {text}: {report}, size {size}{unit}"));
+        } else if !remarks.is_empty() {
+            complain(&format!("{option} {text}: {remarks}"));
+        }
+        Ok((body, unit))
+    }
+}
+
+/// Both bodies; `b` is `None` when both come from the same file or primitive.
+pub(super) struct Pair {
+    a: Body,
+    b: Option<Body>,
+    /// The checksums of the bodies' files, by option.
+    pub(super) checksums: [(&'static str, String); 2],
+}
+
+impl Pair {
     /// Returns a remark if the tolerance is large relative to the smaller body.
     pub(super) fn remark(&self, tolerance: f64) -> Option<Remark> {
         let Bodies { a, b } = self.bodies();
@@ -103,40 +126,6 @@ impl Pair {
             b: self.b.as_ref().unwrap_or(&self.a),
         }
     }
-}
-
-fn load(
-    loading: Loading<'_>,
-    (option, text): (&str, &str),
-    source: &BodySource,
-) -> Result<(Body, Option<Unit>)> {
-    let Loading {
-        bodies,
-        method,
-        quiet,
-    } = loading;
-    let detail = bodies.pieces.detail()?;
-    let progress = Progress::of(&format!("preparing {text}"), quiet);
-    let loaded = source.load_adjusted(&bodies.meshes.adjustments(), detail);
-    let Prepared {
-        mut body,
-        report,
-        unit,
-    } = loaded.with_context(|| option.to_owned())?;
-    if method.schedule.uses_hull_trees() && body.hull_tree().is_none() {
-        body = with_hull_tree(body).with_context(|| format!("{option} {text}"))?;
-    }
-    method.prepare(&body);
-    drop(progress);
-    let remarks = &report.repairs.remarks;
-    if !quiet {
-        let (size, unit) = (Size::of(&body), unit.map(|unit| format!(" {unit}")));
-        let unit = unit.unwrap_or_default();
-        print_line(&format!("{option} {text}: {report}, size {size}{unit}"));
-    } else if !remarks.is_empty() {
-        complain(&format!("{option} {text}: {remarks}"));
-    }
-    Ok((body, unit))
 }
 
 /// Warns if two files have different units, or if the unit of only one is known. Shapes have none: their numbers are

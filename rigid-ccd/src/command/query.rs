@@ -1,32 +1,31 @@
 //! `ccd query`: reads two bodies and a table of motions, and writes a table of results.
 
-mod answering;
 mod args;
 mod help;
 mod journal;
 mod limits;
 mod outputs;
 mod resume;
+mod run;
 mod summary;
 
 pub(super) use args::QueryArgs;
 
-use super::bad_rows::BadRows;
+use super::answering::Answering;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{Chosen, Drawn, title, write_rows};
 use super::{Exit, complain, complain_of};
-use crate::batch::{BatchSize, BoundKind, Question, ScheduleKind, SolverKind, Timing, on_threads};
-use crate::command::pair::{Loading, Pair};
+use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
+use crate::command::pair::Pair;
 use crate::command::progress::Progress;
 use crate::picture::{Asked, Claim};
-use crate::table::results::Status;
-use answering::Answering;
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use journal::{CONTENT, Checkpoint, Recorded};
 use outputs::{Opened, Places};
+use run::Run;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use summary::Summary;
@@ -41,11 +40,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_rows(args, &rows)?;
     let places = Places::claim(args)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
-    let pair = Pair::load(Loading {
-        bodies: &args.bodies,
-        method: method(args),
-        quiet: args.quiet,
-    })?;
+    let pair = args.bodies.load(method(args), args.quiet)?;
     let (mut outputs, earlier) = match Opened::new(args, places, &recorded(args, &pair))? {
         Opened::New(outputs) => (outputs, None),
         Opened::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
@@ -60,34 +55,27 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     if timing.method.bound == BoundKind::Published {
         complain("--bound published: times are not certified, contacts may be late or missed");
     }
-    let solver = on_threads(args.threads, || {
-        timing.method.solver(timing.settings.instructions)
-    });
-    let mut answering = Answering {
+    let progress = Progress::of_rows(length, args.quiet);
+    let mut run = Run {
         args,
-        bodies: pair.bodies(),
-        timing,
-        batch: BatchSize::new(solver.threads()),
-        solver,
+        answering: Answering::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         outputs,
         shown: args
             .html
             .as_ref()
             .map(|_| Chosen::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
-        bad_rows: BadRows::new(input_name(&args.motions)),
-        progress: Progress::of_rows(length, args.quiet),
     };
-    let end = answering.answer_all(&mut rows, start)?;
-    answering.outputs.finish(end)?;
-    drop(answering.progress);
-    answering.bad_rows.close();
-    let shown = write_page(args, &pair, answering.shown.zip(html))?;
-    if answering.summary.rows() == 0 && earlier.is_none() {
+    let end = run.answer_all(&mut rows, start)?;
+    run.outputs.finish(end)?;
+    drop(run.answering.progress);
+    run.answering.bad_rows.close();
+    let shown = write_page(args, &pair, run.shown.zip(html))?;
+    if run.summary.counts.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
     }
     if !args.quiet {
-        print_summary(args, &answering.summary);
+        print_summary(args, &run.summary);
         complain_of(
             pair.remark(args.tolerance)
                 .into_iter()
@@ -299,13 +287,10 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
 
 /// Returns the exit of a run, and prints how many rows failed a check.
 fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
-    let counts = Status::ALL.into_iter().zip(end.counts);
-    let failed: usize = counts
-        .filter(|(status, _)| !status.is_proof())
-        .map(|(_, count)| count)
-        .sum();
+    let failed = end.counts.some().filter(|(status, _)| !status.is_proof());
+    let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
-        let rows: usize = end.counts.iter().sum();
+        let rows = end.counts.rows();
         complain(&format!(
             "--check: {failed} of {rows} rows are not proven free or kept"
         ));

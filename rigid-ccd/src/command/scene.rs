@@ -1,6 +1,5 @@
 //! `ccd scene`: lists which bodies of a scene touch, in order of time.
 
-use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::numbers::{not_negative, tolerance};
 use super::output::Output;
@@ -11,7 +10,7 @@ use super::{Exit, complain};
 use crate::Error;
 use crate::picture::scene_verdict;
 use crate::scene::{Impact, PairError};
-use crate::table::results::{self, ResultRow, Status};
+use crate::table::results::{Line, ResultRow, Status, columns_of, names};
 use anyhow::Result;
 use ccd_core::Settings;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
@@ -71,24 +70,18 @@ Pairs that are not listed are proven free.
 Exit code: 0 if every pair has an answer, 2 for bad input, 1 if nothing can be written.";
 
 /// The columns of results that contacts of a scene do not have.
-const LEFT_OUT: [&str; 4] = ["id", "iterations", "oracle_calls", "micros"];
+const LEFT_OUT: &[&str] = &["id", "iterations", "oracle_calls", "micros"];
 
 /// Runs `ccd scene`.
 pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
-    refuse_overwriting(("the scene", &args.scene), ("--out", &args.out))?;
-    let table = scene_table::read(
-        &args.scene,
-        SceneArgs {
-            meshes: &args.meshes,
-            pieces: &args.pieces,
-            duration: args.duration,
-        },
-    )?;
+    let how = SceneArgs {
+        meshes: &args.meshes,
+        pieces: &args.pieces,
+        duration: args.duration,
+    };
+    let table = scene_table::read(("the scene", &args.scene), how, &args.out)?;
     if !args.quiet {
         table.report(args.tolerance);
-    }
-    for (option, path) in table.files() {
-        refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let out = Output::claim_table(&args.out)?;
     let settings = Settings {
@@ -102,10 +95,9 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         complain(&scene_verdict(&table.shown(), &contacts, table.duration));
     }
     let ids: Vec<&str> = table.ids().collect();
-    let of_results = results::COLUMNS.into_iter();
-    let of_results = of_results.filter(|column| !LEFT_OUT.contains(column));
-    let columns: Vec<&str> = ["a", "b"].into_iter().chain(of_results).collect();
-    let mut out = Table::start(out, &columns)?;
+    let columns = columns_of(&[], LEFT_OUT);
+    let header = [vec!["a", "b"], names(&columns)].concat();
+    let mut out = Table::start(out, &header)?;
     let mut exit = Exit::AllAnswered;
     for contact in &contacts {
         let bodies = match contact {
@@ -116,15 +108,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         if row.status == Status::Error {
             exit = Exit::SomeRowsBad;
         }
-        out.write(|writer| {
-            writer.serialize((
-                bodies.map(|body| ids[body]),
-                (row.status, row.time),
-                [row.distance_lower, row.distance_upper],
-                [row.normal, row.witness_a, row.witness_b],
-                [row.feature_a, row.feature_b, row.reason],
-            ))
-        })?;
+        out.row(&(bodies.map(|body| ids[body]), Line(&columns, &row)))?;
     }
     out.finish()?;
     Ok(exit)

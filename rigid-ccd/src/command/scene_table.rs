@@ -1,22 +1,23 @@
 //! The table of a scene: one row for each body.
 
+use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
 use super::{complain, complain_of, print_line};
 use crate::picture::Shown;
 use crate::scene::{Impact, PairError};
-use crate::table::motions::{MotionTable, Motions, RowPosition, TableError};
-use crate::text::Number;
+use crate::table::columns::{BODY_NAME, Columns, Form};
+use crate::table::csv_records::CsvRecords;
+use crate::table::motions::{BodyRow, RowPosition, RowProblem, body};
+use crate::table::records::Records;
 use crate::{Remark, Scene};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use ccd_core::order::lesser;
 use ccd_core::{Body, Motion, Settings};
 use ccd_decomp::BodySource;
 use std::collections::HashMap;
+use std::fs::File;
 use std::path::{Path, PathBuf};
-
-/// The column that names a body.
-const BODY: &str = "body";
 
 /// The default end of all motions.
 const DURATION: f64 = 1.0;
@@ -56,139 +57,104 @@ struct Row {
     motion: Motion,
 }
 
-/// Reads a table, and loads each distinct body once.
-pub(super) fn read(path: &Path, how: SceneArgs<'_>) -> Result<SceneTable> {
+/// Reads a table that `option` names, and loads each distinct body once. Refuses an output that would overwrite a file
+/// that is read.
+pub(super) fn read(
+    (option, path): (&str, &Path),
+    how: SceneArgs<'_>,
+    out: &Path,
+) -> Result<SceneTable> {
+    refuse_overwriting((option, path), ("--out", out))?;
     let name = || path.display().to_string();
     let duration = how.duration.unwrap_or(DURATION);
-    let (described, table) = read_motions(path, duration)?;
-    if table.rows.is_empty() {
-        bail!("{}: has no bodies", name());
-    }
-    if let Some(problem) = duplicate_ids(&table.rows) {
-        bail!("{}: {problem}", name());
-    }
+    let (rows, remarks) = read_rows(path, duration).with_context(name)?;
     let mut scene = SceneTable {
         bodies: HashMap::new(),
         files: Vec::new(),
         reports: Vec::new(),
-        remarks: table.remarks,
+        remarks,
         rows: Vec::new(),
         duration,
         is_usual: how.duration.is_none(),
     };
-    for (text, (position, query)) in described.into_iter().zip(table.rows) {
+    for (position, BodyRow { id, text, motion }) in rows {
         scene
             .load(&text, how)
             .with_context(|| format!("{}: line {}", name(), position.line))?;
-        let name = match query.id.parse::<usize>() {
-            Ok(_) => format!("{} {}", query.id, text),
-            Err(_) => query.id.clone(),
+        let name = match id.parse::<usize>() {
+            Ok(_) => format!("{id} {text}"),
+            Err(_) => id.clone(),
         };
         scene.rows.push(Row {
             text,
-            id: query.id,
+            id,
             name,
-            motion: query.a,
+            motion,
         });
+    }
+    for file in &scene.files {
+        refuse_overwriting(("a body of the scene", file), ("--out", out))?;
     }
     Ok(scene)
 }
 
-/// Names the rows with the same id, which contacts could not distinguish.
-fn duplicate_ids(rows: &[(RowPosition, Motions)]) -> Option<String> {
-    let mut known: HashMap<&str, RowPosition> = HashMap::new();
-    rows.iter().find_map(|(position, query)| {
-        let first = known.insert(&query.id, *position)?;
-        let [one, other] =
-            [first, *position].map(|RowPosition { row, line }| format!("row {row} (line {line})"));
-        Some(format!(
-            "{one} and {other} have the same id {:?}; give each body its own",
-            query.id
-        ))
-    })
-}
+/// A row of a table, and its position.
+type Placed = (RowPosition, BodyRow);
 
-/// Reads a table as descriptions of bodies and their motions.
-fn read_motions(path: &Path, duration: f64) -> Result<(Vec<String>, MotionTable)> {
-    let name = || path.display().to_string();
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .from_path(path)
-        .with_context(name)?;
-    let header = reader.headers().with_context(name)?.clone();
-    let Some(column) = header.iter().position(|column| column == BODY) else {
+/// Reads the rows of a table, and returns them with the remarks about them.
+fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
+    let mut records = CsvRecords::new(File::open(path)?)?;
+    let header = records.header()?;
+    if !header.iter().any(|column| column == BODY_NAME) {
         bail!(
-            "{}: has no column `{BODY}`; a table of motions is shown with --a, --b and --motions",
-            name()
-        );
-    };
-    if let Some(time) = header.iter().find(|column| TIMES.contains(column)) {
-        bail!(
-            "{}: all motions of a scene end together: give --duration in place of the column `{time}`",
-            name()
+            "has no column `{BODY_NAME}`; a table of motions is shown with --a, --b and --motions"
         );
     }
-    // The other columns are those of body A in a table of motions, with a common duration.
-    let mut motions = csv::Writer::from_writer(Vec::new());
-    let others = |record: &csv::StringRecord, prefix: &dyn Fn(&str) -> String| -> Vec<String> {
-        let cells = record.iter().enumerate().filter(|(k, _)| *k != column);
-        cells.map(|(_, cell)| prefix(cell)).collect()
-    };
-    let prefixed = |cell: &str| match cell {
-        "id" => cell.to_owned(),
-        _ => format!("a_{cell}"),
-    };
-    let mut names = others(&header, &prefixed);
-    names.push("duration".to_owned());
-    motions.write_record(names)?;
-    let mut described = Vec::new();
-    for record in reader.records() {
-        let record = record.with_context(|| {
-            format!(
-                "{}: a body with commas in it is quoted: \"box:1,1,0.1\"",
-                name()
-            )
-        })?;
-        described.push(record.get(column).unwrap_or_default().to_owned());
-        let mut cells = others(&record, &str::to_owned);
-        cells.push(Number(duration).to_string());
-        motions.write_record(cells)?;
+    if let Some(time) = header
+        .iter()
+        .find(|column| TIMES.contains(&column.as_str()))
+    {
+        bail!(
+            "all motions of a scene end together: give --duration in place of the column `{time}`"
+        );
     }
-    let table = match MotionTable::read(motions.into_inner()?.as_slice()) {
-        Ok(table) => table,
-        Err(error) => bail!("{}: {}", name(), reworded(&error)),
-    };
-    if let Some(error) = table.errors.first() {
-        bail!("{}: {}", name(), without_prefix(&error.to_string()));
+    let columns = Columns::of_form(&header, Form::Scene)?;
+    let mut rows: Vec<Placed> = Vec::new();
+    while let Some(position) = records.advance()? {
+        let row = body(&columns, records.current(), position.row, duration);
+        let row = row.map_err(|problem| anyhow!("{position}: {}", in_words(&problem)))?;
+        rows.push((position, row));
     }
-    Ok((described, table))
+    if rows.is_empty() {
+        bail!("has no bodies");
+    }
+    refuse_equal_ids(&rows)?;
+    Ok((rows, columns.remarks()))
 }
 
 /// Likely names of a column of times, which a scene does not have.
 const TIMES: [&str; 3] = ["duration", "t", "time"];
 
-/// Rewords an error of a table of motions for the table of a scene.
-fn reworded(error: &TableError) -> String {
-    match error {
-        TableError::UnknownColumn {
-            column,
-            nearest: None,
-            ..
-        } => without_prefix(&format!(
-            "header: unknown column `{column}`; known columns of a scene are body, id, px py pz, qw qx qy qz, vx vy vz, \
-             wx wy wz, end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
-        )),
-        error => without_prefix(&error.to_string()),
+/// Words a problem of a row for a table of bodies that end together.
+fn in_words(problem: &RowProblem) -> String {
+    let words = problem.to_string().replace("column duration", "--duration");
+    match problem {
+        RowProblem::WrongLength { .. } => {
+            format!("{words}; a body with commas in it is quoted: \"box:1,1,0.1\"")
+        }
+        _ => words,
     }
 }
 
-/// Removes the prefix of body A from column names in a message, because a scene has none.
-fn without_prefix(error: &str) -> String {
-    let error = error.replace("column duration", "--duration");
-    let words = error.split_inclusive([' ', '`']);
-    words
-        .map(|word| word.strip_prefix("a_").unwrap_or(word))
-        .collect()
+/// Refuses rows with the same id, which contacts could not distinguish.
+fn refuse_equal_ids(rows: &[Placed]) -> Result<()> {
+    let mut known = HashMap::new();
+    for (position, BodyRow { id, .. }) in rows {
+        if let Some(first) = known.insert(id, position) {
+            bail!("{first} and {position} have the same id {id:?}; give each body its own");
+        }
+    }
+    Ok(())
 }
 
 impl SceneTable {
@@ -203,12 +169,6 @@ impl SceneTable {
         self.bodies.insert(text.to_owned(), prepared.body);
         self.files.extend(source.files()?);
         Ok(())
-    }
-
-    /// Returns the files that were read, each with its option or body.
-    pub(super) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
-        let files = self.files.iter();
-        files.map(|path| ("a body of the scene", path.as_path()))
     }
 
     /// Prints the messages about the bodies, the duration and the remarks.

@@ -112,6 +112,11 @@ impl Table {
         row(&mut self.writer).map_err(|error| self.failed(csv_cause(error)))
     }
 
+    /// Adds a row of cells.
+    pub(super) fn row(&mut self, cells: &impl Serialize) -> Result<(), CannotWrite> {
+        self.write(|writer| writer.serialize(cells))
+    }
+
     /// Flushes all rows; they survive an interruption from then on.
     pub fn flush(&mut self) -> Result<(), CannotWrite> {
         self.written().map(|_| ())

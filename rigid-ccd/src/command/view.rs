@@ -9,19 +9,17 @@ pub(super) use chosen::Chosen;
 
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::Output;
-use super::pair::{BodiesArgs, Loading, Pair};
+use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{Exit, complain, complain_of};
-use crate::batch::{Bodies, Question, Solve, SolverKind, Timing, time};
+use crate::batch::{Question, SolverKind, Timing, answer};
 use crate::picture::{Asked, Claim, Painter, scene_view};
-use crate::table::courses::Course;
-use crate::table::results::{self, Compared, ResultRow};
+use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Instructions, Settings};
 use ccd_view::{Group, Page};
 use std::collections::{HashMap, VecDeque};
 use std::fs::File;
-use std::num::NonZeroUsize;
 use std::path::Path;
 
 /// The maximum number of rows read to choose some for the page.
@@ -48,11 +46,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     }
     let (mut rows, _) = open_courses(motions, Question::FirstContact.grouping())?;
     let out = Output::claim(&args.out)?;
-    let pair = Pair::load(Loading {
-        bodies,
-        method: SolverKind::default(),
-        quiet: args.quiet,
-    })?;
+    let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = Chosen::new(args.ids.clone());
     let timing = timing(args);
@@ -78,7 +72,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         }
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
-            None => Some(answered(pair.bodies(), &course, &timing, solver.as_mut())),
+            None => Some(answer(pair.bodies(), &course, &timing, solver.as_mut()).0),
         };
         if let Some(row) = row {
             chosen.offer(&course, &row);
@@ -131,24 +125,6 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     let unit = bodies.meshes.unit();
     let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
-}
-
-/// Returns the row of results for a row of motions or paths.
-pub(super) fn answered(
-    bodies: Bodies<'_>,
-    course: &Course,
-    timing: &Timing,
-    solver: &mut dyn Solve,
-) -> ResultRow {
-    match time(bodies, course, timing, solver) {
-        Ok(timed) => ResultRow::new(
-            course,
-            (timing.question, &timed.answer),
-            timed.micros,
-            Compared::default(),
-        ),
-        Err(problem) => ResultRow::error(course.id(), &problem),
-    }
 }
 
 /// Writes the page of the chosen rows. Without any there is none, which is told.
@@ -209,25 +185,19 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
 
 fn timing(args: &ViewArgs) -> Timing {
     Timing {
-        question: Question::FirstContact,
-        method: SolverKind::default(),
         settings: Settings {
             tolerance: args.tolerance,
             margin: args.margin,
             ..Settings::DEFAULT
         },
-        repeat: NonZeroUsize::MIN,
+        ..Timing::default()
     }
 }
 
 fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
-    refuse_overwriting(("--scene", path), ("--out", &args.out))?;
-    let table = scene_table::read(path, how)?;
+    let table = scene_table::read(("--scene", path), how, &args.out)?;
     if !args.quiet {
         table.report(args.tolerance);
-    }
-    for (option, path) in table.files() {
-        refuse_overwriting((option, path), ("--out", &args.out))?;
     }
     let out = Output::claim(&args.out)?;
     let shown = table.shown();

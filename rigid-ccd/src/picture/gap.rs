@@ -4,7 +4,7 @@ use crate::Solver;
 use crate::batch::Bodies;
 use crate::table::courses::Course;
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Body, InputError, Settings, Stretch, Trajectory};
+use ccd_core::{Body, InputError, Settings, Stretch};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
@@ -186,10 +186,8 @@ impl Survey<'_> {
 
     /// Bounds the closing speed of the bodies' points between two times.
     fn shrinking(&self, from: f64, to: f64) -> Result<Shrinking, InputError> {
-        let (a, b) = match self.course {
-            Course::Motions(query) => (query.a.stretch(from, to)?, query.b.stretch(from, to)?),
-            Course::Path(path) => (path.a.stretch(from, to)?, path.b.stretch(from, to)?),
-        };
+        let [a, b] = self.course.trajectories();
+        let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);
         let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;

@@ -1,12 +1,12 @@
 //! The pairs of a scene, advanced together in time: the pair with the earliest proven time goes first.
 
+use super::due::Due;
 use super::event::Event;
 use super::goal::Goal;
 use ccd_core::order::{greater, lesser};
 use ccd_core::schedule::{BestFirst, FirstContact, Progress};
 use ccd_core::{InputError, Query};
 use ccd_distance_gjk::Direct;
-use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 use std::sync::{Mutex, PoisonError};
 
@@ -22,16 +22,13 @@ pub(super) struct Race<'r, 'a> {
     query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
     duration: f64,
     goal: &'r Goal,
-    waiting: Mutex<BinaryHeap<Reverse<Runner<'a>>>>,
+    waiting: Mutex<BinaryHeap<Runner<'a>>>,
 }
 
-/// A pair that is proven apart until a time.
-struct Runner<'a> {
-    time: f64,
-    pair: [usize; 2],
-    /// The search, or `None` before the first step.
-    search: Option<Box<FirstContact<'a, Direct>>>,
-}
+/// A pair that is proven apart until a time, with its search once it has begun.
+type Runner<'a> = Due<Option<Search<'a>>>;
+
+type Search<'a> = Box<FirstContact<'a, Direct>>;
 
 impl<'r, 'a> Race<'r, 'a> {
     pub(super) fn new(
@@ -40,12 +37,10 @@ impl<'r, 'a> Race<'r, 'a> {
         duration: f64,
         goal: &'r Goal,
     ) -> Self {
-        let runner = |&pair| {
-            Reverse(Runner {
-                time: 0.0,
-                pair,
-                search: None,
-            })
+        let runner = |&pair| Due {
+            time: 0.0,
+            pair,
+            what: None,
         };
         Race {
             query,
@@ -58,14 +53,14 @@ impl<'r, 'a> Race<'r, 'a> {
     /// Takes the pair with the earliest proven time, and returns it with the next pair's proven time.
     fn next(&self) -> Option<(Runner<'a>, f64)> {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-        let Reverse(runner) = waiting.pop()?;
-        let others = waiting.peek().map_or(f64::INFINITY, |other| other.0.time);
+        let runner = waiting.pop()?;
+        let others = waiting.peek().map_or(f64::INFINITY, |other| other.time);
         Some((runner, others))
     }
 
     fn put_back(&self, runner: Runner<'a>) {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-        waiting.push(Reverse(runner));
+        waiting.push(runner);
     }
 
     /// Returns the time to which a pair is advanced next, at most `limit` and later than `time`.
@@ -92,7 +87,11 @@ impl Worker {
     pub(super) fn run(&mut self, race: &Race<'_, '_>) -> Vec<Event> {
         let mut events = Vec::new();
         while let Some((runner, others)) = race.next() {
-            let Runner { time, pair, search } = runner;
+            let Due {
+                time,
+                pair,
+                what: search,
+            } = runner;
             let limit = race.goal.limit(pair);
             // A later event does not matter to the goal.
             if time > limit {
@@ -119,10 +118,10 @@ impl Worker {
                     race.goal.record(pair, 0.0);
                     events.push(Event::refused(pair, error));
                 }
-                Ok(Progress::ApartUntil(time)) => race.put_back(Runner {
+                Ok(Progress::ApartUntil(time)) => race.put_back(Due {
                     time,
                     pair,
-                    search: Some(search),
+                    what: Some(search),
                 }),
                 Ok(Progress::Answered(answer)) => {
                     self.keep(Some(search));
@@ -136,31 +135,11 @@ impl Worker {
         events
     }
 
-    fn keep(&mut self, search: Option<Box<FirstContact<'_, Direct>>>) {
+    fn keep(&mut self, search: Option<Search<'_>>) {
         if let Some(search) = search
             && self.spare.len() < MOST_SPARE
         {
             self.spare.push(search.into_memory());
         }
-    }
-}
-
-impl Ord for Runner<'_> {
-    fn cmp(&self, other: &Self) -> Ordering {
-        (self.time.total_cmp(&other.time)).then(self.pair.cmp(&other.pair))
-    }
-}
-
-impl PartialOrd for Runner<'_> {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Eq for Runner<'_> {}
-
-impl PartialEq for Runner<'_> {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
     }
 }

@@ -1,6 +1,7 @@
 //! Bodies that stop at their first contact, each at its own time.
 
 use super::clock::Clock;
+use super::due::Due;
 use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::ordered;
@@ -16,7 +17,6 @@ use ccd_core::{
     Answer, Body, InputError, Motion, Movement, Query, Settings, StartPolicy, Trajectory,
 };
 use ccd_distance_gjk::Direct;
-use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 /// The time at which a body stops.
@@ -126,12 +126,8 @@ struct Stopping<'s, 'a> {
     oracle: Direct,
 }
 
-/// A future contact of two bodies, of which at most one has stopped.
-struct FutureContact {
-    event: Event,
-    /// Which of both bodies move until then.
-    moving: [bool; 2],
-}
+/// A future contact of two bodies, of which at most one has stopped, and which of them moved when it was found.
+type FutureContact = Due<(Event, [bool; 2])>;
 
 impl<'s, 'a> Stopping<'s, 'a> {
     fn new(scene: &'s Scene<'a>, pairs: &[[usize; 2]], clock: Clock) -> Self {
@@ -164,10 +160,11 @@ impl<'s, 'a> Stopping<'s, 'a> {
                 self.others[a].retain(|&other| other != b);
                 self.others[b].retain(|&other| other != a);
             } else {
-                coming.push(Reverse(self.future_contact(event, 0.0)));
+                coming.push(self.future_contact(event, 0.0));
             }
         }
-        while let Some(Reverse(FutureContact { event, moving })) = coming.pop() {
+        while let Some(FutureContact { what, .. }) = coming.pop() {
+            let (event, moving) = what;
             // If one of the bodies stopped in the meantime, the pair was examined again then.
             if event.bodies.map(|index| self.moves(index)) != moving {
                 continue;
@@ -188,7 +185,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
             }
             let stopped = event.bodies.into_iter().zip(moving);
             for (index, _) in stopped.filter(|&(_, moved)| moved) {
-                coming.extend(self.contacts_of(index).into_iter().map(Reverse));
+                coming.extend(self.contacts_of(index));
             }
         }
         Ok(self.stops)
@@ -226,9 +223,12 @@ impl<'s, 'a> Stopping<'s, 'a> {
         } else {
             event
         };
+        let event = event.later(from);
+        let moving = event.bodies.map(|index| self.moves(index));
         FutureContact {
-            moving: event.bodies.map(|index| self.moves(index)),
-            event: event.later(from),
+            time: event.time,
+            pair: event.bodies,
+            what: (event, moving),
         }
     }
 
@@ -281,26 +281,6 @@ fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, 
     let reach = body.span() + centre;
     let stray = stretch.stray.at(reach);
     Ok(stray + STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach))
-}
-
-impl Ord for FutureContact {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.event.order(&other.event)
-    }
-}
-
-impl PartialOrd for FutureContact {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Eq for FutureContact {}
-
-impl PartialEq for FutureContact {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
 }
 
 #[cfg(test)]

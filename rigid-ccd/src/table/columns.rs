@@ -1,4 +1,4 @@
-//! The columns of tables of motions and of paths.
+//! The columns of tables of motions, of paths and of scenes.
 
 use crate::Remark;
 use crate::table::error::TableError;
@@ -32,6 +32,8 @@ pub enum Form {
     Motions,
     /// The poses of both bodies at a time.
     Paths,
+    /// A body of a scene, and its motion.
+    Scene,
 }
 
 /// The columns of a body in a table of motions, without the body's prefix.
@@ -48,22 +50,30 @@ const OF_POSE: [&str; 13] = [
 impl Form {
     /// Returns all columns in order.
     pub(in crate::table) fn names(self) -> Vec<String> {
-        let bodies = ['a', 'b'].into_iter().flat_map(|letter| {
+        let bodies = self.prefixes().iter().flat_map(|prefix| {
             let of_body = self.of_body().iter();
-            of_body.map(move |name| format!("{letter}_{name}"))
+            of_body.map(move |name| format!("{prefix}{name}"))
         });
         let (before, after): (&[&str], &[&str]) = match self {
             Form::Motions => (&["id"], &["duration"]),
             Form::Paths => (&["id", TIME_NAME], &[]),
+            Form::Scene => (&["id"], &[BODY_NAME]),
         };
-        let owned = |names: &[&str]| {
-            names
-                .iter()
-                .map(|&name| name.to_owned())
-                .collect::<Vec<_>>()
-        };
-        let (before, after) = (owned(before), owned(after));
-        before.into_iter().chain(bodies).chain(after).collect()
+        let owned = |names: &'static [&str]| names.iter().map(|&name| name.to_owned());
+        owned(before).chain(bodies).chain(owned(after)).collect()
+    }
+
+    /// Returns the prefixes of the columns of each body.
+    fn prefixes(self) -> &'static [&'static str] {
+        match self {
+            Form::Motions | Form::Paths => &["a_", "b_"],
+            Form::Scene => &[""],
+        }
+    }
+
+    /// Returns the bodies of a row.
+    fn sides(self) -> impl Iterator<Item = Side> {
+        [Side::A, Side::B].into_iter().take(self.prefixes().len())
     }
 
     /// Returns the slots of a quantity's components; empty if such a table does not have it.
@@ -71,17 +81,17 @@ impl Form {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
-            (Form::Motions, Quantity::EndPosition) => 7..10,
-            (Form::Motions, Quantity::EndOrientation) => 10..14,
-            (Form::Motions, Quantity::Velocity) => 14..17,
-            (Form::Motions, Quantity::Spin) => 17..20,
-            (Form::Motions, Quantity::Centre) => 20..23,
             (Form::Paths, Quantity::Spin) => 7..10,
             (Form::Paths, Quantity::Centre) => 10..13,
             (Form::Paths, _) => 0..0,
+            (_, Quantity::EndPosition) => 7..10,
+            (_, Quantity::EndOrientation) => 10..14,
+            (_, Quantity::Velocity) => 14..17,
+            (_, Quantity::Spin) => 17..20,
+            (_, Quantity::Centre) => 20..23,
         };
         let first_of_a = match self {
-            Form::Motions => 1,
+            Form::Motions | Form::Scene => 1,
             Form::Paths => 2,
         };
         let first = match side {
@@ -94,7 +104,7 @@ impl Form {
     /// Returns the columns of a body.
     fn of_body(self) -> &'static [&'static str] {
         match self {
-            Form::Motions => &OF_BODY,
+            Form::Motions | Form::Scene => &OF_BODY,
             Form::Paths => &OF_POSE,
         }
     }
@@ -111,11 +121,15 @@ impl Form {
                 "a table with a column t holds the poses of paths: known columns are id, t, and with the prefix \
                  a_ or b_: px py pz, qw qx qy qz, wx wy wz (to the next row), cx cy cz"
             }
+            Form::Scene => {
+                "known columns of a scene are body, id, px py pz, qw qx qy qz, vx vy vz, wx wy wz, \
+                 end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
+            }
         }
     }
 }
 
-/// The columns of a table of motions or paths.
+/// The columns of a table of motions, of paths or of a scene.
 #[derive(Debug)]
 pub struct Columns {
     form: Form,
@@ -144,7 +158,7 @@ impl Columns {
     ///
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
-    pub(in crate::table) fn of_form(header: &[String], form: Form) -> Result<Self, TableError> {
+    pub(crate) fn of_form(header: &[String], form: Form) -> Result<Self, TableError> {
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty);
         }
@@ -179,10 +193,10 @@ impl Columns {
     fn check_whole(&self) -> Result<(), TableError> {
         let of_motions = [Quantity::EndPosition, Quantity::EndOrientation];
         let further = match self.form {
-            Form::Motions => &of_motions[..],
+            Form::Motions | Form::Scene => &of_motions[..],
             Form::Paths => &[],
         };
-        for side in [Side::A, Side::B] {
+        for side in self.form.sides() {
             for &quantity in [Quantity::Orientation].iter().chain(further) {
                 let is_there = |&slot: &usize| self.cells[slot].is_some();
                 let (given, missing): (Vec<usize>, Vec<usize>) =
@@ -216,9 +230,9 @@ impl Columns {
         }
     }
 
-    /// Returns the form of the table's rows.
-    pub fn form(&self) -> Form {
-        self.form
+    /// Returns whether the rows are the poses of paths.
+    pub fn are_of_paths(&self) -> bool {
+        self.form == Form::Paths
     }
 
     /// Returns the remarks about the rows read so far, one of each kind.
@@ -289,7 +303,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
             nearest: Some(TIME_NAME.to_owned()),
         };
     }
-    if let Some(prefix) = prefix_of_angle(&lower) {
+    if let Some(prefix) = prefix_of_angle(&lower, form) {
         let column = column.to_owned();
         return TableError::Angle { column, prefix };
     }
@@ -297,7 +311,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     let names = form.names();
     let nearest = names.iter().min_by_key(edit_distance);
     // A velocity in a table of paths is not a misspelt position.
-    let of_other_form = Form::Motions.names().contains(&lower);
+    let of_other_form = form == Form::Paths && Form::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
         known: form.listed(),
@@ -310,12 +324,13 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
 }
 
 /// Returns the body's prefix of a name of an Euler angle or a rotation vector.
-fn prefix_of_angle(lower: &str) -> Option<&'static str> {
-    let prefixes = ["a_end_", "b_end_", "a_", "b_"];
-    let found = prefixes
-        .into_iter()
-        .find(|prefix| lower.starts_with(prefix));
-    let prefix = found.unwrap_or("a_");
+fn prefix_of_angle(lower: &str, form: Form) -> Option<&'static str> {
+    let (prefixes, usual): (&[&str], _) = match form {
+        Form::Motions | Form::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),
+        Form::Scene => (&["end_"], ""),
+    };
+    let found = prefixes.iter().find(|prefix| lower.starts_with(*prefix));
+    let prefix = found.copied().unwrap_or(usual);
     let name = lower.strip_prefix(prefix).unwrap_or(lower);
     ANGLES.contains(&name).then_some(prefix)
 }
@@ -334,3 +349,8 @@ pub(in crate::table) const DURATION: usize = 2 * OF_BODY.len() + 1;
 /// The slot of the time of poses.
 pub(in crate::table) const TIME: usize = 1;
 const TIME_NAME: &str = "t";
+/// The slot of the description of a scene's body.
+#[cfg(feature = "command")]
+pub(crate) const BODY: usize = OF_BODY.len() + 1;
+/// The name of the column of the description of a scene's body.
+pub(crate) const BODY_NAME: &str = "body";

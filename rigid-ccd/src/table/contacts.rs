@@ -5,30 +5,16 @@ mod tests;
 
 use crate::batch::{Bodies, Question};
 use crate::table::courses::Course;
-use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Separation, Settings};
+use crate::table::results::{Column, ResultRow, columns_of};
+use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Settings};
 
-/// The columns, in order.
-pub(crate) const COLUMNS: [&str; 15] = [
-    "id",
-    "time",
-    "feature_a",
-    "feature_b",
-    "distance_lower",
-    "distance_upper",
-    "normal_x",
-    "normal_y",
-    "normal_z",
-    "witness_a_x",
-    "witness_a_y",
-    "witness_a_z",
-    "witness_b_x",
-    "witness_b_y",
-    "witness_b_z",
-];
-
-/// One row, in the order of [`COLUMNS`]: id, time, features, bounds of the distance, then normal and witnesses. Numbers
-/// read back to the same bits.
-pub(crate) type ContactRow = (String, f64, [String; 2], [f64; 2], [[f64; 3]; 3]);
+/// Returns the columns, in order.
+pub(crate) fn columns() -> Vec<Column> {
+    columns_of(
+        &["id", "time", "feature_a", "feature_b"],
+        &["status", "iterations", "oracle_calls", "micros", "reason"],
+    )
+}
 
 /// The error of listing contacts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -50,13 +36,13 @@ pub(crate) fn rows(
     course: &Course,
     settings: &Settings,
     (question, answer): (Question, &Answer),
-) -> Result<Vec<ContactRow>, ListError> {
+) -> Result<Vec<ResultRow>, ListError> {
     let Some(time) = time_of_contact(question, &answer.outcome) else {
         return Ok(Vec::new());
     };
     let query = bodies.query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
-    let row = |pair: &FeaturePair| row(course.id(), course.earliest(time), pair);
+    let row = |pair: &FeaturePair| ResultRow::of_pair(course.id(), course.earliest(time), pair);
     Ok(pairs.iter().map(row).collect())
 }
 
@@ -67,22 +53,4 @@ fn time_of_contact(question: Question, outcome: &Outcome) -> Option<f64> {
         Outcome::Touching { .. } => Some(0.0),
         _ => None,
     }
-}
-
-/// Returns the row of a pair.
-fn row(id: &str, time: f64, pair: &FeaturePair) -> ContactRow {
-    let Separation {
-        lower,
-        upper,
-        normal,
-        witness_a,
-        witness_b,
-    } = pair.separation;
-    (
-        id.to_owned(),
-        time,
-        [pair.feature_a, pair.feature_b].map(|feature| feature.to_string()),
-        [lower, upper],
-        [normal, witness_a, witness_b].map(|vector| vector.to_array()),
-    )
 }

@@ -1,6 +1,6 @@
 //! The rows of a query: motions or paths.
 
-use super::columns::{Columns, Form};
+use super::columns::Columns;
 use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
 use super::motions::{MotionRows, Motions};
@@ -8,7 +8,7 @@ use super::paths::{Grouping, Path, PathRows};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
-use ccd_core::{InputError, Pose};
+use ccd_core::{InputError, Pose, Trajectory};
 use std::io;
 
 /// The motions of both bodies in a query.
@@ -42,6 +42,14 @@ impl Course {
         match self {
             Course::Motions(_) => 0.0,
             Course::Path(path) => path.start,
+        }
+    }
+
+    /// Returns how both bodies move.
+    pub fn trajectories(&self) -> [&dyn Trajectory; 2] {
+        match self {
+            Course::Motions(Motions { a, b, .. }) => [a, b],
+            Course::Path(Path { a, b, .. }) => [a, b],
         }
     }
 
@@ -102,9 +110,10 @@ impl<S: Records> Courses<S> {
     /// The header has columns that cannot be used, or the first row cannot be read.
     pub fn of(records: S, grouping: Grouping) -> Result<Self, TableError> {
         let columns = Columns::of(&records.header()?)?;
-        Ok(match columns.form() {
-            Form::Motions => Courses::Motions(MotionRows::after_header(records, columns)),
-            Form::Paths => Courses::Paths(PathRows::after_header(records, columns, grouping)?),
+        Ok(if columns.are_of_paths() {
+            Courses::Paths(PathRows::after_header(records, columns, grouping)?)
+        } else {
+            Courses::Motions(MotionRows::after_header(records, columns))
         })
     }
 

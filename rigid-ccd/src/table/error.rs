@@ -132,7 +132,7 @@ impl fmt::Display for Suggestion<'_> {
 
 /// The error of a row.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("row {} (line {}): {problem}", .position.row, .position.line)]
+#[error("{position}: {problem}")]
 pub struct RowError {
     /// The position of the row.
     pub position: RowPosition,

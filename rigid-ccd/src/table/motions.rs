@@ -8,6 +8,8 @@ mod write;
 pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
 pub use row::query;
+#[cfg(feature = "command")]
+pub(crate) use row::{BodyRow, body};
 pub use write::write;
 
 use crate::Remark;

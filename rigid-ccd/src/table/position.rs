@@ -1,5 +1,7 @@
 //! The position of a row.
 
+use std::fmt;
+
 /// The position of a row in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RowPosition {
@@ -7,4 +9,11 @@ pub struct RowPosition {
     pub row: usize,
     /// The line of the file, counted from 1.
     pub line: u64,
+}
+
+impl fmt::Display for RowPosition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let RowPosition { row, line } = self;
+        write!(f, "row {row} (line {line})")
+    }
 }

@@ -3,8 +3,12 @@
 #[cfg(test)]
 mod tests;
 
+mod columns;
 mod status;
 
+#[cfg(feature = "command")]
+pub(crate) use columns::columns_of;
+pub use columns::{COLUMNS, COUNTERS, Cells, Column, Line, columns, names};
 pub use status::Status;
 
 use crate::batch::{Bodies, Question};
@@ -12,44 +16,8 @@ use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::io;
-
-/// The columns, in order.
-pub const COLUMNS: [&str; 20] = [
-    "id",
-    "status",
-    "time",
-    "distance_lower",
-    "distance_upper",
-    "normal_x",
-    "normal_y",
-    "normal_z",
-    "witness_a_x",
-    "witness_a_y",
-    "witness_a_z",
-    "witness_b_x",
-    "witness_b_y",
-    "witness_b_z",
-    "feature_a",
-    "feature_b",
-    "iterations",
-    "oracle_calls",
-    "micros",
-    "reason",
-];
-
-/// The column of the end of a contact interval; it follows [`COLUMNS`].
-pub const LAST_TIME: &str = "last_time";
-
-/// The columns of the counters, in order; they follow all other columns.
-pub const COUNTER_COLUMNS: [&str; 5] = [
-    "advancements",
-    "oracle_steps",
-    "cycles",
-    "fallbacks",
-    "front",
-];
 
 /// The clearance that distances are compared with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,17 +53,8 @@ impl Compared {
     }
 }
 
-/// The optional columns of a table.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Extent {
-    /// Whether the table has the column [`LAST_TIME`].
-    pub last_time: bool,
-    /// Whether the table has the [`COUNTER_COLUMNS`].
-    pub counters: bool,
-}
-
 /// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub struct ResultRow {
     /// The id in the table of motions.
     pub id: String,
@@ -154,6 +113,22 @@ impl ResultRow {
             ..ResultRow::default()
         };
         row.at(hit.time).with_hit(&hit.kind)
+    }
+
+    /// Creates the row of two features in contact, without a status and counts.
+    #[cfg(feature = "command")]
+    pub(crate) fn of_pair(id: &str, time: f64, pair: &ccd_core::FeaturePair) -> Self {
+        let row = ResultRow {
+            id: id.to_owned(),
+            ..ResultRow::default()
+        };
+        row.at(time).with_contact(&Contact {
+            separation: pair.separation,
+            feature_a: pair.feature_a,
+            feature_b: pair.feature_b,
+            piece_a: pair.piece_a,
+            piece_b: pair.piece_b,
+        })
     }
 
     /// Creates the row of an answer to a question.
@@ -276,45 +251,6 @@ impl ResultRow {
     }
 }
 
-/// Returns the names of a table's columns.
-pub fn columns(extent: Extent) -> Vec<&'static str> {
-    let mut columns = COLUMNS.to_vec();
-    columns.extend(extent.last_time.then_some(LAST_TIME));
-    columns.extend(COUNTER_COLUMNS.iter().filter(|_| extent.counters));
-    columns
-}
-
-/// Writes a row; numbers can be read back exactly.
-///
-/// # Errors
-/// The writer's output cannot be written to.
-pub fn write(
-    writer: &mut csv::Writer<impl io::Write>,
-    extent: Extent,
-    row: &ResultRow,
-) -> Result<(), csv::Error> {
-    let last_time = if extent.last_time {
-        &[row.last_time][..]
-    } else {
-        &[]
-    };
-    let counters = counters(row.counters.as_ref());
-    let counters = if extent.counters { &counters[..] } else { &[] };
-    writer.serialize((row, last_time, counters))
-}
-
-/// Returns the cells of the counters, in the order of [`COUNTER_COLUMNS`].
-fn counters(stats: Option<&Stats>) -> [Option<u64>; COUNTER_COLUMNS.len()] {
-    let counter = |of: fn(&Stats) -> u64| stats.map(of);
-    [
-        counter(|stats| stats.advancements),
-        counter(|stats| stats.effort.steps),
-        counter(|stats| stats.effort.cycles),
-        counter(|stats| stats.effort.fallbacks),
-        counter(|stats| stats.peak_front),
-    ]
-}
-
 /// Reads a table of results; the columns after [`COLUMNS`] are not read.
 ///
 /// # Errors
@@ -322,11 +258,9 @@ fn counters(stats: Option<&Stats>) -> [Option<u64>; COUNTER_COLUMNS.len()] {
 pub fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
     let mut reader = csv::Reader::from_reader(input);
     let header = reader.headers()?;
-    if !header.iter().take(COLUMNS.len()).eq(COLUMNS) {
-        let message = format!(
-            "its columns are not those of results, {}",
-            COLUMNS.join(",")
-        );
+    let names = names(&COLUMNS);
+    if !header.iter().take(names.len()).eq(names.iter().copied()) {
+        let message = format!("its columns are not those of results, {}", names.join(","));
         return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
     }
     let rows = reader.records().map(|record| record?.deserialize(None));

@@ -6,7 +6,7 @@ use crate::command::named::{INSTRUCTIONS, SHORTCUTS, STARTS, name_of, named};
 use crate::command::numbers::{not_negative, seconds, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::command::pieces::NOT_GIVEN;
-use crate::table::results::Extent;
+use crate::table::results::{self, Column};
 use crate::text::Number;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::schedule::Shortcut;
@@ -113,12 +113,13 @@ pub(in crate::command) struct QueryArgs {
 }
 
 impl QueryArgs {
-    /// Returns the optional columns of the table of results.
-    pub(super) fn extent(&self) -> Extent {
-        Extent {
-            last_time: self.ask == Question::ContactInterval,
-            counters: self.counters,
-        }
+    /// Returns the columns of the table of results.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        let counters = results::COUNTERS.into_iter().filter(|_| self.counters);
+        results::columns(self.ask)
+            .into_iter()
+            .chain(counters)
+            .collect()
     }
 
     /// Returns the options that determine the tables, with their values.

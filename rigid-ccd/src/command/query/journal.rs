@@ -3,9 +3,9 @@
 //! The file is next to the tables. Each checkpoint ends with the checksum of all before it. It stays when the run has finished, so that the same command with
 //! `--resume` finds nothing left to do.
 
+use crate::command::counts::Counts;
 use crate::command::output::CannotWrite;
 use crate::command::table::Written;
-use crate::table::results::Status;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
@@ -23,7 +23,7 @@ pub(super) struct Checkpoint {
     /// The number of these rows without a complete answer.
     pub(super) bad: usize,
     /// The number of rows of each status in the results.
-    pub(super) counts: [usize; Status::ALL.len()],
+    pub(super) counts: Counts,
     /// The length and checksum of the table of results, set when it is flushed.
     pub(super) results: Written,
     /// The length and checksum of the table of contacts, set when it is flushed.

@@ -8,7 +8,7 @@ use super::journal::{Checkpoint, Earlier, Journal, Lost, Recorded};
 use crate::command::output::{CannotWrite, Output, RESUME};
 use crate::command::table::{Table, Written, measure};
 use crate::table::contacts;
-use crate::table::results;
+use crate::table::results::names;
 use anyhow::{Context, Result, bail};
 use std::fs::File;
 use std::path::PathBuf;
@@ -193,9 +193,9 @@ impl Outputs {
         let journal = journal
             .map(|path| Journal::create(path, recorded))
             .transpose()?;
-        let results = Table::start(places.results, &results::columns(args.extent()))?;
+        let results = Table::start(places.results, &names(&args.columns()))?;
         let contacts = places.contacts;
-        let contacts = contacts.map(|place| Table::start(place, &contacts::COLUMNS));
+        let contacts = contacts.map(|place| Table::start(place, &names(&contacts::columns())));
         let contacts = contacts.transpose()?;
         Ok(Outputs {
             results,

@@ -5,6 +5,7 @@ mod tests;
 
 use super::limits::LimitCounts;
 use crate::batch::Timed;
+use crate::command::counts::Counts;
 use crate::table::results::Status;
 use ccd_core::order::greater;
 use std::collections::BTreeMap;
@@ -13,8 +14,8 @@ use std::fmt;
 /// Counts and times of many answers. Its size does not depend on their number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Summary {
-    /// The number of rows of each status, in the order of [`Status::ALL`].
-    counts: [usize; Status::ALL.len()],
+    /// The number of rows of each status.
+    pub(super) counts: Counts,
     /// The number of rows answered by an earlier run; only their status is known.
     earlier: usize,
     times: Times,
@@ -39,7 +40,7 @@ impl Summary {
     /// Creates an empty summary of queries with the given tolerance.
     pub(super) fn new(tolerance: f64) -> Self {
         Summary {
-            counts: [0; Status::ALL.len()],
+            counts: Counts::default(),
             earlier: 0,
             times: Times::default(),
             iterations: 0,
@@ -53,19 +54,19 @@ impl Summary {
         }
     }
 
-    /// Adds the rows of an earlier run, counted by status in the order of [`Status::ALL`].
-    pub(super) fn with_earlier(mut self, counts: [usize; Status::ALL.len()]) -> Self {
-        for (count, more) in self.counts.iter_mut().zip(counts) {
-            *count += more;
+    /// Starts with the rows of an earlier run.
+    pub(super) fn with_earlier(self, counts: Counts) -> Self {
+        Summary {
+            counts,
+            earlier: counts.rows(),
+            ..self
         }
-        self.earlier += counts.iter().sum::<usize>();
-        self
     }
 
     /// Adds an answer with the given status.
     pub(super) fn add(&mut self, status: Status, timed: &Timed) {
         let answer = &timed.answer;
-        self.counts[status as usize] += 1;
+        self.counts.add(status);
         if let Some(limit) = answer.outcome.limit() {
             self.limits.add(limit);
         }
@@ -80,17 +81,12 @@ impl Summary {
 
     /// Adds a row of status `error`.
     pub(super) fn add_error(&mut self) {
-        self.counts[Status::Error as usize] += 1;
+        self.counts.add(Status::Error);
     }
 
     /// Returns the number of rows answered in this run.
     fn answered(&self) -> u64 {
         self.times.count
-    }
-
-    /// Returns the number of rows of each status, in the order of [`Status::ALL`].
-    pub(super) fn counts(&self) -> [usize; Status::ALL.len()] {
-        self.counts
     }
 
     /// Returns the median time of a query in microseconds, rounded to a thousandth; NaN without queries.
@@ -101,11 +97,6 @@ impl Summary {
     /// Returns the mean time of a query in microseconds; NaN without queries.
     pub(super) fn mean_micros(&self) -> f64 {
         self.times.total / self.times.count as f64
-    }
-
-    /// Returns the number of rows of a status.
-    pub(super) fn count(&self, status: Status) -> usize {
-        self.counts[status as usize]
     }
 
     /// Returns the means of the counters as one line; `None` without answers.
@@ -119,11 +110,6 @@ impl Summary {
                 mean(self.oracle_steps)
             )
         })
-    }
-
-    /// Returns the number of rows.
-    pub(super) fn rows(&self) -> usize {
-        self.counts.iter().sum()
     }
 }
 
@@ -165,17 +151,16 @@ impl Times {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seen = Status::ALL.into_iter().filter(|&s| self.count(s) > 0);
-        let counts: Vec<String> = seen
-            .map(|s| format!("{} {}", self.count(s), s.name()))
-            .collect();
-        let plural = if self.rows() == 1 { "" } else { "s" };
-        write!(f, "{} row{plural}", self.rows())?;
+        let (rows, counts) = (self.counts.rows(), self.counts.some());
+        let counts = counts.map(|(status, count)| format!("{count} {}", status.name()));
+        let counts: Vec<String> = counts.collect();
+        let plural = if rows == 1 { "" } else { "s" };
+        write!(f, "{rows} row{plural}")?;
         if counts.is_empty() {
             return Ok(());
         }
         write!(f, ": {}", counts.join(", "))?;
-        match self.rows() - self.earlier {
+        match rows - self.earlier {
             _ if self.earlier == 0 => {}
             0 => write!(f, "; 0 in this run")?,
             here => write!(f, "; {here} in this run")?,

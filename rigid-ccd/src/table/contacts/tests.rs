@@ -1,5 +1,7 @@
 use super::*;
 use crate::table::motions::Motions;
+use crate::table::results::{Line, names};
+use ccd_core::Separation;
 use ccd_core::Unresolved;
 use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Limit, Stats};
@@ -25,8 +27,14 @@ fn a_pair_fills_a_row() {
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(Vec::new());
-    let row = row("a,b", 0.1 + 0.2, &pair());
-    writer.serialize(row).unwrap();
+    let row = ResultRow::of_pair("a,b", 0.1 + 0.2, &pair());
+    let columns = columns();
+    let header = [
+        "id,time,feature_a,feature_b,distance_lower,distance_upper,normal_x,normal_y,normal_z",
+        "witness_a_x,witness_a_y,witness_a_z,witness_b_x,witness_b_y,witness_b_z",
+    ];
+    assert_eq!(names(&columns).join(","), header.join(","));
+    writer.serialize(Line(&columns, &row)).unwrap();
     let line = String::from_utf8(writer.into_inner().unwrap()).unwrap();
     assert_eq!(
         line,
@@ -37,7 +45,7 @@ fn a_pair_fills_a_row() {
         .headers()
         .unwrap()
         .len();
-    assert_eq!(cells, COLUMNS.len());
+    assert_eq!(cells, columns.len());
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! One row of the table, parsed as the motions of two bodies.
 
 use super::Motions;
+#[cfg(feature = "command")]
+use crate::table::columns::BODY;
 use crate::table::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
 use crate::table::error::RowProblem;
 use crate::table::records::{Cells, Record};
@@ -41,6 +43,39 @@ pub fn query<R: Record + ?Sized>(
         a,
         b,
         duration,
+    })
+}
+
+/// A row of the table of a scene.
+#[cfg(feature = "command")]
+pub(crate) struct BodyRow {
+    /// The id; the index of the row by default.
+    pub(crate) id: String,
+    /// The description of the body.
+    pub(crate) text: String,
+    /// The motion of the body.
+    pub(crate) motion: Motion,
+}
+
+/// Parses a row of the table of a scene, in which all motions end at `duration`; `index` is the default id.
+#[cfg(feature = "command")]
+pub(crate) fn body<R: Record + ?Sized>(
+    columns: &Columns,
+    record: &R,
+    index: usize,
+    duration: f64,
+) -> Result<BodyRow, RowProblem> {
+    let row = Row {
+        columns,
+        cells: record.cells(columns)?,
+    };
+    let motion = row.motion(Side::A, duration)?;
+    columns.oddities().note_motion(&motion, duration);
+    let text = columns.index(BODY).and_then(|cell| record.text(cell));
+    Ok(BodyRow {
+        id: id(columns, record).unwrap_or_else(|| index.to_string()),
+        text: text.unwrap_or_default(),
+        motion,
     })
 }
 

@@ -2,12 +2,10 @@
 
 use crate::batch::Question;
 use ccd_core::{Clearance, HitKind, Outcome};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// The kind of an answer, or an error.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// The bodies come into contact.

@@ -37,8 +37,11 @@ fn times_and_visits_are_summed() {
         .map(|micros| timed(f64::from(micros), 1e-3))
         .collect();
     let summary = sum(&answers, 1e-3);
-    assert_eq!((summary.rows(), summary.count(Status::Free)), (100, 100));
-    assert_eq!(summary.count(Status::Contact), 0);
+    assert_eq!(
+        (summary.counts.rows(), summary.counts.of(Status::Free)),
+        (100, 100)
+    );
+    assert_eq!(summary.counts.of(Status::Contact), 0);
     assert_eq!(
         (summary.median_micros(), summary.mean_micros()),
         (50.5, 50.5)
@@ -100,14 +103,14 @@ fn the_median_of_many_times_has_a_relative_error_below_a_thousandth() {
 fn rows_of_earlier_runs_are_counted_separately() {
     let mut earlier = sum(&[timed(3.0, 1e-3)], 1e-3);
     earlier.add_error();
-    let mut summary = Summary::new(1e-3).with_earlier(earlier.counts());
+    let mut summary = Summary::new(1e-3).with_earlier(earlier.counts);
     assert_eq!(
         summary.to_string(),
         "2 rows: 1 free, 1 error; 0 in this run"
     );
     assert_eq!(summary.means(), None);
     summary.add(Status::Free, &timed(5.0, 1e-3));
-    assert_eq!((summary.rows(), summary.median_micros()), (3, 5.0));
+    assert_eq!((summary.counts.rows(), summary.median_micros()), (3, 5.0));
     let text = summary.to_string();
     let begin = "3 rows: 2 free, 1 error; 1 in this run; median 5.0";
     assert!(text.starts_with(begin), "{text}");
@@ -119,7 +122,7 @@ fn rows_of_earlier_runs_are_counted_separately() {
 fn invalid_rows_take_no_time() {
     let mut summary = sum(&[timed(3.0, 1e-3)], 1e-3);
     summary.add_error();
-    assert_eq!((summary.rows(), summary.median_micros()), (2, 3.0));
+    assert_eq!((summary.counts.rows(), summary.median_micros()), (2, 3.0));
     let text = summary.to_string();
     assert!(
         text.starts_with("2 rows: 1 free, 1 error; median 3.0"),

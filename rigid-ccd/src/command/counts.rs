@@ -1,0 +1,31 @@
+//! The numbers of rows of each status.
+
+use crate::table::results::Status;
+use serde::{Deserialize, Serialize};
+
+/// The number of rows of each status, in the order of [`Status::ALL`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Counts([usize; Status::ALL.len()]);
+
+impl Counts {
+    /// Counts a row.
+    pub(super) fn add(&mut self, status: Status) {
+        self.0[status as usize] += 1;
+    }
+
+    /// Returns the number of rows of a status.
+    pub(super) fn of(&self, status: Status) -> usize {
+        self.0[status as usize]
+    }
+
+    /// Returns the number of all rows.
+    pub(super) fn rows(&self) -> usize {
+        self.0.iter().sum()
+    }
+
+    /// Returns the statuses that some row has, each with the number of its rows.
+    pub(super) fn some(&self) -> impl Iterator<Item = (Status, usize)> {
+        let all = Status::ALL.into_iter().zip(self.0);
+        all.filter(|&(_, count)| count > 0)
+    }
+}

@@ -1,0 +1,121 @@
+//! Answers the selected rows of a query, and writes them in order.
+
+use super::args::QueryArgs;
+use super::journal::Checkpoint;
+use super::outputs::Outputs;
+use super::summary::Summary;
+use crate::batch::Timing;
+use crate::command::answering::{Answered, Answering};
+use crate::command::files::{Rows, input_name};
+use crate::command::output::CannotWrite;
+use crate::command::view::Chosen;
+use crate::table::contacts;
+use crate::table::results::Line;
+use anyhow::{Context, Result};
+
+/// A run of `ccd query`.
+pub(super) struct Run<'a> {
+    pub(super) args: &'a QueryArgs,
+    pub(super) answering: Answering<'a>,
+    pub(super) outputs: Outputs,
+    /// The rows for a page, if one was requested.
+    pub(super) shown: Option<Chosen>,
+    pub(super) summary: Summary,
+}
+
+impl Run<'_> {
+    /// Answers the selected rows from `start` on, and returns the last checkpoint.
+    pub(super) fn answer_all(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
+        let mut done = start;
+        self.answering.progress.answering(0, rows.bytes());
+        loop {
+            let end = self.args.rows.end;
+            let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
+            let (batch, broken) = self.answering.next(rows, remaining);
+            if batch.is_empty() && broken.is_none() {
+                return Ok(done);
+            }
+            let count = batch.len();
+            self.write(batch)?;
+            done = Checkpoint {
+                rows: done.rows + count,
+                checksum: rows.checksum(),
+                bad: start.bad + self.answering.bad_rows.count(),
+                counts: self.summary.counts,
+                ..done
+            };
+            self.outputs.save(done)?;
+            if let Some(error) = broken {
+                return Err(error).with_context(|| input_name(&self.args.motions));
+            }
+        }
+    }
+
+    /// Writes the results and contacts of a batch of rows.
+    fn write(&mut self, mut batch: Vec<Answered>) -> Result<(), CannotWrite> {
+        let columns = self.args.columns();
+        for Answered {
+            course, row, timed, ..
+        } in &mut batch
+        {
+            match timed {
+                Some(timed) => self.summary.add(row.status, timed),
+                None => self.summary.add_error(),
+            }
+            row.micros = row.micros.filter(|_| !self.args.no_micros);
+            if let (Some(shown), Some(course)) = (&mut self.shown, &course) {
+                shown.offer(course, row);
+            }
+            self.outputs.results.row(&Line(&columns, row))?;
+        }
+        self.write_contacts(&batch)
+    }
+
+    /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
+    fn write_contacts(&mut self, batch: &[Answered]) -> Result<(), CannotWrite> {
+        let Some(table) = &mut self.outputs.contacts else {
+            return Ok(());
+        };
+        let Answering {
+            bodies,
+            timing,
+            solver,
+            bad_rows,
+            progress,
+            ..
+        } = &mut self.answering;
+        let (bodies, columns) = (*bodies, contacts::columns());
+        let Timing {
+            question, settings, ..
+        } = timing;
+        let question = *question;
+        let answered = batch.iter().filter_map(|answered| {
+            let course = answered.course.as_ref()?;
+            Some((answered.position, course, answered.timed?))
+        });
+        let answered: Vec<_> = answered.collect();
+        // A row may have very many contacts.
+        for few in answered.chunks(ROWS_OF_CONTACTS) {
+            let all = solver.map(few, |_, (_, course, timed)| {
+                contacts::rows(bodies, course, settings, (question, &timed.answer))
+            });
+            for ((position, ..), rows) in few.iter().zip(all) {
+                match rows {
+                    Ok(rows) => {
+                        for row in rows {
+                            table.row(&Line(&columns, &row))?;
+                        }
+                    }
+                    Err(error) => {
+                        let problem = format!("contacts: {error}");
+                        bad_rows.report(*position, &problem, progress);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The number of rows whose contacts are in memory at the same time.
+const ROWS_OF_CONTACTS: usize = 64;

@@ -1,0 +1,30 @@
+//! Pairs of bodies that are due at a time.
+
+use std::cmp::Ordering;
+
+/// A pair of bodies with what is due then. The greatest, which a heap has first, is the earliest.
+pub(super) struct Due<T> {
+    pub(super) time: f64,
+    pub(super) pair: [usize; 2],
+    pub(super) what: T,
+}
+
+impl<T> Ord for Due<T> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (other.time.total_cmp(&self.time)).then(other.pair.cmp(&self.pair))
+    }
+}
+
+impl<T> PartialOrd for Due<T> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<T> Eq for Due<T> {}
+
+impl<T> PartialEq for Due<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}

@@ -1,0 +1,105 @@
+//! The columns of rows of results: of `ccd query`, of its contacts, of scenes and of Python's tables.
+
+use super::ResultRow;
+use crate::batch::Question;
+use Cells::{Count, Number, Text};
+use serde::ser::{Serialize, SerializeTuple, Serializer};
+
+/// A column of a table: its name in the header, and its cells.
+#[derive(Clone, Copy, Debug)]
+pub struct Column(pub &'static str, pub Cells);
+
+/// The cell of each row in a column; empty if it does not apply.
+#[derive(Clone, Copy, Debug)]
+pub enum Cells {
+    /// Text.
+    Text(fn(&ResultRow) -> Option<&str>),
+    /// Numbers.
+    Number(fn(&ResultRow) -> Option<f64>),
+    /// Whole numbers.
+    Count(fn(&ResultRow) -> Option<u64>),
+}
+
+/// The columns of all tables of results, in order.
+pub const COLUMNS: [Column; 20] = [
+    Column("id", Text(|row| Some(&row.id))),
+    Column("status", Text(|row| Some(row.status.name()))),
+    Column("time", Number(|row| row.time)),
+    Column("distance_lower", Number(|row| row.distance_lower)),
+    Column("distance_upper", Number(|row| row.distance_upper)),
+    Column("normal_x", Number(|row| row.normal[0])),
+    Column("normal_y", Number(|row| row.normal[1])),
+    Column("normal_z", Number(|row| row.normal[2])),
+    Column("witness_a_x", Number(|row| row.witness_a[0])),
+    Column("witness_a_y", Number(|row| row.witness_a[1])),
+    Column("witness_a_z", Number(|row| row.witness_a[2])),
+    Column("witness_b_x", Number(|row| row.witness_b[0])),
+    Column("witness_b_y", Number(|row| row.witness_b[1])),
+    Column("witness_b_z", Number(|row| row.witness_b[2])),
+    Column("feature_a", Text(|row| row.feature_a.as_deref())),
+    Column("feature_b", Text(|row| row.feature_b.as_deref())),
+    Column("iterations", Count(|row| row.iterations)),
+    Column("oracle_calls", Count(|row| row.oracle_calls)),
+    Column("micros", Number(|row| row.micros)),
+    Column("reason", Text(|row| row.reason.as_deref())),
+];
+
+/// The column of the end of a contact interval.
+const LAST_TIME: Column = Column("last_time", Number(|row| row.last_time));
+
+/// The columns of the counters, in order; they follow all other columns.
+pub const COUNTERS: [Column; 5] = [
+    Column(
+        "advancements",
+        Count(|row| Some(row.counters?.advancements)),
+    ),
+    Column(
+        "oracle_steps",
+        Count(|row| Some(row.counters?.effort.steps)),
+    ),
+    Column("cycles", Count(|row| Some(row.counters?.effort.cycles))),
+    Column(
+        "fallbacks",
+        Count(|row| Some(row.counters?.effort.fallbacks)),
+    ),
+    Column("front", Count(|row| Some(row.counters?.peak_front))),
+];
+
+/// Returns the columns of the answers to a question, without counters.
+pub fn columns(question: Question) -> Vec<Column> {
+    let last_time = (question == Question::ContactInterval).then_some(LAST_TIME);
+    COLUMNS.into_iter().chain(last_time).collect()
+}
+
+/// Returns the columns of other tables with rows of results: those that are not `left_out`, with `first` before the
+/// others.
+#[cfg(feature = "command")]
+pub(crate) fn columns_of(first: &[&str], left_out: &[&str]) -> Vec<Column> {
+    let named = |name: &&str| COLUMNS.into_iter().find(|column| column.0 == *name);
+    let is_other = |Column(name, _): &Column| !first.contains(name) && !left_out.contains(name);
+    let others = COLUMNS.into_iter().filter(is_other);
+    first.iter().filter_map(named).chain(others).collect()
+}
+
+/// Returns the names of columns.
+pub fn names(columns: &[Column]) -> Vec<&'static str> {
+    columns.iter().map(|Column(name, _)| *name).collect()
+}
+
+/// The cells of a row in some columns, as they are written. Numbers read back to the same bits.
+pub struct Line<'a>(pub &'a [Column], pub &'a ResultRow);
+
+impl Serialize for Line<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Line(columns, row) = self;
+        let mut line = serializer.serialize_tuple(columns.len())?;
+        for Column(_, cells) in *columns {
+            match cells {
+                Text(of) => line.serialize_element(&of(row))?,
+                Number(of) => line.serialize_element(&of(row))?,
+                Count(of) => line.serialize_element(&of(row))?,
+            }
+        }
+        line.end()
+    }
+}
