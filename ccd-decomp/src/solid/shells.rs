@@ -2,7 +2,7 @@
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
-use crate::disjoint_sets::DisjointSets;
+use crate::disjoint_sets::{DisjointSets, members};
 use crate::exact::rays::{crossing, probe};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
@@ -21,23 +21,17 @@ pub(crate) fn check_orientation(
     work: &Work,
 ) -> Result<(), DecomposeError> {
     let shell_of = shells(manifold);
-    let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
     let near = manifold.triangle(0)[0];
-    let mut faces_of = vec![Vec::new(); count];
-    for (face, &shell) in shell_of.iter().enumerate() {
-        faces_of[shell as usize].push(face as u32);
-    }
+    let faces_of = members(&shell_of);
     for faces in &faces_of {
-        let mut volume = SignedVolume::default();
-        for &face in faces {
-            volume.add(manifold.triangle(face), near);
-        }
+        let triangles = faces.iter().map(|&face| manifold.triangle(face));
+        let volume = SignedVolume::of(triangles, near);
         let face = manifold.mesh().face_ids()[faces[0] as usize];
         let Some(outward) = volume.is_positive() else {
             return Err(DecomposeError::NoVolume { face });
         };
-        let around = match count {
-            1 => Some(0),
+        let around = match faces_of[..] {
+            [_] => Some(0),
             _ => winding_of_others(manifold, &shell_of, faces, work),
         };
         work.check()?;
