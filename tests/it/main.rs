@@ -11,7 +11,6 @@ mod decomposition;
 mod dense_hulls;
 mod equal_bits;
 mod exact;
-mod faulty_meshes;
 mod flat_ground;
 mod folds;
 mod generators;
