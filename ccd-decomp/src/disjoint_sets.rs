@@ -44,3 +44,13 @@ impl DisjointSets {
         self.0[a.max(b) as usize] = a.min(b);
     }
 }
+
+/// Returns the elements of each set in ascending order, given the [number](DisjointSets::numbers) of each element's set.
+pub(crate) fn members(numbers: &[u32]) -> Vec<Vec<u32>> {
+    let count = numbers.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut members = vec![Vec::new(); count];
+    for (element, &number) in (0..).zip(numbers) {
+        members[number as usize].push(element);
+    }
+    members
+}

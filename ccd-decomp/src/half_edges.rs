@@ -101,12 +101,15 @@ impl Edges {
     }
 
     /// Iterates over the edges: lower and upper end, and the uses in ascending order of half-edges.
-    pub(crate) fn iter(&self) -> EdgesIter<'_> {
-        EdgesIter {
-            edges: self,
-            slot: 0,
-            at: 0,
-        }
+    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Use])> {
+        let starts = std::iter::once(&0).chain(&self.ends);
+        let slots = (0..).zip(starts.zip(&self.ends));
+        slots.flat_map(|(slot, (&start, &end))| {
+            let lower = self.lower.get(slot as usize).copied().unwrap_or(slot);
+            let uses = &self.uses[start as usize..end as usize];
+            let edges = uses.chunk_by(|one, next| one.upper() == next.upper());
+            edges.map(move |uses| ([lower, uses[0].upper()], uses))
+        })
     }
 
     /// Returns the twin of every half-edge, which is opposite on the same edge; `None` unless each has exactly one.
@@ -126,35 +129,6 @@ impl Edges {
             }
         }
         Some(twins)
-    }
-}
-
-/// The iterator over edges.
-pub(crate) struct EdgesIter<'e> {
-    edges: &'e Edges,
-    /// The slot of the last edge's lower end, and the first use after it.
-    slot: usize,
-    at: usize,
-}
-
-impl<'e> Iterator for EdgesIter<'e> {
-    type Item = ([u32; 2], &'e [Use]);
-
-    #[inline]
-    fn next(&mut self) -> Option<Self::Item> {
-        let Edges { lower, ends, uses } = self.edges;
-        let start = self.at;
-        let upper = uses.get(start)?.upper();
-        while ends[self.slot] as usize <= start {
-            self.slot += 1;
-        }
-        let end = ends[self.slot] as usize;
-        while self.at < end && uses[self.at].upper() == upper {
-            self.at += 1;
-        }
-        let lower = lower.get(self.slot).copied();
-        let lower = lower.unwrap_or(self.slot as u32);
-        Some(([lower, upper], &uses[start..self.at]))
     }
 }
 

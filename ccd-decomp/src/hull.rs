@@ -9,11 +9,10 @@ pub(crate) mod exact_hull;
 mod flat;
 pub(crate) mod polygons;
 
-use crate::exact::predicates::{self, lexicographic};
+use crate::exact::predicates::{lexicographic, too_fine, too_large};
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::loops;
 use ccd_core::glam::DVec3;
-use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{Hull, Loops};
 
 /// A coordinate of a point is too near to 0 for exact predicates, not finite, or too large.
@@ -35,10 +34,7 @@ pub struct HullError {
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
-    // Written so that NaN fails.
-    let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
-    let out_of_range = points.iter().position(|p| !good(p));
-    if let Some(point) = out_of_range.or_else(|| predicates::too_fine(points)) {
+    if let Some(point) = too_large(points).or_else(|| too_fine(points)) {
         let point = point as u32;
         return Err(HullError { point });
     }

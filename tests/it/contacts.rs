@@ -7,9 +7,9 @@ use ccd_tests::analytic::scenes_named;
 use ccd_tests::backends::Backend;
 use ccd_tests::case::Case;
 use ccd_tests::checks::Law;
+use ccd_tests::distances::distance_to_mesh_feature;
 use ccd_tests::models::Kind;
 use ccd_tests::query::{Actor, Bodies, Query};
-use ccd_tests::referee::{point_segment, point_triangle};
 use ccd_tests::strategies::{cases, check_cases, remote_cases};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -217,16 +217,9 @@ fn check_pairs(
     Ok(())
 }
 
-/// Returns the distance of a point from a feature of the mesh at a time.
+/// Returns the distance of a point from a feature of the mesh at a time; infinity for none of the mesh.
 fn distance_from_feature(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
-    let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);
-    match feature {
-        Feature::Vertex(v) => at(v).distance(point),
-        Feature::Edge(v, w) => point_segment(point, [at(v), at(w)]).distance(point),
-        Feature::Face(face) => {
-            point_triangle(point, mesh.faces[face as usize].map(at)).distance(point)
-        }
-        Feature::Piece(_) => f64::INFINITY,
-    }
+    let to_world = |p| pose.transform_point(p);
+    distance_to_mesh_feature(point, feature, mesh, to_world).unwrap_or(f64::INFINITY)
 }

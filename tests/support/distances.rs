@@ -51,7 +51,11 @@ pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, to_world: impl Fn(DVec3) -
     (0..mesh.faces.len()).map(off).fold(f64::INFINITY, lesser)
 }
 
-pub(crate) fn distance_to_mesh_feature(
+/// Returns the distance of a point from a feature of a mesh.
+///
+/// # Errors
+/// The mesh has no such feature.
+pub fn distance_to_mesh_feature(
     p: DVec3,
     feature: Feature,
     mesh: &Mesh,

@@ -7,7 +7,7 @@ pub mod case;
 pub mod checks;
 pub mod corpus;
 pub mod courses;
-mod distances;
+pub mod distances;
 pub mod exact;
 pub mod liars;
 pub mod mixed;

@@ -3,6 +3,7 @@
 pub(crate) use ccd_core::exact::{is_degenerate, side, too_fine, turn_along};
 
 use ccd_core::glam::DVec3;
+use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::order::greater;
 use std::cmp::Ordering;
 
@@ -81,6 +82,13 @@ fn to_one(x: f64) -> f64 {
 pub(crate) fn determinant(columns: [DVec3; 3]) -> Ordering {
     let [x, y, z] = columns.map(|column| column * to_one(column.abs().max_element()));
     side([DVec3::ZERO, x, y], z)
+}
+
+/// Returns the first point with a coordinate that is not finite, or too large.
+pub(crate) fn too_large(points: &[DVec3]) -> Option<usize> {
+    // Written so that NaN fails.
+    let is_good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
+    points.iter().position(|p| !is_good(p))
 }
 
 /// Compares points by x, then y, then z. On a plane or a line this is the order along some direction.

@@ -43,16 +43,11 @@ impl ExactHull {
         }
     }
 
-    fn with_facets(facets: Vec<[u32; 3]>) -> Self {
+    pub(crate) fn with_facets(facets: Vec<[u32; 3]>) -> Self {
         let mut corners: Vec<u32> = facets.iter().flatten().copied().collect();
         corners.sort_unstable();
         corners.dedup();
         ExactHull { facets, corners }
-    }
-
-    /// Computes the hull of all points; `None` if they are coplanar. O(n log n).
-    pub(crate) fn new(points: &[DVec3]) -> Option<Self> {
-        ExactHull::facets_of(points).map(ExactHull::with_facets)
     }
 
     /// Computes the facets of the hull of all points; `None` if they are coplanar. O(n log n).

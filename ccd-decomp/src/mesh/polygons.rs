@@ -4,9 +4,8 @@ use super::error::MeshFault;
 use super::outline;
 use super::remark::Remarks;
 use super::repair::Repairs;
-use crate::exact::predicates::is_without_area;
+use crate::exact::predicates::{is_without_area, too_large};
 use ccd_core::glam::DVec3;
-use ccd_core::limits::MAX_COORDINATE;
 
 /// The vertices and faces of a file, not yet checked.
 #[derive(Debug, Default)]
@@ -126,9 +125,7 @@ pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFa
 
 /// Checks that all coordinates are in the supported range.
 pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
-    // Written so that NaN fails.
-    let bad = |p: &DVec3| !(p.abs().max_element() <= MAX_COORDINATE && p.is_finite());
-    let Some(vertex) = vertices.iter().position(bad) else {
+    let Some(vertex) = too_large(vertices) else {
         return Ok(());
     };
     let line = lines.get(vertex).copied();

@@ -1,7 +1,7 @@
 //! Convex solids as one polytope.
 
 use super::polytope::{CoveredFacet, polytope};
-use crate::hull::polygons::polygons;
+use crate::hull::polygons::for_each_polygon;
 use crate::solid::error::DecomposeError;
 use crate::solid::manifold::{Dihedral, Manifold};
 use crate::solid::shells::shells;
@@ -28,13 +28,19 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
     if parts > 1 {
         return Err(DecomposeError::NotInOnePart { parts });
     }
-    let polygons = polygons(manifold.mesh().vertices(), manifold.faces());
-    let facets = polygons.into_iter().map(|polygon| CoveredFacet {
-        corners: polygon.corners,
-        faces: polygon.triangles,
-        is_covered: true,
-    });
-    Ok(polytope(manifold, &facets.collect::<Vec<_>>()))
+    let mut facets = Vec::new();
+    for_each_polygon(
+        manifold.mesh().vertices(),
+        manifold.faces(),
+        |corners, faces| {
+            facets.push(CoveredFacet {
+                corners: corners.to_vec(),
+                faces: faces.to_vec(),
+                is_covered: true,
+            });
+        },
+    );
+    Ok(polytope(manifold, &facets))
 }
 
 /// Returns the first reflex or folded edge.

@@ -65,7 +65,7 @@ impl BoxTree {
         &self,
         region: &Region,
         work: &Work,
-        holds: impl FnMut(u32) -> bool,
+        mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         // Used only if axis-aligned boxes leave too many elements.
         let (met, apart) = (Cell::new(0), OnceCell::new());
@@ -79,22 +79,11 @@ impl BoxTree {
                     .get_or_init(|| Apart::from(region.shape()))
                     .has(oriented)
         };
-        self.all_but(is_far, work, holds)
-    }
-
-    /// Calls `holds` for the faces of all elements, except in boxes that are far, until it returns false or the work is
-    /// spent.
-    pub(super) fn all_but(
-        &self,
-        is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
-        work: &Work,
-        mut holds: impl FnMut(u32) -> bool,
-    ) -> bool {
-        self.all_elements_but(is_far, work, |element| holds(element.face))
+        self.all_but(is_far, work, |element| holds(element.face))
     }
 
     /// Calls `holds` for all elements, except in boxes that are far, until it returns false or the work is spent.
-    pub(super) fn all_elements_but(
+    pub(super) fn all_but(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
         work: &Work,

@@ -106,7 +106,7 @@ impl Fan {
         &self,
         shape: &Shape,
         work: &Work,
-        holds: impl FnMut(u32) -> bool,
+        mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         if let Shape::Inside(hull) = shape
             && self.is_beside(hull)
@@ -122,6 +122,7 @@ impl Fan {
         let is_far = |_: &Bounds, oriented: &OrientedBox| {
             planes.iter().any(|plane| plane.has_in_front(oriented))
         };
-        self.rim.all_but(is_far, work, holds)
+        self.rim
+            .all_but(is_far, work, |element| holds(element.face))
     }
 }

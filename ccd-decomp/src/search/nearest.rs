@@ -57,7 +57,7 @@ impl BoxTree {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
-        self.all_elements_but(is_far, work, |element| {
+        self.all_but(is_far, work, |element| {
             !Bounds::enclosing(element.corners).meets(bounds) || holds(element.face)
         })
     }

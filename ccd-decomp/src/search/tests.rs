@@ -124,11 +124,8 @@ fn skipped_triangles_meet_nothing() {
             if is_degenerate([a, b, c]) {
                 continue;
             }
-            let facets = ExactHull::new(&probe);
-            let facets: Vec<[DVec3; 3]> = facets.map_or(Vec::new(), |hull| {
-                let facets = hull.facets().iter();
-                facets.map(|f| f.map(|v| probe[v as usize])).collect()
-            });
+            let facets = ExactHull::facets_of(&probe).unwrap_or_default().into_iter();
+            let facets: Vec<[DVec3; 3]> = facets.map(|f| f.map(|v| probe[v as usize])).collect();
             let inside = Region::inside(probe.to_vec(), facets.clone(), Bounds::enclosing(probe));
             let regions = [Region::triangle([a, b, c]), Region::segment([a, b]), inside];
             let found = regions.map(|region| found(&boxes, &region));

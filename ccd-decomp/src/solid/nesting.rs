@@ -2,8 +2,8 @@
 
 mod closed_parts;
 
-use super::shells::faces_by_shell;
 use crate::bounds::{Bounds, BoundsTree};
+use crate::disjoint_sets::members;
 use crate::exact::predicates::{is_degenerate, too_fine};
 use crate::exact::rays::{crossing, probe};
 use crate::exact::triangles::meet;
@@ -42,7 +42,7 @@ impl Nesting {
     /// Exact. O(n log n) where few boxes of triangles and of shells meet those of other shells.
     pub(crate) fn new(mesh: &TriangleMesh, edges: &Edges) -> Self {
         let shell_of = closed_parts(mesh, edges);
-        let faces_of = faces_by_shell(&shell_of);
+        let faces_of = members(&shell_of);
         match faces_of[..] {
             [] | [_] => Nesting::default(),
             _ => Shells::new(mesh, shell_of, faces_of).nesting(),

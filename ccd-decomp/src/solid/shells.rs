@@ -2,7 +2,7 @@
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
-use crate::disjoint_sets::DisjointSets;
+use crate::disjoint_sets::{DisjointSets, members};
 use crate::exact::rays::{crossing, probe};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
@@ -22,7 +22,7 @@ pub(crate) fn check_orientation(
 ) -> Result<(), DecomposeError> {
     let shell_of = shells(manifold);
     let near = manifold.triangle(0)[0];
-    let faces_of = faces_by_shell(&shell_of);
+    let faces_of = members(&shell_of);
     for faces in &faces_of {
         let triangles = faces.iter().map(|&face| manifold.triangle(face));
         let volume = SignedVolume::of(triangles, near);
@@ -57,16 +57,6 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
         }
     }
     shells.numbers()
-}
-
-/// Returns the faces of each shell, given the shell of each face.
-pub(super) fn faces_by_shell(shell_of: &[u32]) -> Vec<Vec<u32>> {
-    let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
-    let mut faces_of = vec![Vec::new(); count];
-    for (face, &shell) in (0..).zip(shell_of) {
-        faces_of[shell as usize].push(face);
-    }
-    faces_of
 }
 
 /// Returns the winding number of the other shells about one; `None` if every ray meets an edge or vertex.

@@ -4,12 +4,13 @@ use super::obstacle::Obstacle;
 use crate::bounds::Bounds;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
-use crate::hull::polygons::polygons;
+use crate::hull::polygons::loops;
 use crate::search::region::Region;
 use crate::solid::flats::Flats;
 use crate::solid::manifold::Manifold;
 use crate::tolerance::PATCH_CORNERS;
 use crate::work::Work;
+use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -54,17 +55,16 @@ impl GrowingPatch {
     }
 
     /// Returns the facets of the hull, without coplanar neighbours; a flat hull has two.
-    pub(super) fn facets(&self, points: &[DVec3]) -> Vec<Vec<u32>> {
+    pub(super) fn facets(&self, points: &[DVec3]) -> Loops {
         if self.has_volume {
-            let polygons = polygons(points, self.hull.facets()).into_iter();
-            return polygons.map(|polygon| polygon.corners).collect();
+            return loops(points, self.hull.facets());
         }
         let mut front = self.hull.corners().to_vec();
         let least = (0..front.len()).min_by_key(|&k| front[k]);
         front.rotate_left(least.unwrap_or(0));
         let mut back = front.clone();
         back[1..].reverse();
-        vec![front, back]
+        Loops::from_iter([front, back])
     }
 
     /// Adds a polygon if the result is a valid patch. The result is meaningful only if work is left.

@@ -1,6 +1,7 @@
 //! Tests whether a triangle enters the interior of a hull.
 
 use crate::exact::predicates::side_of;
+use crate::half_edges::{Edges, Use};
 use crate::hull::exact_hull::ExactHull;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
@@ -103,19 +104,15 @@ impl<'a> Obstacle<'a> {
 
     fn edges(&self) -> &[Edge] {
         self.edges.get_or_init(|| {
-            let mut sides: Vec<([u32; 2], u32)> = Vec::new();
-            for (f, &[a, b, c]) in self.hull.facets().iter().enumerate() {
-                let ends = [[a, b], [b, c], [c, a]];
-                sides.extend(ends.map(|[v, w]| ([v.min(w), v.max(w)], f as u32)));
-            }
-            sides.sort_unstable();
-            let pairs = sides.chunks_exact(2);
-            pairs
-                .map(|pair| Edge {
-                    ends: pair[0].0,
-                    facets: [pair[0].1, pair[1].1],
-                })
-                .collect()
+            let edges = Edges::new(self.hull.facets());
+            let edge = |(ends, uses): ([u32; 2], &[Use])| match *uses {
+                [one, other] => Some(Edge {
+                    ends,
+                    facets: [one.face(), other.face()],
+                }),
+                _ => None,
+            };
+            edges.iter().filter_map(edge).collect()
         })
     }
 }

@@ -28,8 +28,10 @@ impl Patch {
             .flat_map(|f| f.faces.iter().copied())
             .collect();
         faces.sort_unstable();
-        let facets = region.facets(manifold.mesh().vertices()).into_iter();
-        let facets = facets.map(|corners| covered(manifold, &members, corners));
+        let facets = region.facets(manifold.mesh().vertices());
+        let facets = facets
+            .iter()
+            .map(|corners| covered(manifold, &members, corners));
         let polytope = polytope(manifold, &facets.collect::<Vec<_>>());
         Patch { faces, polytope }
     }
@@ -42,13 +44,13 @@ impl Patch {
 }
 
 /// Returns a facet of a patch's hull with the faces that lie in it.
-fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: Vec<u32>) -> CoveredFacet {
+fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> CoveredFacet {
     let at = |v: u32| manifold.point(v);
     let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
     let triangle = [corners[0], corners[1], corners[2]];
     let Some(plane) = Projection::new(triangle) else {
         return CoveredFacet {
-            corners: facet,
+            corners: facet.to_vec(),
             faces: Vec::new(),
             is_covered: false,
         };
@@ -72,6 +74,6 @@ fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: Vec<u32>) -> Cover
     CoveredFacet {
         is_covered: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
         faces: members.iter().flat_map(|f| &f.faces).copied().collect(),
-        corners: facet,
+        corners: facet.to_vec(),
     }
 }

@@ -48,18 +48,12 @@ pub(super) fn without_inner(points: Vec<DVec3>) -> Vec<DVec3> {
         return points;
     }
     let far = farthest(&points, DIRECTIONS);
-    let Some(hull) = ExactHull::new(&far) else {
+    let Some(facets) = ExactHull::facets_of(&far) else {
         return points;
     };
-    let facets: Vec<[DVec3; 3]> = hull
-        .facets()
-        .iter()
-        .map(|facet| facet.map(|v| far[v as usize]))
-        .collect();
     let is_outside = |p: &DVec3| {
-        facets
-            .iter()
-            .any(|&facet| side(facet, *p) == Ordering::Greater)
+        let mut facets = facets.iter().map(|facet| facet.map(|v| far[v as usize]));
+        facets.any(|facet| side(facet, *p) == Ordering::Greater)
     };
     let outside = points.into_iter().filter(is_outside);
     far.iter().copied().chain(outside).collect()

@@ -96,9 +96,8 @@ impl Measured {
     fn new(points: Vec<DVec3>) -> Self {
         let points = without_inner(points);
         let priced = farthest(&points, PRICED_POINTS);
-        let hull = ExactHull::new(&priced);
         Measured {
-            volume: hull.map_or(0.0, |hull| volume(&priced, hull.facets().iter().copied())),
+            volume: volume(&priced).unwrap_or(0.0),
             bounds: Bounds::enclosing(points.iter().copied()),
             priced,
             points,
@@ -107,11 +106,7 @@ impl Measured {
 
     /// Returns the volume that merging adds. Boxes are larger than hulls, so that disjoint parts are merged last.
     fn price_with(&self, other: &Measured) -> f64 {
-        let common = || {
-            let points = [&self.priced[..], &other.priced].concat();
-            let triangles = ExactHull::facets_of(&points)?;
-            Some(volume(&points, triangles.into_iter()))
-        };
+        let common = || volume(&[&self.priced[..], &other.priced].concat());
         let meet = self.bounds.meets(&other.bounds);
         let both = self.bounds.union(other.bounds);
         let of_box = (both.hi - both.lo).element_product();
@@ -119,9 +114,10 @@ impl Measured {
     }
 }
 
-/// Returns the rounded volume enclosed by triangles, for comparisons.
-fn volume(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> f64 {
+/// Returns the rounded volume of the hull of points, for comparisons; `None` if they are coplanar.
+fn volume(points: &[DVec3]) -> Option<f64> {
     let at = |v: u32| points[v as usize] - points[0];
+    let triangles = ExactHull::facets_of(points)?.into_iter();
     let six = triangles.map(|[a, b, c]| at(a).dot(at(b).cross(at(c))));
-    six.sum::<f64>() / 6.0
+    Some(six.sum::<f64>() / 6.0)
 }

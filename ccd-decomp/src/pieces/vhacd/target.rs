@@ -35,14 +35,12 @@ pub(super) enum Location {
 
 impl<'a> Target<'a> {
     pub(super) fn new(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
-        let corners = mesh.faces().iter().flatten();
-        let Bounds { lo, hi } = Bounds::enclosing(corners.map(|&v| mesh.vertices()[v as usize]));
         Target {
             mesh,
             search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
             closed: topology.is_solid(),
             inside_out: topology.orientation() == Orientation::Inward,
-            bounds: [lo, hi],
+            bounds: mesh.bounding_box(),
         }
     }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::hull::exact_hull::{ExactHull, conflicts};
-use crate::hull::polygons::polygons;
+use crate::hull::polygons::loops;
 use proptest::prelude::*;
 
 proptest! {
@@ -17,17 +17,17 @@ proptest! {
         let points: Vec<DVec3> = points.iter().zip(&off).map(shaken).collect();
         let Some(simplex) = ExactHull::simplex(&points) else { return Ok(()) };
         let sorted = |triangles: Vec<[u32; 3]>| {
-            let mut loops: Vec<Vec<[u64; 3]>> = Vec::new();
-            for polygon in polygons(&points, &triangles) {
+            let mut sorted: Vec<Vec<[u64; 3]>> = Vec::new();
+            for polygon in loops(&points, &triangles).iter() {
                 // Each hull may use any of several equal points.
                 let place = |&v: &u32| points[v as usize].to_array().map(|x| (x + 0.0).to_bits());
-                let mut corners: Vec<[u64; 3]> = polygon.corners.iter().map(place).collect();
+                let mut corners: Vec<[u64; 3]> = polygon.iter().map(place).collect();
                 let least = (0..corners.len()).min_by_key(|&k| corners[k]).unwrap();
                 corners.rotate_left(least);
-                loops.push(corners);
+                sorted.push(corners);
             }
-            loops.sort();
-            loops
+            sorted.sort();
+            sorted
         };
         let few = sorted(facets(&points, simplex));
         prop_assert_eq!(few, sorted(conflicts::facets(&points, simplex)));

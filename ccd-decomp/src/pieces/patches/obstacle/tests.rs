@@ -27,7 +27,8 @@ proptest! {
         triangle in [coarse(), coarse(), coarse()],
     ) {
         let mut points = hull;
-        let Some(hull) = ExactHull::new(&points) else { return Ok(()) };
+        let facets = ExactHull::facets_of(&points);
+        let Some(hull) = facets.map(ExactHull::with_facets) else { return Ok(()) };
         let first = points.len() as u32;
         points.extend(triangle);
         let triangle = [first, first + 1, first + 2];
@@ -44,7 +45,8 @@ proptest! {
         weights in [1..8i32, 1..8i32],
     ) {
         let mut points = hull;
-        let Some(hull) = ExactHull::new(&points) else { return Ok(()) };
+        let facets = ExactHull::facets_of(&points);
+        let Some(hull) = facets.map(ExactHull::with_facets) else { return Ok(()) };
         let [s, t] = weights.map(|w| f64::from(w) / 16.0);
         let p = (1.0 - s - t) * triangle[0] + s * triangle[1] + t * triangle[2];
         let at = |v: u32| points[v as usize];
