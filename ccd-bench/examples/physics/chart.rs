@@ -52,7 +52,10 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], style));
         }
         let mut legend = chart.configure_series_labels();
-        legend.background_style(WHITE.mix(0.8)).draw()?;
+        legend
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE.mix(0.8))
+            .draw()?;
     }
     sheet.present()?;
     Ok(())

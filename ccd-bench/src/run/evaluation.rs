@@ -182,14 +182,11 @@ impl Plan {
     }
 
     /// Returns the kinds of motion that some method uses.
-    fn motions(&self) -> Vec<MotionKind> {
-        let mut motions = Vec::new();
-        for motion in self.methods.iter().map(|method| method.motion_kind()) {
-            if !motions.contains(&motion) {
-                motions.push(motion);
-            }
-        }
-        motions
+    fn motions(&self) -> impl Iterator<Item = MotionKind> {
+        let is_used = |kind: &MotionKind| self.methods.iter().any(|m| m.motion_kind() == *kind);
+        [MotionKind::Given, MotionKind::Screw]
+            .into_iter()
+            .filter(is_used)
     }
 
     /// Describes the settings that determine all measurements: this program, and the allowances.

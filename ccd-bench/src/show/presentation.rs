@@ -8,7 +8,8 @@ use crate::show::page;
 use crate::show::sentences::Measurements;
 use crate::show::tables::{self, TextTable};
 use crate::show::views::Views;
-use anyhow::{Context, Result};
+use crate::show::write;
+use anyhow::Result;
 use std::path::{Path, PathBuf};
 
 /// Tables, charts and views of one evaluation.
@@ -106,10 +107,4 @@ impl<'e> Presentation<'e> {
         write(&page, &page::html(&drawings, &views, &self.comparisons)?)?;
         Ok(page)
     }
-}
-
-/// Writes a text into a file.
-fn write(path: &Path, text: &str) -> Result<()> {
-    ccd_file::write(path, |out| out.write_all(text.as_bytes()))
-        .with_context(|| format!("cannot write {}", path.display()))
 }

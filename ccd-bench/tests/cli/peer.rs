@@ -3,7 +3,7 @@
 use ccd_bench::method::Method;
 use ccd_bench::method::guarded::{Guarded, QueryOutcome, Setting};
 use ccd_bench::method::peer::PeerKind;
-use ccd_bench::method::solver::Claim;
+use ccd_bench::method::solver::{Claim, TimedReply};
 use ccd_bench::scene::model::Board;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
@@ -52,7 +52,7 @@ fn guarded_by(script: &str) -> Guarded {
 }
 
 fn assert_answered(outcome: QueryOutcome) {
-    let QueryOutcome::Answered { reply, micros } = outcome else {
+    let QueryOutcome::Answered(TimedReply { reply, micros }) = outcome else {
         panic!("{outcome:?}");
     };
     let Claim::Contact { time } = reply.claim else {
@@ -83,7 +83,7 @@ fn a_margin_is_kept_or_refused() {
         let outcome = ask(method);
         match method {
             Method::Ours(..) => {
-                let Ok(QueryOutcome::Answered { reply, .. }) = outcome else {
+                let Ok(QueryOutcome::Answered(TimedReply { reply, .. })) = outcome else {
                     panic!("{method}: {outcome:?}");
                 };
                 let Claim::Contact { time } = reply.claim else {
@@ -140,7 +140,8 @@ fn a_dying_peer_is_reported_and_restarted() {
 fn a_tolerance_is_passed_on() {
     let mut peer = guarded(PeerKind::ParrySweepF64);
     peer.set_tolerance(1e-6);
-    let QueryOutcome::Answered { reply, .. } = peer.ask(&drop(), PATIENCE).unwrap() else {
+    let QueryOutcome::Answered(TimedReply { reply, .. }) = peer.ask(&drop(), PATIENCE).unwrap()
+    else {
         panic!("no answer");
     };
     let Claim::Contact { time } = reply.claim else {
