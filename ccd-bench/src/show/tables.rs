@@ -25,6 +25,9 @@ pub struct TextTable {
     pub rows: Vec<Vec<String>>,
 }
 
+/// A column of a table of cells: its name and its texts.
+type Column<'c> = (&'c str, &'c dyn Fn(&Cell) -> String);
+
 /// The number of rows below which a median is shown with its number of rows.
 const FEW: usize = 10;
 
@@ -91,7 +94,7 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -
         error if error.is_nan() => NOTHING.to_owned(),
         error => format!("{error:.0e}"),
     };
-    let columns: [(&str, &dyn Fn(&Cell) -> String); 12] = [
+    let columns: [Column<'_>; 12] = [
         ("method", &|cell| cell.method.clone()),
         ("rows", &|cell| cell.rows.to_string()),
         ("median µs", &|cell| micros(cell.median_us)),
@@ -121,8 +124,11 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -
     table
 }
 
+/// A count of a cell, with its name.
+type Count = (&'static str, fn(&Cell) -> usize);
+
 /// The counts of a cell that are summed for a method.
-const COUNTS: [(&str, fn(&Cell) -> usize); 8] = [
+const COUNTS: [Count; 8] = [
     ("queries", |cell| cell.rows),
     ("late", |cell| cell.late),
     ("missed", |cell| cell.missed),
@@ -145,7 +151,7 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
     let names = COUNTS.map(|(name, _)| name);
     let mut table = TextTable::new(title, ["method"].into_iter().chain(names));
     for method in methods(cells).into_iter().filter(|m| answers(m)) {
-        let sum = |(_, count): (&str, fn(&Cell) -> usize)| {
+        let sum = |(_, count): Count| {
             let of = cells.iter().filter(|cell| cell.method == method);
             of.map(count).sum::<usize>().to_string()
         };
