@@ -89,7 +89,7 @@ impl Method {
             .iter()
             .copied()
             .map(Method::Rival);
-        let peers = PeerKind::all().map(Method::Peer);
+        let peers = PeerKind::value_variants().iter().copied().map(Method::Peer);
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
@@ -138,9 +138,8 @@ impl Method {
 
     /// Returns the method with a name.
     pub fn named(name: &str) -> Option<Method> {
-        let peers = PeerKind::value_variants().iter().copied().map(Method::Peer);
-        let more = peers
-            .chain(Method::combinations())
+        let more = Method::combinations()
+            .into_iter()
             .chain(Method::of_scripts());
         let mut all = Method::all().into_iter().chain(more);
         all.find(|method| method.to_string() == name)

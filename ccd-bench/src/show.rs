@@ -8,3 +8,14 @@ pub mod sentences;
 pub mod splice;
 pub mod tables;
 pub mod views;
+
+use rigid_ccd::command::CannotWrite;
+use std::path::Path;
+
+/// Writes a text into a file.
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), CannotWrite> {
+    ccd_file::write(path, |out| out.write_all(text.as_bytes())).map_err(|source| CannotWrite {
+        place: path.display().to_string(),
+        source,
+    })
+}

@@ -72,25 +72,12 @@ pub struct Bracket {
 pub struct Referee<'a> {
     a: &'a Surface,
     b: &'a Surface,
-    /// The maximum number of tests of pairs for a query.
-    tests: u64,
 }
 
 impl<'a> Referee<'a> {
     /// Returns the referee of body A and body B, which may be the same.
     pub fn new(a: &'a Surface, b: &'a Surface) -> Self {
-        Referee {
-            a,
-            b,
-            tests: search::BUDGET,
-        }
-    }
-
-    /// Limits the tests of pairs for a query. A query that needs more is [`Truth::Undecided`], or its distance is
-    /// bracketed less closely.
-    #[must_use]
-    pub fn within(self, tests: u64) -> Self {
-        Referee { tests, ..self }
+        Referee { a, b }
     }
 
     /// Brackets the time at which the surfaces first share a point.

@@ -74,10 +74,7 @@ impl Tally {
         match (ours, theirs) {
             (None, None) => self.agree += 1,
             (Some(ours), Some(theirs)) if near(ours, theirs) => self.agree += 1,
-            (Some(ours), theirs) if !confirmed(ours) => {
-                self.unconfirmed += 1;
-                let _ = theirs;
-            }
+            (Some(ours), _) if !confirmed(ours) => self.unconfirmed += 1,
             (Some(_), None) => self.missed += 1,
             (Some(ours), Some(theirs)) if theirs > ours => self.late += 1,
             (_, Some(theirs)) if confirmed(theirs) => self.later_than_peer += 1,

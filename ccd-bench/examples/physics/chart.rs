@@ -3,9 +3,7 @@
 use crate::{METHODS, Method};
 use anyhow::Result;
 use ccd_core::order::greater;
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
 use std::path::Path;
 
@@ -18,26 +16,16 @@ pub(crate) struct Depths {
 /// The least depth of the axis, in metres; smaller depths are drawn there.
 const LEAST: f64 = 1e-6;
 
-/// The height of the legend, in pixels.
-const LEGEND: u32 = 36;
-
 /// The maximum number of values of a line: each is the deepest of several steps.
 const MOST_VALUES: usize = 300;
 
 /// Draws one panel for each world.
 pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
-    let size = (900, LEGEND + 260 * worlds.len() as u32);
+    let size = (900, 260 * worlds.len() as u32);
     let sheet = SVGBackend::new(path, size).into_drawing_area();
     sheet.fill(&WHITE)?;
-    let (legend, panels) = sheet.split_vertically(LEGEND);
-    draw_legend(&legend)?;
-    for (panel, depths) in panels.split_evenly((worlds.len(), 1)).iter().zip(worlds) {
-        let steps = depths
-            .methods
-            .iter()
-            .map(Vec::len)
-            .max()
-            .unwrap_or_default();
+    for (panel, depths) in sheet.split_evenly((worlds.len(), 1)).iter().zip(worlds) {
+        let steps = depths.methods.first().map_or(0, Vec::len);
         let range: Range<f64> = LEAST..1.0;
         let mut chart = ChartBuilder::on(panel)
             .caption(depths.world, ("sans-serif", 18))
@@ -58,23 +46,18 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
             let line = deepest(values)
                 .into_iter()
                 .map(|(step, depth)| (step, greater(LEAST, depth)));
-            chart.draw_series(LineSeries::new(line, style))?;
+            let drawn = chart.draw_series(LineSeries::new(line, style))?;
+            drawn
+                .label(method.name())
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], style));
         }
+        let mut legend = chart.configure_series_labels();
+        legend
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE.mix(0.8))
+            .draw()?;
     }
     sheet.present()?;
-    Ok(())
-}
-
-fn draw_legend(area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<()> {
-    let middle = LEGEND as i32 / 2;
-    for (number, method) in METHODS.iter().enumerate() {
-        let left = 80 + 240 * number as i32;
-        let line = [(left, middle), (left + 24, middle)];
-        area.draw(&PathElement::new(line, style(*method)))?;
-        let text = ("sans-serif", 15).into_font().into_text_style(area);
-        let text = text.pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new(method.name(), (left + 32, middle), text))?;
-    }
     Ok(())
 }
 

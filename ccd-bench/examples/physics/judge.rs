@@ -4,7 +4,9 @@ use crate::glue::at;
 use crate::worlds::World;
 use anyhow::Result;
 use ccd_core::order::{greater, lesser};
+use parry3d_f64::math::Pose as At;
 use parry3d_f64::query::{contact, intersection_test};
+use parry3d_f64::shape::Shape;
 use rigid_ccd::{Motion, Moving};
 
 /// The measurements so far.
@@ -64,24 +66,27 @@ fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>
     Ok(asked.collect())
 }
 
-fn depth(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> f64 {
-    let [a, b] = pair.map(|k| {
+/// Returns the place and the shape of two bodies at a time.
+fn placed<'w>(world: &'w World, moved: &[Moved], pair: [usize; 2], time: f64) -> [Placed<'w>; 2] {
+    pair.map(|k| {
+        let (motion, stop) = &moved[k];
         (
-            at(moved[k].0.pose(lesser(time, moved[k].1))),
+            at(motion.pose(lesser(time, *stop))),
             &*world.bodies[k].shape,
         )
-    });
+    })
+}
+
+type Placed<'w> = (At, &'w dyn Shape);
+
+fn depth(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> f64 {
+    let [a, b] = placed(world, moved, pair, time);
     let found = contact(&a.0, a.1, &b.0, b.1, 0.0).ok().flatten();
     found.map_or(0.0, |contact| greater(0.0, -contact.dist))
 }
 
 fn overlap(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> bool {
-    let [a, b] = pair.map(|k| {
-        (
-            at(moved[k].0.pose(lesser(time, moved[k].1))),
-            &*world.bodies[k].shape,
-        )
-    });
+    let [a, b] = placed(world, moved, pair, time);
     intersection_test(&a.0, a.1, &b.0, b.1).is_ok_and(|found| found.intersecting)
 }
 

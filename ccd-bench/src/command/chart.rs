@@ -1,5 +1,6 @@
 //! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present them.
 
+use super::print_summary;
 use crate::method::Method;
 use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
@@ -178,6 +179,11 @@ fn present(
         splice(readme, &presentation.comparisons)
             .with_context(|| format!("splicing {}", readme.display()))?;
     }
+    if common.tables {
+        for table in &presentation.summary {
+            print_summary(table)?;
+        }
+    }
     let mut out = io::stdout().lock();
     let mut print = |text: &dyn Display| {
         writeln!(out, "{text}").map_err(|source| CannotWrite {
@@ -185,11 +191,6 @@ fn present(
             source,
         })
     };
-    if common.tables {
-        for table in &presentation.summary {
-            print(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
-        }
-    }
     for sentence in &presentation.sentences {
         print(sentence)?;
     }

@@ -6,11 +6,12 @@ use crate::method::Method;
 use crate::method::guarded::Programs;
 use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
+use crate::show::write;
 use crate::stability::{Findings, Survey, families, growth_map, limits, reach_map, summary};
 use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
-use rigid_ccd::command::{CannotWrite, Exit};
+use rigid_ccd::command::Exit;
 use std::path::PathBuf;
 
 /// Find where each method fails: families of scenes that get harder step by step
@@ -56,13 +57,6 @@ Examples:
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
-/// Returns all methods, without those of a script if there is none.
-fn all_methods(programs: &Programs) -> Vec<Method> {
-    let mut methods = known_methods();
-    methods.retain(|method| programs.script.is_some() || !matches!(method, Method::Script(_)));
-    methods
-}
-
 /// Returns all methods that answer queries; FAST as published comes after its sound forms.
 fn known_methods() -> Vec<Method> {
     let mut methods = Method::all();
@@ -75,17 +69,15 @@ fn known_methods() -> Vec<Method> {
 }
 
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
-    let methods = if args.ours {
-        Method::combinations()
-    } else {
-        all_methods(&args.programs)
-    };
     // The folder may contain more than the requested answers.
     let drawn = if args.ours {
-        methods.clone()
+        Method::combinations()
     } else {
         known_methods()
     };
+    let has_program =
+        |method: &Method| args.programs.script.is_some() || !matches!(method, Method::Script(_));
+    let methods = drawn.iter().copied().filter(has_program).collect();
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
         methods: chosen(methods, &args.methods, "method", Method::to_string)?,
@@ -114,10 +106,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         ("growth.svg", &growth.svg),
     ];
     for (name, text) in files {
-        let file = args.out.join(name);
-        let place = file.display().to_string();
-        let written = ccd_file::write(&file, |out| out.write_all(text.as_bytes()));
-        written.map_err(|source| CannotWrite { place, source })?;
+        write(&args.out.join(name), text)?;
     }
     print_summary(&summary(&findings))?;
     Ok(Exit::AllAnswered)

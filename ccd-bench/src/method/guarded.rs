@@ -1,7 +1,7 @@
 //! Runs a method in a separate process, which is stopped at a time limit.
 
 use super::Method;
-use super::solver::{Claim, Reply, TimedReply};
+use super::solver::{Claim, TimedReply};
 use super::wire::{READY, REFUSED, format_query, parse_reply};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
@@ -55,12 +55,7 @@ impl Setting {
 #[derive(Clone, Debug, PartialEq)]
 pub enum QueryOutcome {
     /// The method answered.
-    Answered {
-        /// Its reply.
-        reply: Reply,
-        /// The time of its call alone, in microseconds.
-        micros: f64,
-    },
+    Answered(TimedReply),
     /// The call exceeded the time limit, and the process was stopped.
     CutOff,
     /// The process ended: a panic, or out of memory.
@@ -112,15 +107,15 @@ impl QueryOutcome {
     /// Returns the claim, if the method answered.
     pub fn claim(&self) -> Option<Claim> {
         match self {
-            QueryOutcome::Answered { reply, .. } => Some(reply.claim),
+            QueryOutcome::Answered(timed) => Some(timed.reply.claim),
             QueryOutcome::CutOff | QueryOutcome::Died => None,
         }
     }
 
     /// Returns the time of the query in microseconds: that until it was stopped, NaN if the process ended.
     pub fn micros(&self, patience: Duration) -> f64 {
-        match *self {
-            QueryOutcome::Answered { micros, .. } => micros,
+        match self {
+            QueryOutcome::Answered(timed) => timed.micros,
             QueryOutcome::CutOff => patience.as_secs_f64() * 1e6,
             QueryOutcome::Died => f64::NAN,
         }
@@ -129,7 +124,7 @@ impl QueryOutcome {
     /// Returns the number of steps in time, 0 without an answer.
     pub fn steps(&self) -> u64 {
         match self {
-            QueryOutcome::Answered { reply, .. } => reply.steps,
+            QueryOutcome::Answered(timed) => timed.reply.steps,
             QueryOutcome::CutOff | QueryOutcome::Died => 0,
         }
     }
@@ -196,7 +191,7 @@ impl Guarded {
     /// Those of [`Guarded::start`].
     pub fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
         let outcome = self.running()?.ask(query, patience);
-        if !matches!(outcome, QueryOutcome::Answered { .. }) {
+        if !matches!(outcome, QueryOutcome::Answered(_)) {
             self.process = None;
         }
         Ok(outcome)
@@ -276,10 +271,7 @@ impl Process {
             return QueryOutcome::Died;
         }
         match self.lines.recv_timeout(patience) {
-            Ok(line) => match parse_reply(&line) {
-                Some(TimedReply { reply, micros }) => QueryOutcome::Answered { reply, micros },
-                None => QueryOutcome::Died,
-            },
+            Ok(line) => parse_reply(&line).map_or(QueryOutcome::Died, QueryOutcome::Answered),
             Err(RecvTimeoutError::Timeout) => QueryOutcome::CutOff,
             Err(RecvTimeoutError::Disconnected) => QueryOutcome::Died,
         }

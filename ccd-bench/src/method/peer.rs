@@ -17,7 +17,6 @@ pub mod rapier;
 mod tests;
 
 use crate::method::solver::{Claim, Solver};
-use crate::method::wire;
 use anyhow::Result;
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
@@ -35,26 +34,15 @@ pub enum PeerKind {
     ParrySweepF32,
     /// The method [`rapier::Simulated`].
     RapierStepF64,
-    /// A method that never answers, for tests of the guard.
-    Hanging,
-    /// A method that ends its process at every query, for tests of the guard.
-    Dying,
 }
 
 impl PeerKind {
-    /// Returns all peers, except those made for tests.
-    pub fn all() -> impl Iterator<Item = PeerKind> {
-        let for_tests = [PeerKind::Hanging, PeerKind::Dying];
-        let all = PeerKind::value_variants().iter().copied();
-        all.filter(move |kind| !for_tests.contains(kind))
-    }
-
     /// Returns true if the answers depend on the tolerance. The other peers are run at one
     /// tolerance only.
     pub fn takes_tolerance(self) -> bool {
         match self {
             PeerKind::ParrySweepF64 | PeerKind::ParrySweepF32 | PeerKind::RapierStepF64 => true,
-            PeerKind::ParryF64 | PeerKind::ParryF32 | PeerKind::Hanging | PeerKind::Dying => false,
+            PeerKind::ParryF64 | PeerKind::ParryF32 => false,
         }
     }
 
@@ -70,8 +58,6 @@ impl PeerKind {
             PeerKind::ParrySweepF64 => Box::new(double::sweep::SweptPairs::new(a, b)?),
             PeerKind::ParrySweepF32 => Box::new(single::sweep::SweptPairs::new(a, b)?),
             PeerKind::RapierStepF64 => Box::new(rapier::Simulated::new(a, b)?),
-            PeerKind::Hanging => Box::new(wire::Hanging),
-            PeerKind::Dying => Box::new(wire::Dying),
         })
     }
 }

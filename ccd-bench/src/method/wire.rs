@@ -5,7 +5,6 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::table::motions::Motions;
 use std::io::{self, BufRead, Write};
-use std::time::Duration;
 
 /// The process's first line after it has prepared its bodies.
 pub const READY: &str = "ready";
@@ -131,26 +130,4 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
         reason,
     };
     Some(TimedReply { reply, micros })
-}
-
-/// A solver that never answers.
-#[derive(Clone, Copy, Debug)]
-pub struct Hanging;
-
-impl Solver for Hanging {
-    fn answer(&mut self, _: &Motions, _: f64) -> Reply {
-        loop {
-            std::thread::sleep(Duration::from_secs(3600));
-        }
-    }
-}
-
-/// A solver that ends its process instead of answering.
-#[derive(Clone, Copy, Debug)]
-pub struct Dying;
-
-impl Solver for Dying {
-    fn answer(&mut self, _: &Motions, _: f64) -> Reply {
-        std::process::exit(3)
-    }
 }

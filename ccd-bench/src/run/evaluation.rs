@@ -8,6 +8,7 @@ use crate::show::chart::PAPER_TOLERANCE;
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, Total};
+use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -155,21 +156,19 @@ impl Plan {
 
     /// Prepares the pieces of all bodies that some method needs, on all processors.
     fn make_pieces(&self, scenes: &[Scene]) {
-        let mut wanted: Vec<(&SceneBody, Pieces)> = Vec::new();
-        for body in scenes.iter().flat_map(|scene| [&scene.a, &scene.b]) {
-            for &method in &self.methods {
-                let Method::Ours(_, pieces) = method else {
-                    continue;
-                };
-                let same = |(b, p): &(&SceneBody, Pieces)| {
-                    *p == pieces && Arc::ptr_eq(&b.body, &body.body)
-                };
-                if !wanted.iter().any(same) {
-                    wanted.push((body, pieces));
-                }
-            }
-        }
-        wanted.into_par_iter().for_each(|(body, pieces)| {
+        let kinds = self.methods.iter().filter_map(|method| match method {
+            Method::Ours(_, pieces) => Some(*pieces),
+            Method::Rival(_) | Method::Peer(_) | Method::Script(_) => None,
+        });
+        let bodies = scenes.iter().flat_map(|scene| [&scene.a, &scene.b]);
+        // Bodies are shared between scenes.
+        let wanted: HashMap<(usize, Pieces), &SceneBody> = bodies
+            .flat_map(|body| {
+                let address = Arc::as_ptr(&body.body).addr();
+                kinds.clone().map(move |pieces| ((address, pieces), body))
+            })
+            .collect();
+        wanted.into_par_iter().for_each(|((_, pieces), body)| {
             body.body_of(pieces);
         });
     }
@@ -183,14 +182,11 @@ impl Plan {
     }
 
     /// Returns the kinds of motion that some method uses.
-    fn motions(&self) -> Vec<MotionKind> {
-        let mut motions = Vec::new();
-        for motion in self.methods.iter().map(|method| method.motion_kind()) {
-            if !motions.contains(&motion) {
-                motions.push(motion);
-            }
-        }
-        motions
+    fn motions(&self) -> impl Iterator<Item = MotionKind> {
+        let is_used = |kind: &MotionKind| self.methods.iter().any(|m| m.motion_kind() == *kind);
+        [MotionKind::Given, MotionKind::Screw]
+            .into_iter()
+            .filter(is_used)
     }
 
     /// Describes the settings that determine all measurements: this program, and the allowances.

@@ -20,6 +20,7 @@ mod triangles;
 
 pub use heat_map::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 
+use crate::method::Method;
 use crate::run::measured::Cell;
 use anyhow::{Result, ensure};
 use plane::Shown;
@@ -47,8 +48,6 @@ pub struct Charts<'a> {
 pub struct SceneFacts<'a> {
     /// The name in the tables.
     pub name: &'a str,
-    /// The moving shape; a line over the sizes joins scenes of the same shape.
-    pub shape: &'a str,
     /// The number of triangles of the moving mesh.
     pub triangles: usize,
 }
@@ -136,6 +135,29 @@ impl Charts<'_> {
             .zip(style::styles(self.methods, |name| self.is_unsafe(name)))
             .filter(|(method, _)| families.contains(&method.family) && measured(method.name))
             .collect()
+    }
+}
+
+impl<'a> MethodFacts<'a> {
+    /// Returns the facts about a method with this name; an unknown method was measured elsewhere.
+    pub fn named(name: &'a str) -> Self {
+        let family = match Method::named(name) {
+            Some(method @ Method::Ours(..)) if method.is_model() => Family::Model,
+            Some(Method::Ours(..)) => Family::Ours,
+            Some(Method::Rival(_)) => Family::Rival,
+            Some(Method::Peer(_) | Method::Script(_)) | None => Family::Peer,
+        };
+        MethodFacts { name, family }
+    }
+}
+
+impl SceneFacts<'_> {
+    /// Returns the moving shape and its kind of motion, without size and rotation; a line over the sizes joins scenes of
+    /// the same shape.
+    fn shape(&self) -> String {
+        let plain: String = self.name.chars().filter(|c| !c.is_ascii_digit()).collect();
+        let plain = plain.trim_end_matches(" translating");
+        plain.trim_end_matches(" turning").to_owned()
     }
 }
 

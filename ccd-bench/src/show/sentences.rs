@@ -4,17 +4,17 @@
 mod tests;
 
 use crate::run::measured::Cell;
-use crate::show::chart::Family;
+use crate::show::chart::{Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;
 use ccd_core::order::{greater, lesser};
 
 /// The measurements.
 #[derive(Clone, Copy, Debug)]
 pub struct Measurements<'a> {
-    /// The number of triangles of each scene's moving body.
-    pub triangles: &'a [usize],
+    /// The scenes.
+    pub scenes: &'a [SceneFacts<'a>],
     /// The methods that give answers, in their usual order.
-    pub methods: &'a [(String, Family)],
+    pub methods: &'a [MethodFacts<'a>],
     /// Every method on every scene at every tolerance.
     pub cells: &'a [Cell],
     /// The reference method for times.
@@ -46,23 +46,23 @@ impl Measurements<'_> {
     }
 
     fn queries(&self) -> String {
-        let sizes = self.triangles.iter();
+        let sizes = self.scenes.iter().map(|scene| scene.triangles);
         let rows: usize = self.cells.iter().map(|cell| cell.rows).sum();
         format!(
             "{} scenes, with moving bodies of {} to {} triangles; {} methods answered {rows} queries, each compared \
              with a certified bracket of the exact first contact.",
-            self.triangles.len(),
-            sizes.clone().min().unwrap_or(&0),
-            sizes.max().unwrap_or(&0),
+            self.scenes.len(),
+            sizes.clone().min().unwrap_or_default(),
+            sizes.max().unwrap_or_default(),
             self.methods.len(),
         )
     }
 
     /// Describes the errors in the answers of a family; `None` if it has no methods.
     fn answers(&self, family: Family, name: &str) -> Option<String> {
-        let methods = self.methods.iter().filter(|(_, of)| *of == family);
+        let methods = self.methods.iter().filter(|method| method.family == family);
         let (mut count, mut rows, mut open, mut wrong) = (0, 0, 0, Vec::new());
-        for (method, _) in methods {
+        for MethodFacts { name: method, .. } in methods {
             let sum = |number: fn(&Cell) -> usize| self.cells_of(method).map(number).sum::<usize>();
             count += 1;
             rows += sum(|cell| cell.rows);
@@ -112,8 +112,8 @@ impl Measurements<'_> {
         let others = self
             .methods
             .iter()
-            .filter(|(_, family)| matches!(family, Family::Rival | Family::Peer));
-        let times = others.filter_map(|(method, _)| {
+            .filter(|method| matches!(method.family, Family::Rival | Family::Peer));
+        let times = others.filter_map(|MethodFacts { name: method, .. }| {
             let cells = || self.cells_of(method).filter(|cell| self.is_compared(cell));
             let ratios = || cells().filter_map(|cell| self.reference.ratio(cell));
             let (least, most) = (ratios().reduce(lesser)?, ratios().reduce(greater)?);

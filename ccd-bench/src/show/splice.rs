@@ -1,6 +1,7 @@
 //! Inserts tables into a README, between markers.
 
 use crate::show::tables::TextTable;
+use crate::show::write;
 use anyhow::{Context, Result, ensure};
 use std::fs;
 use std::path::Path;
@@ -13,9 +14,7 @@ use std::path::Path;
 pub fn splice(file: &Path, tables: &[TextTable]) -> Result<()> {
     let text = fs::read_to_string(file)?;
     let spliced = spliced(&text, tables)?;
-    Ok(ccd_file::write(file, |out| {
-        out.write_all(spliced.as_bytes())
-    })?)
+    Ok(write(file, &spliced)?)
 }
 
 fn spliced(text: &str, tables: &[TextTable]) -> Result<String> {

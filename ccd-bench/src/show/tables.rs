@@ -25,6 +25,9 @@ pub struct TextTable {
     pub rows: Vec<Vec<String>>,
 }
 
+/// A column of a table of cells: its name and its texts.
+type Column<'c> = (&'c str, &'c dyn Fn(&Cell) -> String);
+
 /// The number of rows below which a median is shown with its number of rows.
 const FEW: usize = 10;
 
@@ -32,11 +35,12 @@ const FEW: usize = 10;
 const NOTHING: &str = "–";
 
 impl TextTable {
-    fn new(title: impl Into<String>, header: &[&str]) -> Self {
+    /// Returns a table without a name and rows.
+    pub fn new(title: &str, header: impl IntoIterator<Item = impl Into<String>>) -> Self {
         TextTable {
             name: String::new(),
-            title: title.into(),
-            header: header.iter().map(|&name| name.to_owned()).collect(),
+            title: title.to_owned(),
+            header: header.into_iter().map(Into::into).collect(),
             rows: Vec::new(),
         }
     }
@@ -82,55 +86,58 @@ impl TextTable {
 /// Compares every method on every scene at one tolerance, and with the reference on the rows that both ran on.
 pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -> TextTable {
     let ratio = format!("× {}", reference.name());
-    let mut table = TextTable::new(
-        format!(
-            "Tolerance {tolerance:e}; {ratio}: the median ratio on the rows that both were asked"
-        ),
-        &[
-            "scene",
-            "method",
-            "rows",
-            "median µs",
-            &ratio,
-            "mean µs",
-            "p95 µs",
-            "late",
-            "missed",
-            "false",
-            "early",
-            "unresolved",
-            "mean error",
-        ],
+    let of_reference = |cell: &Cell| match reference.ratio(cell) {
+        Some(ratio) => format!("{ratio:.2}"),
+        None => NOTHING.to_owned(),
+    };
+    let mean_error = |cell: &Cell| match cell.mean_error {
+        error if error.is_nan() => NOTHING.to_owned(),
+        error => format!("{error:.0e}"),
+    };
+    let columns: [Column<'_>; 12] = [
+        ("method", &|cell| cell.method.clone()),
+        ("rows", &|cell| cell.rows.to_string()),
+        ("median µs", &|cell| micros(cell.median_us)),
+        (&ratio, &of_reference),
+        ("mean µs", &|cell| micros(cell.mean_us)),
+        ("p95 µs", &|cell| micros(cell.p95_us)),
+        ("late", &|cell| cell.late.to_string()),
+        ("missed", &|cell| cell.missed.to_string()),
+        ("false", &|cell| cell.false_contacts.to_string()),
+        ("early", &|cell| cell.early.to_string()),
+        ("unresolved", &|cell| cell.unresolved.to_string()),
+        ("mean error", &mean_error),
+    ];
+    let title = format!(
+        "Tolerance {tolerance:e}; {ratio}: the median ratio on the rows that both were asked"
     );
+    let names = columns.iter().map(|(name, _)| *name);
+    let mut table = TextTable::new(&title, ["scene"].into_iter().chain(names));
     let mut last = "";
     for cell in cells.iter().filter(|cell| cell.tolerance == tolerance) {
         let scene = if cell.scene == last { "" } else { &cell.scene };
         last = &cell.scene;
-        table.rows.push(vec![
-            scene.to_owned(),
-            cell.method.clone(),
-            cell.rows.to_string(),
-            micros(cell.median_us),
-            match reference.ratio(cell) {
-                Some(ratio) => format!("{ratio:.2}"),
-                None => NOTHING.to_owned(),
-            },
-            micros(cell.mean_us),
-            micros(cell.p95_us),
-            cell.late.to_string(),
-            cell.missed.to_string(),
-            cell.false_contacts.to_string(),
-            cell.early.to_string(),
-            cell.unresolved.to_string(),
-            if cell.mean_error.is_nan() {
-                NOTHING.to_owned()
-            } else {
-                format!("{:.0e}", cell.mean_error)
-            },
-        ]);
+        let mut row = vec![scene.to_owned()];
+        row.extend(columns.iter().map(|(_, text)| text(cell)));
+        table.rows.push(row);
     }
     table
 }
+
+/// A count of a cell, with its name.
+type Count = (&'static str, fn(&Cell) -> usize);
+
+/// The counts of a cell that are summed for a method.
+const COUNTS: [Count; 8] = [
+    ("queries", |cell| cell.rows),
+    ("late", |cell| cell.late),
+    ("missed", |cell| cell.missed),
+    ("false", |cell| cell.false_contacts),
+    ("early", |cell| cell.early),
+    ("unresolved", |cell| cell.unresolved),
+    ("of these cut off", |cell| cell.cut_off),
+    ("undecided", |cell| cell.undecided),
+];
 
 /// Counts how often each method was late, missed a contact, or reported a false one, over all
 /// scenes and tolerances. Methods that answer no query are left out.
@@ -140,34 +147,17 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
         let judged = |t: &Trial| t.method == method && t.verdict != not_judged;
         trials.iter().any(judged)
     };
-    let mut table = TextTable::new(
-        "Answers compared with the truth, all scenes and tolerances",
-        &[
-            "method",
-            "queries",
-            "late",
-            "missed",
-            "false",
-            "early",
-            "unresolved",
-            "of these cut off",
-            "undecided",
-        ],
-    );
+    let title = "Answers compared with the truth, all scenes and tolerances";
+    let names = COUNTS.map(|(name, _)| name);
+    let mut table = TextTable::new(title, ["method"].into_iter().chain(names));
     for method in methods(cells).into_iter().filter(|m| answers(m)) {
-        let of = || cells.iter().filter(|cell| cell.method == method);
-        let sum = |count: fn(&Cell) -> usize| of().map(count).sum::<usize>().to_string();
-        table.rows.push(vec![
-            method.to_owned(),
-            sum(|c| c.rows),
-            sum(|c| c.late),
-            sum(|c| c.missed),
-            sum(|c| c.false_contacts),
-            sum(|c| c.early),
-            sum(|c| c.unresolved),
-            sum(|c| c.cut_off),
-            sum(|c| c.undecided),
-        ]);
+        let sum = |(_, count): Count| {
+            let of = cells.iter().filter(|cell| cell.method == method);
+            of.map(count).sum::<usize>().to_string()
+        };
+        let mut row = vec![method.to_owned()];
+        row.extend(COUNTS.map(sum));
+        table.rows.push(row);
     }
     table
 }
@@ -176,12 +166,8 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
 /// median of the ratios query by query (and the ratio of the total times) over the queries that
 /// both were asked, and a mark if the other method was late or missed a contact there.
 pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64) -> TextTable {
-    let mut header = vec!["scene"];
-    header.extend(others);
-    let mut table = TextTable::new(
-        format!("Time in units of {reference}, tolerance {tolerance:e}"),
-        &header,
-    );
+    let title = format!("Time in units of {reference}, tolerance {tolerance:e}");
+    let mut table = TextTable::new(&title, ["scene"].iter().chain(others).copied());
     let at = |t: &&Trial| t.tolerance == tolerance;
     let mut scenes: Vec<&str> = Vec::new();
     for trial in trials.iter().filter(at) {

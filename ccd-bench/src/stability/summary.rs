@@ -4,7 +4,7 @@ use super::family::Family;
 use super::findings::{Findings, VERDICTS};
 use super::survey::step_name;
 use crate::run::contest::Verdict;
-use crate::run::measured::Cell;
+use crate::run::measured::{Cell, Trial};
 use crate::show::chart::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 use crate::show::tables::TextTable;
 use ccd_core::order::greater;
@@ -13,44 +13,33 @@ use std::collections::HashMap;
 /// Counts the verdicts of each method over all queries.
 pub fn summary(findings: &Findings<'_>) -> TextTable {
     let names = VERDICTS.map(|verdict| verdict.to_string());
-    let mut header = vec!["method".to_owned(), "queries".to_owned()];
-    header.extend(names.iter().cloned());
-    let rows = findings.methods.iter().map(|method| {
-        let method = method.to_string();
-        let mut counts: HashMap<&str, usize> = HashMap::new();
-        for trial in findings
-            .journal
-            .trials()
-            .iter()
-            .filter(|t| t.method == method)
-        {
-            *counts.entry(trial.verdict.as_str()).or_default() += 1;
-        }
-        let all: usize = counts.values().sum();
-        let count = |name: &String| {
-            counts
-                .get(name.as_str())
-                .map_or(String::new(), usize::to_string)
+    let columns = ["method", "queries"].map(str::to_owned);
+    let columns = columns.into_iter().chain(names.clone());
+    let mut table = TextTable::new("Verdicts over all families", columns);
+    for method in findings.methods.iter().map(ToString::to_string) {
+        let trials = findings.journal.trials().iter();
+        let own: Vec<&Trial> = trials.filter(|trial| trial.method == method).collect();
+        let count = |name: &String| match own.iter().filter(|t| t.verdict == *name).count() {
+            0 => String::new(),
+            count => count.to_string(),
         };
-        let mut row = vec![method, all.to_string()];
-        row.extend(names.iter().map(count));
-        row
-    });
-    TextTable {
-        name: "stability".to_owned(),
-        title: "Verdicts over all families".to_owned(),
-        header,
-        rows: rows.collect(),
+        let counts = names.each_ref().map(count);
+        let mut row = vec![method, own.len().to_string()];
+        row.extend(counts);
+        table.rows.push(row);
     }
+    table
 }
 
 /// Lists for each family and method the first value, from the easiest, at which not all answers are right, and
 /// the worst verdict there.
 pub fn limits(findings: &Findings<'_>) -> TextTable {
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();
-    let mut header = vec!["family".to_owned(), "parameter".to_owned()];
-    header.extend(methods.iter().cloned());
-    let rows = findings.families.iter().map(|family| {
+    let columns = ["family", "parameter"].map(str::to_owned);
+    let columns = columns.into_iter().chain(methods.clone());
+    let title = "The first value at which answers are not right, and how";
+    let mut table = TextTable::new(title, columns);
+    for family in &findings.families {
         let limit = |method: &String| match findings.reach(family, method) {
             None => "not asked".to_owned(),
             Some(reach) => reach.first.map_or(String::new(), |limit| {
@@ -59,14 +48,9 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
         };
         let mut row = vec![family.name.to_owned(), family.parameter.to_owned()];
         row.extend(methods.iter().map(limit));
-        row
-    });
-    TextTable {
-        name: "limits".to_owned(),
-        title: "The first value at which answers are not right, and how".to_owned(),
-        header,
-        rows: rows.collect(),
+        table.rows.push(row);
     }
+    table
 }
 
 /// Returns the map of the reach of each method in each family.

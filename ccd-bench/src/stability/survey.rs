@@ -169,7 +169,7 @@ impl<'s> Ready<'s> {
 
     fn trial(&self, method: Method, row: usize, outcome: &QueryOutcome, judged: Judged) -> Trial {
         let note = match outcome {
-            QueryOutcome::Answered { reply, .. } => self.note(reply),
+            QueryOutcome::Answered(timed) => self.note(&timed.reply),
             QueryOutcome::CutOff | QueryOutcome::Died => String::new(),
         };
         let trial = Trial::new(

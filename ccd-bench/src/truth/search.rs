@@ -26,7 +26,7 @@ pub(super) struct Search<'a> {
 
 /// The number of tests of pairs after which a query is left undecided. It would take minutes, while
 /// a hard query takes a second.
-pub(super) const BUDGET: u64 = 30_000_000;
+const BUDGET: u64 = 30_000_000;
 /// The shortest span, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
 const SHORTEST: f64 = 1.0 / (1_u64 << 46) as f64;
 /// The number of doublings in the search for a proof of contact after a time that cannot be excluded: it extends to
@@ -64,7 +64,7 @@ impl<'a> Search<'a> {
             ],
             farthest: surfaces.map(Surface::farthest),
             duration: query.duration,
-            budget: referee.tests,
+            budget: BUDGET,
         }
     }
 

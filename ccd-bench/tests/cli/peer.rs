@@ -3,13 +3,15 @@
 use ccd_bench::method::Method;
 use ccd_bench::method::guarded::{Guarded, QueryOutcome, Setting};
 use ccd_bench::method::peer::PeerKind;
-use ccd_bench::method::solver::Claim;
+use ccd_bench::method::solver::{Claim, TimedReply};
 use ccd_bench::scene::model::Board;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 use std::io::ErrorKind;
+#[cfg(unix)]
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// A time limit that no query here reaches.
@@ -39,8 +41,18 @@ fn guarded_with(setting: Setting) -> Guarded {
     Guarded::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
+/// Runs a script of this folder in place of a method.
+#[cfg(unix)]
+fn guarded_by(script: &str) -> Guarded {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/cli")
+        .join(script);
+    let setting = Setting::new(Method::Peer(PeerKind::ParryF64), 1e-3);
+    Guarded::with_program(script, setting, [&cube(), &cube()]).unwrap()
+}
+
 fn assert_answered(outcome: QueryOutcome) {
-    let QueryOutcome::Answered { reply, micros } = outcome else {
+    let QueryOutcome::Answered(TimedReply { reply, micros }) = outcome else {
         panic!("{outcome:?}");
     };
     let Claim::Contact { time } = reply.claim else {
@@ -71,7 +83,7 @@ fn a_margin_is_kept_or_refused() {
         let outcome = ask(method);
         match method {
             Method::Ours(..) => {
-                let Ok(QueryOutcome::Answered { reply, .. }) = outcome else {
+                let Ok(QueryOutcome::Answered(TimedReply { reply, .. })) = outcome else {
                     panic!("{method}: {outcome:?}");
                 };
                 let Claim::Contact { time } = reply.claim else {
@@ -92,9 +104,10 @@ fn a_margin_is_kept_or_refused() {
     }
 }
 
+#[cfg(unix)]
 #[test]
 fn a_hanging_peer_is_cut_off_and_restarted() {
-    let mut hanging = guarded(PeerKind::Hanging);
+    let mut hanging = guarded_by("hanging");
     let start = Instant::now();
     for _ in 0..2 {
         let outcome = hanging.ask(&drop(), Duration::from_millis(50)).unwrap();
@@ -114,9 +127,10 @@ fn the_query_after_a_cut_off_one_is_answered() {
     assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
 }
 
+#[cfg(unix)]
 #[test]
 fn a_dying_peer_is_reported_and_restarted() {
-    let mut dying = guarded(PeerKind::Dying);
+    let mut dying = guarded_by("dying");
     for _ in 0..2 {
         assert_eq!(dying.ask(&drop(), PATIENCE).unwrap(), QueryOutcome::Died);
     }
@@ -126,7 +140,8 @@ fn a_dying_peer_is_reported_and_restarted() {
 fn a_tolerance_is_passed_on() {
     let mut peer = guarded(PeerKind::ParrySweepF64);
     peer.set_tolerance(1e-6);
-    let QueryOutcome::Answered { reply, .. } = peer.ask(&drop(), PATIENCE).unwrap() else {
+    let QueryOutcome::Answered(TimedReply { reply, .. }) = peer.ask(&drop(), PATIENCE).unwrap()
+    else {
         panic!("no answer");
     };
     let Claim::Contact { time } = reply.claim else {

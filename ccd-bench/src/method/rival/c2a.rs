@@ -1,7 +1,7 @@
 //! The rival that advances both bodies by the least step over pairs of swept spheres.
 
 use super::patience::Patience;
-use super::swept_spheres::{Gap, Leaves, Pair, SphereTree, Trees, Under};
+use super::swept_spheres::{Gap, Leaves, Pair, Trees, Under};
 use super::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::order::lesser;
@@ -82,10 +82,7 @@ enum Descent {
 impl C2a {
     /// Builds both trees.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
-        let trees = Trees {
-            a: SphereTree::new(a),
-            b: SphereTree::new(b),
-        };
+        let trees = Trees::new(a, b);
         C2a {
             closing: Closing::new(&trees),
             trees,

@@ -90,10 +90,7 @@ impl DynamicChecker {
     /// Builds both trees.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         DynamicChecker {
-            trees: Trees {
-                a: SphereTree::new(a),
-                b: SphereTree::new(b),
-            },
+            trees: Trees::new(a, b),
             patience: Patience::default(),
             reach_a: Reach::default(),
             reach_b: Reach::default(),

@@ -123,6 +123,13 @@ impl Node {
 }
 
 impl Trees {
+    pub(super) fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
+        Trees {
+            a: SphereTree::new(a),
+            b: SphereTree::new(b),
+        }
+    }
+
     /// Returns both roots, with body B placed in A's frame, or `None` if a mesh has no triangles.
     pub(super) fn roots(&self, placement: &Placement) -> Option<Pair> {
         let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);

@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 pub struct Journal {
     cells: Vec<Cell>,
     trials: Vec<Trial>,
-    done: HashSet<(String, String, u64)>,
     folder: PathBuf,
     /// The claim of the folder, which excludes other processes.
     _claim: Option<Claim>,
@@ -78,7 +77,6 @@ impl Journal {
         Journal {
             cells,
             trials,
-            done,
             folder: folder.to_owned(),
             _claim: None,
         }
@@ -86,8 +84,10 @@ impl Journal {
 
     /// Returns true if a cell has been measured.
     pub fn has(&self, scene: &str, method: &str, tolerance: f64) -> bool {
-        let key = (scene.to_owned(), method.to_owned(), tolerance.to_bits());
-        self.done.contains(&key)
+        let is = |cell: &Cell| {
+            cell.scene == scene && cell.method == method && cell.tolerance == tolerance
+        };
+        self.cells.iter().any(is)
     }
 
     /// Adds a cell and its trials, on disk too.
@@ -97,7 +97,6 @@ impl Journal {
     pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<()> {
         append(&self.folder.join(TRIALS), &trials)?;
         append(&self.folder.join(CHART), std::slice::from_ref(&cell))?;
-        self.done.insert(key(&cell));
         self.cells.push(cell);
         self.trials.extend(trials);
         Ok(())
@@ -110,7 +109,6 @@ impl Journal {
     pub fn forget(&mut self, method: &str) -> Result<()> {
         self.cells.retain(|cell| cell.method != method);
         self.trials.retain(|trial| trial.method != method);
-        self.done = self.cells.iter().map(key).collect();
         self.write()
     }
 

@@ -2,7 +2,7 @@
 
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
-use crate::method::solver::{Solver, TimedReply, timed};
+use crate::method::solver::{Solver, timed};
 use crate::method::{Method, Ours};
 use crate::run::evaluation::USUAL_TOLERANCE;
 use crate::scene::Scene;
@@ -91,8 +91,8 @@ impl<'s> Session<'s> {
     ) -> io::Result<QueryOutcome> {
         match &mut self.runner {
             Runner::InProcess(solver) => {
-                let TimedReply { reply, micros } = timed(solver.as_mut(), query, tolerance);
-                Ok(QueryOutcome::Answered { reply, micros })
+                let timed = timed(solver.as_mut(), query, tolerance);
+                Ok(QueryOutcome::Answered(timed))
             }
             Runner::Guarded(guarded) => {
                 guarded.set_tolerance(tolerance);

@@ -72,7 +72,7 @@ impl Judged {
 /// Judges the outcome of a query, with a function for replies.
 pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
     match outcome {
-        QueryOutcome::Answered { reply, .. } => judge(reply),
+        QueryOutcome::Answered(timed) => judge(&timed.reply),
         QueryOutcome::CutOff => Judged::plain(Verdict::CutOff),
         QueryOutcome::Died => Judged::plain(Verdict::Died),
     }

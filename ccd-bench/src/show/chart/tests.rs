@@ -4,18 +4,15 @@ use plotters::style::RGBColor;
 
 const SCENES: [SceneFacts<'_>; 3] = [
     SceneFacts {
-        name: "knot small",
-        shape: "knot",
+        name: "knot2880",
         triangles: 2_880,
     },
     SceneFacts {
-        name: "knot large",
-        shape: "knot",
+        name: "knot34560",
         triangles: 34_560,
     },
     SceneFacts {
         name: "never measured",
-        shape: "ring",
         triangles: 10_000,
     },
 ];
@@ -69,7 +66,7 @@ fn cells() -> Vec<Cell> {
         }
     }
     for cell in &mut cells {
-        if (cell.scene.as_str(), cell.method.as_str()) == ("knot small", "careless <peer> & co") {
+        if (cell.scene.as_str(), cell.method.as_str()) == ("knot2880", "careless <peer> & co") {
             cell.missed = 1;
         }
     }
@@ -157,7 +154,7 @@ fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
     let unknown_cells = [cell("elsewhere", "nobody", 1e-3)];
     let unknown = charts(&unknown_cells).drawings();
     assert!(unknown.unwrap_err().to_string().contains("nothing to draw"));
-    let mut lost = [cell("knot small", "ours", f64::NAN)];
+    let mut lost = [cell("knot2880", "ours", f64::NAN)];
     lost[0].median_us = f64::NAN;
     lost[0].mean_error = f64::NAN;
     lost[0].mean_steps = f64::NAN;

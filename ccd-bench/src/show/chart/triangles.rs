@@ -8,7 +8,7 @@ use anyhow::Result;
 use std::collections::BTreeMap;
 
 /// The scenes of each size of each shape, which form one point of a line.
-type Sizes<'a> = BTreeMap<(&'a str, usize), Vec<&'a str>>;
+type Sizes<'a> = BTreeMap<(String, usize), Vec<&'a str>>;
 
 /// The height of the plane.
 const HEIGHT: f64 = 440.0;
@@ -18,7 +18,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
     let shown = charts.shown(&Family::COMPARED);
     let mut sizes = Sizes::new();
     for scene in charts.measured_scenes() {
-        let size = sizes.entry((scene.shape, scene.triangles)).or_default();
+        let size = sizes.entry((scene.shape(), scene.triangles)).or_default();
         size.push(scene.name);
     }
     let costs = shown.iter().flat_map(|(method, _)| {

@@ -15,14 +15,11 @@ fn sentences_are_by_family_and_fit_a_screen() {
         trial("santa", "parry-f64", "0", 500.0, Verdict::CutOff),
     ];
     let cells = [&trials[..2], &trials[2..4], &trials[4..]].map(sum_up);
-    let families = [
-        (OURS, Family::Ours),
-        ("C2A", Family::Rival),
-        ("parry-f64", Family::Peer),
-    ];
-    let methods = families.map(|(name, family)| (name.to_owned(), family));
+    let methods = [OURS, "C2A", "parry-f64"].map(MethodFacts::named);
+    let scenes = [("santa", 216), ("bunny", 70_000)];
+    let scenes = scenes.map(|(name, triangles)| SceneFacts { name, triangles });
     let measurements = Measurements {
-        triangles: &[216, 70_000],
+        scenes: &scenes,
         methods: &methods,
         cells: &cells,
         reference: &Reference::new(OURS, &trials),

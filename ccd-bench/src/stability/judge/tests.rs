@@ -1,4 +1,5 @@
 use super::*;
+use crate::method::solver::TimedReply;
 use crate::stability::families;
 use crate::truth::Surface;
 use rstest::rstest;
@@ -36,10 +37,10 @@ fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict
     let family = families().into_iter().find(|f| f.name == family).unwrap();
     let step = (family.make)(family.values[1]).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
-    let outcome = QueryOutcome::Answered {
+    let outcome = QueryOutcome::Answered(TimedReply {
         reply: Reply::new(claim, 1),
         micros: 1.0,
-    };
+    });
     for case in &step.cases {
         let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
         assert_eq!(judged.verdict, verdict, "{claim:?}");
@@ -68,7 +69,7 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
         tolerance,
         ..Reply::new(contact(lo - 0.01), 1)
     };
-    let outcome = QueryOutcome::Answered { reply, micros: 1.0 };
+    let outcome = QueryOutcome::Answered(TimedReply { reply, micros: 1.0 });
     let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
     assert_eq!(judged.verdict, verdict);
 }
