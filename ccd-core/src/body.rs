@@ -23,7 +23,7 @@ pub(crate) mod tree;
 
 use crate::error::InputError;
 use crate::math::order::greater;
-use crate::tuning::BOX_SHARE;
+use crate::tuning::MIN_BOX_FILL;
 use combination::Combination;
 use feature::Feature;
 use feature_lookup::{face_at, prepare};
@@ -155,7 +155,7 @@ impl Body {
         let volume = signed_volume(&surface.pieces).abs() / 6.0;
         self.excess = greater(self.excess, surface.excess);
         self.surface = Some(Box::new(Surface {
-            is_box: volume >= BOX_SHARE * 8.0 * x * y * z,
+            is_box: volume >= MIN_BOX_FILL * 8.0 * x * y * z,
             triangles: surface,
         }));
         Ok(self)

@@ -342,7 +342,7 @@ pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 
 /// In units of `u`: a corner's angle is off by 9 (a product with 2π, rounded twice), which brings an edge nearer by
 /// 6.4 at most; sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a cosine,
 /// by 4. That is 13.4, for which 16 are taken.
-pub(crate) const ABOUT: f64 = 1.0 + 16.0 * U64;
+pub(crate) const OUTWARD_FACTOR: f64 = 1.0 + 16.0 * U64;
 
 /// The least positive f64, which bounds the rounding of a product that underflows.
 pub(crate) const LEAST_F64: f64 = f64::from_bits(1);

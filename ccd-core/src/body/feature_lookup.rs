@@ -6,7 +6,7 @@ use super::piece::Piece;
 use super::polytope::Origin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};
-use crate::tuning::{CLIMBED_POINTS, ON_FACET};
+use crate::tuning::{CLIMBED_POINTS, FACET_DISTANCE};
 use glam::DVec3;
 
 /// The mesh's feature at a point of a polytope.
@@ -118,7 +118,7 @@ pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
         return None;
     }
     let way = |p: &DVec3| p.distance(point);
-    let reach = ON_FACET * piece.points.iter().map(way).fold(0.0, greater);
+    let reach = FACET_DISTANCE * piece.points.iter().map(way).fold(0.0, greater);
     let near = |[a, b, c]: [DVec3; 3]| {
         let (lo, hi) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
         lo.cmple(point).all() && point.cmple(hi).all()

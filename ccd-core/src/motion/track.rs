@@ -11,8 +11,8 @@ use std::f64::consts::{PI, TAU};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Track {
     height: f64,
-    drift: f64,
-    pull: f64,
+    linear_rate: f64,
+    linear_acceleration: f64,
     p: f64,
     q: f64,
     omega: f64,
@@ -21,16 +21,18 @@ pub(crate) struct Track {
 impl Track {
     #[inline]
     pub(crate) fn height_at(&self, tau: f64, angle: Angle) -> f64 {
-        let rise = (self.drift + 0.5 * self.pull * tau) * tau;
-        self.height + rise + angle.cos_minus_one * self.p + angle.sin * self.q
+        let linear_displacement = (self.linear_rate + 0.5 * self.linear_acceleration * tau) * tau;
+        self.height + linear_displacement + angle.cos_minus_one * self.p + angle.sin * self.q
     }
 
     #[inline]
     pub(crate) fn rate_at(&self, tau: f64, angle: Angle) -> f64 {
-        self.drift + self.pull * tau + self.omega * (angle.cos * self.q - angle.sin * self.p)
+        self.linear_rate
+            + self.linear_acceleration * tau
+            + self.omega * (angle.cos * self.q - angle.sin * self.p)
     }
 
-    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `drift` and `pull`.
+    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `linear_rate` and `linear_acceleration`.
     /// `end` is the rotation at `horizon`.
     pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
@@ -58,7 +60,7 @@ impl Track {
 
     /// Returns an upper bound of the second derivative due to rotation.
     #[inline]
-    pub(crate) fn bend(&self) -> f64 {
+    pub(crate) fn second_derivative(&self) -> f64 {
         self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
     }
 }
@@ -66,8 +68,8 @@ impl Track {
 /// The motion along one axis that all points of a body have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisMotion {
-    drift: f64,
-    pull: f64,
+    linear_rate: f64,
+    linear_acceleration: f64,
     /// The component of `n` perpendicular to the axis of rotation.
     across: DVec3,
     /// The cross product `n × u`, with the direction `u` of the axis of rotation.
@@ -80,8 +82,8 @@ impl AxisMotion {
     #[inline]
     pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
         AxisMotion {
-            drift: linear.dot(n),
-            pull: 0.0,
+            linear_rate: linear.dot(n),
+            linear_acceleration: 0.0,
             across: n - n.dot(unit) * unit,
             beside: n.cross(unit),
             omega,
@@ -89,32 +91,35 @@ impl AxisMotion {
     }
 
     /// Sets the second derivative that the heights of all points have in common.
-    pub(crate) fn pulled(self, pull: f64) -> Self {
-        AxisMotion { pull, ..self }
+    pub(crate) fn with_acceleration(self, linear_acceleration: f64) -> Self {
+        AxisMotion {
+            linear_acceleration,
+            ..self
+        }
     }
 
     /// Returns the present velocity along the axis, without rotation.
     #[inline]
-    pub(crate) fn drift(&self) -> f64 {
-        self.drift
+    pub(crate) fn linear_rate(&self) -> f64 {
+        self.linear_rate
     }
 
     /// Returns the acceleration along the axis, without rotation.
     #[inline]
-    pub(crate) fn pull(&self) -> f64 {
-        self.pull
+    pub(crate) fn linear_acceleration(&self) -> f64 {
+        self.linear_acceleration
     }
 
     /// Returns the displacement along the axis after `tau`, without rotation.
     #[inline]
-    pub(crate) fn rise(&self, tau: f64) -> f64 {
-        (self.drift + 0.5 * self.pull * tau) * tau
+    pub(crate) fn linear_displacement(&self, tau: f64) -> f64 {
+        (self.linear_rate + 0.5 * self.linear_acceleration * tau) * tau
     }
 
     /// Returns an upper bound of the second derivative of heights due to rotation, for points at most `distance` from
     /// the axis of rotation.
     #[inline]
-    pub(crate) fn bend(&self, distance: f64) -> f64 {
+    pub(crate) fn second_derivative(&self, distance: f64) -> f64 {
         self.omega * self.omega * length(self.across) * distance
     }
 
@@ -122,8 +127,8 @@ impl AxisMotion {
     pub(crate) fn track(&self, height: f64, arm: DVec3) -> Track {
         Track {
             height,
-            drift: self.drift,
-            pull: self.pull,
+            linear_rate: self.linear_rate,
+            linear_acceleration: self.linear_acceleration,
             p: self.across.dot(arm),
             q: self.beside.dot(arm),
             omega: self.omega,
@@ -160,7 +165,7 @@ impl Angle {
 
 /// A vector that turns about an axis at a constant rate.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spinning {
+pub(crate) struct RotatingVector {
     start: DVec3,
     /// The component of the vector perpendicular to the axis.
     across: DVec3,
@@ -168,11 +173,11 @@ pub(crate) struct Spinning {
     beside: DVec3,
 }
 
-impl Spinning {
+impl RotatingVector {
     /// Creates the vector from its value at the start; `unit` is the direction of the axis, or zero without rotation.
     #[inline]
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
-        Spinning {
+        RotatingVector {
             start,
             across: start - start.dot(unit) * unit,
             beside: unit.cross(start),
@@ -186,13 +191,13 @@ impl Spinning {
 
     /// Returns the derivative of the vector, per radian.
     #[inline]
-    pub(crate) fn slope_at(&self, angle: Angle) -> DVec3 {
+    pub(crate) fn derivative_at(&self, angle: Angle) -> DVec3 {
         self.beside * angle.cos - self.across * angle.sin
     }
 
     /// Returns the length of the derivative, which is constant.
     #[inline]
-    pub(crate) fn slope(&self) -> f64 {
+    pub(crate) fn derivative_length(&self) -> f64 {
         self.beside.length()
     }
 }

@@ -94,9 +94,10 @@ impl<O: DistanceOracle> Naive<O> {
                 }
                 let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
-                let step = pair.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
-                    snapshot.directed_time(checked, kept, self.bound, reaches)
-                });
+                let step =
+                    pair.advance_with(&snapshot, oracle, meter, |snapshot, checked, kept| {
+                        snapshot.directed_time(checked, kept, self.bound, reaches)
+                    });
                 match proven.conclude(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,

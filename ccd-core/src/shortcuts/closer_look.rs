@@ -9,7 +9,7 @@ use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
 use crate::problem::{Problem, Side};
 use crate::rounding::REACH_F32;
-use crate::tuning::{AXIS_ROUNDS, COARSE_F32, SCREW_AFTER};
+use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW};
 
 /// Computes tighter bounds for the pairs of a query, as far as they are useful.
 #[derive(Debug)]
@@ -26,7 +26,8 @@ impl CloserLook {
         let radius = |side: &Side<'_>| f64::from(side.body.tree().radius());
         let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
         CloserLook {
-            fine: problem.takes(Shortcut::FlatNodes) && rounding > COARSE_F32 * problem.node_gap(),
+            fine: problem.takes(Shortcut::FlatNodes)
+                && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
             splits: 0,
             screw: None,
         }
@@ -41,7 +42,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        if self.fine && siblings.removed_count() < AXIS_ROUNDS {
+        if self.fine && siblings.removed_count() < MAX_NEWTON_STEPS {
             part_flat(problem, siblings, s)
         } else {
             None
@@ -58,7 +59,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits >= SCREW_AFTER {
+        if self.splits >= SPLITS_BEFORE_SCREW {
             self.finish_along_screw(problem, split, s, siblings, meter);
         }
         self.splits += 1;
@@ -73,7 +74,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits == SCREW_AFTER && problem.takes(Shortcut::Screw) {
+        if self.splits == SPLITS_BEFORE_SCREW && problem.takes(Shortcut::Screw) {
             self.screw = Screw::of(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.

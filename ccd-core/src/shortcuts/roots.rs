@@ -5,7 +5,7 @@ use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::unit;
 use crate::problem::{Problem, Side};
-use crate::tuning::PROJECTIONS;
+use crate::tuning::BOX_PROJECTIONS;
 use glam::DVec3;
 
 /// Returns whether one fixed plane separates both bounding boxes by more than the contact distance for the whole
@@ -23,7 +23,7 @@ pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
     let [a, b] = [&problem.a, &problem.b].map(|side| Placed::whole(side, 0.0));
     // Repeated projection from one box to the other converges to the nearest points.
     let (mut on_a, mut on_b) = (a.centre, b.centre);
-    for _ in 0..PROJECTIONS {
+    for _ in 0..BOX_PROJECTIONS {
         on_a = a.project(on_b);
         on_b = b.project(on_a);
     }

@@ -17,7 +17,7 @@ use crate::motion::period::{Period, Reaching};
 use crate::problem::{Problem, Side};
 use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
 use crate::settings::StartPolicy;
-use crate::tuning::{LEAST_GAIN, REPEATED, SCREW_DRIFT};
+use crate::tuning::{MAX_PERIOD_SHARE, MAX_SCREW_DRIFT, PERIOD_CHANGE_SHARE};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
@@ -92,14 +92,15 @@ impl<'a> Rounds<'a> {
             place_rounding(reach, path.rate, way)
         });
         let rounding = a + b;
-        let known = REPEATED * tolerance;
+        let known = PERIOD_CHANGE_SHARE * tolerance;
         // Written so that NaN is too much.
         if !(rounding + least_tolerance(problem.rounding) <= 0.5 * known) {
             return None;
         }
         let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
         let size = lesser(a, b);
-        let period = cheapest(bodies, known).or_else(|| cheapest(bodies, SCREW_DRIFT * size))?;
+        let period =
+            cheapest(bodies, known).or_else(|| cheapest(bodies, MAX_SCREW_DRIFT * size))?;
         let mut rounds = Rounds {
             whole: problem.clone(),
             period,
@@ -119,7 +120,7 @@ impl<'a> Rounds<'a> {
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
         // distances is lost.
         let room = (tolerance - 2.0 * self.change()) - 4.0 * self.rounding;
-        let left = greater(room, REPEATED * tolerance);
+        let left = greater(room, PERIOD_CHANGE_SHARE * tolerance);
         let to = match self.round {
             Round::Repeated(_) => lesser(1.0, self.from + self.period.covering()),
             Round::Each(_) => self.end(),
@@ -273,7 +274,7 @@ impl<'a> Sample<'a> {
         let (change, rounding) = (rounds.change(), rounds.rounding);
         // Written so that NaN is too much.
         let stands_for_all = matches!(rounds.round, Round::Repeated(_)) && rounds.end() >= 1.0;
-        (stands_for_all && change <= REPEATED * problem.tolerance).then(|| Sample {
+        (stands_for_all && change <= PERIOD_CHANGE_SHARE * problem.tolerance).then(|| Sample {
             part: rounds.part().measuring(),
             change,
             rounding,
@@ -322,7 +323,7 @@ fn cheapest(bodies: [Reaching<'_>; 2], change: f64) -> Option<Period> {
     Period::all(bodies)
         .map(|period| (searched(&period), period))
         .reduce(|best, next| if next.0 < best.0 { next } else { best })
-        .filter(|(searched, _)| *searched <= LEAST_GAIN)
+        .filter(|(searched, _)| *searched <= MAX_PERIOD_SHARE)
         .map(|(_, period)| period)
 }
 

@@ -20,7 +20,7 @@ use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{Problem, Side, Which};
 use crate::rounding::{ADVANCE_F64, RATE_F64};
-use crate::tuning::{CLOSED_GAP, LEAST_ADVANCE, SCREW_DRIFT};
+use crate::tuning::{CLOSED_GAP, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -64,7 +64,7 @@ impl Screw {
         let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
         let size = lesser(a, b);
         // A tiny advance would make a tiny pitch.
-        let along = if along.abs() > LEAST_ADVANCE * size {
+        let along = if along.abs() > MIN_SCREW_ADVANCE * size {
             along
         } else {
             0.0
@@ -75,7 +75,7 @@ impl Screw {
         let acceleration = side.path.acceleration - other.path.acceleration;
         let drift = drift + 0.5 * length(acceleration);
         // Written so that NaN is no screw.
-        if !(drift <= SCREW_DRIFT * size) {
+        if !(drift <= MAX_SCREW_DRIFT * size) {
             return None;
         }
         // Rounding counts once for the positions, and once for the axis.

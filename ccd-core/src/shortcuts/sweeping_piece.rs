@@ -13,10 +13,10 @@ use crate::body::piece::Piece;
 use crate::math::order::lesser;
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
-use crate::motion::track::{Angle, Spinning};
+use crate::motion::track::{Angle, RotatingVector};
 use crate::problem::Side;
 use crate::rounding::{RATE_F64, attached_rounding};
-use crate::tuning::{ATTACHED_TIME, AXIS_ROUNDS};
+use crate::tuning::{MAX_NEWTON_STEPS, MAX_TURNING_PLANE_TIME};
 use glam::DVec3;
 use std::cell::Cell;
 
@@ -56,7 +56,7 @@ impl<'p> Member<'p> {
 /// A piece of one body in the frame of a plane that turns with the other body.
 pub(crate) struct SweepingPiece<'p> {
     /// The plane's normal `n`, which turns at `ω`.
-    normal: Spinning,
+    normal: RotatingVector,
     unit: DVec3,
     omega: f64,
     /// The vector `D` at the present time.
@@ -114,7 +114,7 @@ impl<'p> SweepingPiece<'p> {
         let speed = velocity.length() + acceleration.length();
         let radius = other.piece.max_distance_from(reference);
         SweepingPiece {
-            normal: Spinning::new(path.axis, normal),
+            normal: RotatingVector::new(path.axis, normal),
             unit: path.axis,
             omega: path.rate,
             offset,
@@ -139,15 +139,15 @@ impl<'p> SweepingPiece<'p> {
     pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least();
-        first_crossing(horizon, AXIS_ROUNDS, |tau| {
+        first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
             self.looks.set(self.looks.get() + self.piece.looks());
             let turned = self.turned(tau);
-            let bend = self.bend(tau);
+            let second_derivative = self.second_derivative(tau);
             let free = |axis: f64, closing: f64| {
                 let gap = Gap {
                     gap: apart + (turned.height + axis),
                     rate: rate - (turned.rate + closing),
-                    bend,
+                    second_derivative,
                 };
                 gap.free_time()
             };
@@ -159,7 +159,7 @@ impl<'p> SweepingPiece<'p> {
                     .fold(f64::INFINITY, lesser),
             };
             // The bound of the second derivative holds for that long only.
-            lesser(f64::from(ATTACHED_TIME), least)
+            lesser(f64::from(MAX_TURNING_PLANE_TIME), least)
         })
     }
 
@@ -201,10 +201,10 @@ impl<'p> SweepingPiece<'p> {
         let own = Angle::new(self.own_omega * tau);
         let axis = self.normal.at(angle);
         let (offset, velocity) = self.moved(tau);
-        let turning = self.normal.slope_at(angle) * self.omega;
+        let turning = self.normal.derivative_at(angle) * self.omega;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
-            let turned = Spinning::new(-self.own_unit, v).at(own);
+            let turned = RotatingVector::new(-self.own_unit, v).at(own);
             self.frame.inverse_vector(turned)
         };
         Turned {
@@ -224,16 +224,17 @@ impl<'p> SweepingPiece<'p> {
         )
     }
 
-    /// Returns a bound of the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
-    fn bend(&self, tau: f64) -> f64 {
+    /// Returns a bound of the second derivative of heights, for [`MAX_TURNING_PLANE_TIME`] from `tau` on.
+    fn second_derivative(&self, tau: f64) -> f64 {
         let (offset, _) = self.moved(tau);
-        let arm = self.unit.cross(offset).length() + self.speed * f64::from(ATTACHED_TIME);
-        let across = self.omega * (self.normal.slope() + RATE_F64);
+        let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
+        let across = self.omega * (self.normal.derivative_length() + RATE_F64);
         let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
-        let bend = across * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
+        let second_derivative = across
+            * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
             + relative * (across + self.own_omega) * self.radius
             + self.acceleration.length();
-        bend * (1.0 + RATE_F64)
+        second_derivative * (1.0 + RATE_F64)
     }
 }
 

@@ -5,7 +5,7 @@ use super::tree::ball_about;
 use crate::body::facets::Facets;
 use crate::math::order::greater;
 use crate::rounding::HEIGHT_F64;
-use crate::tuning::PLATEAU_POINTS;
+use crate::tuning::MAX_PLATEAU_POINTS;
 use glam::DVec3;
 
 /// The corners of a convex polytope, the edges between them, and the corners that are farthest
@@ -133,7 +133,7 @@ impl SupportTable {
         slack: f64,
         direction: DVec3,
     ) -> Option<(u32, f64)> {
-        let mut level = [at; PLATEAU_POINTS];
+        let mut level = [at; MAX_PLATEAU_POINTS];
         let (mut next, mut count) = (0, 1);
         while next < count {
             let from = level[next];

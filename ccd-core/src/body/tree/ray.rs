@@ -5,7 +5,7 @@ use super::{Below, Node, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
 use crate::rounding::{SIGN_F64, U64};
-use crate::tuning::RAYS;
+use crate::tuning::MAX_RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -36,7 +36,7 @@ pub(crate) fn crossings(
     slack: f64,
 ) -> Option<Crossings> {
     let start = Start { from, slack };
-    (0..RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
+    (0..MAX_RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
 }
 
 /// The start of a ray, with the accuracy of its position.

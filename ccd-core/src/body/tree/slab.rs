@@ -3,7 +3,7 @@
 use crate::math::order::greater;
 use crate::math::vector::unit;
 use crate::rounding::U64;
-use crate::tuning::FLAT;
+use crate::tuning::MAX_FLAT_THICKNESS;
 use glam::DVec3;
 
 /// Two parallel planes that bound a flat node's triangles, at equal distances from the node's centre. It contains all
@@ -33,7 +33,7 @@ impl Slab {
         // Differences are off by 1u, products with a unit vector and their sum by 3u of √3.
         half += 16.0 * U64 * size;
         // Written so that NaN is not flat.
-        (half <= FLAT * size).then_some(Slab { normal, half })
+        (half <= MAX_FLAT_THICKNESS * size).then_some(Slab { normal, half })
     }
 }
 

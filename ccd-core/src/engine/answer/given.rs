@@ -4,7 +4,7 @@ use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::meeting::Meeting;
+use crate::engine::pieces::meeting::SurroundingSurfaces;
 use crate::engine::pieces::pair;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::{greater, lesser};
@@ -73,8 +73,8 @@ fn with_common_normal(
     }
     let [frame, _] = &snapshot.frames;
     let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.local(at)));
-    let meeting = Meeting::at(&snapshot, points, meter);
-    let Some(axis) = meeting.normal(frame.inverse_vector(normal)) else {
+    let meeting = SurroundingSurfaces::at(&snapshot, points, meter);
+    let Some(axis) = meeting.common_normal(frame.inverse_vector(normal)) else {
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;

@@ -7,7 +7,7 @@ use crate::motion::relative::View;
 use crate::problem::{Problem, Side, Which};
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32};
 use crate::shortcuts::Shortcut;
-use crate::tuning::{CLOSED_GAP, MUCH_LARGER};
+use crate::tuning::{CLOSED_GAP, MUCH_LARGER_RATIO};
 use glam::Vec3;
 use std::cell::OnceCell;
 
@@ -74,7 +74,7 @@ impl<'p> Common<'p> {
             rate_slack: RATE_F32 * up(speed(&problem.a, &problem.b)),
             closed: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
             much_larger: if problem.takes(Shortcut::TurningNodes) {
-                MUCH_LARGER
+                MUCH_LARGER_RATIO
             } else {
                 f32::INFINITY
             },

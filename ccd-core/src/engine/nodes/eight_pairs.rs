@@ -93,24 +93,29 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
-        let mut bend = splat(axis.n.level(), LEAST_BEND_F32);
+        let mut second_derivative = splat(axis.n.level(), LEAST_BEND_F32);
         if motion.split.turns {
             let m = motion.split.across(axis.n);
             rate += self.children.reach(m);
-            bend += second_derivative_bound(m, motion.split.rate, self.speed);
+            second_derivative += second_derivative_bound(m, motion.split.rate, self.speed);
         }
         if motion.other.turns {
             let m = motion.other.across(axis.n);
             rate += self.other.reach(m);
-            bend += second_derivative_bound(m, motion.other.rate, self.other_speed);
+            second_derivative += second_derivative_bound(m, motion.other.rate, self.other_speed);
         }
         let apart = axis.gap - motion.slack;
         if let Some(acceleration) = motion.acceleration {
             let along = axis.n.dot(Vec3x8::splat(axis.n.level(), acceleration));
             let rounding = splat(axis.n.level(), RATE_F32 * acceleration.length());
-            clock::parting_free_time(apart, motion.closed, rate, bend + along + rounding)
+            clock::parting_free_time(
+                apart,
+                motion.closed,
+                rate,
+                second_derivative + along + rounding,
+            )
         } else if motion.split.turns || motion.other.turns {
-            clock::free_time(apart, motion.closed, rate, bend)
+            clock::free_time(apart, motion.closed, rate, second_derivative)
         } else {
             clock::straight_free_time(apart, motion.closed, rate)
         }

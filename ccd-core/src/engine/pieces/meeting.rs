@@ -7,12 +7,12 @@ use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
 /// The surfaces around the nearest points of two pieces, without their radii, in A's frame.
-pub(crate) struct Meeting<'s> {
+pub(crate) struct SurroundingSurfaces<'s> {
     points: [DVec3; 2],
     normals: &'s mut CommonNormals,
 }
 
-impl<'s> Meeting<'s> {
+impl<'s> SurroundingSurfaces<'s> {
     /// Collects the surfaces around two points, of A and of B, in A's frame.
     pub(crate) fn at(snapshot: &Snapshot<'_>, points: [DVec3; 2], meter: &'s mut Meter) -> Self {
         let Snapshot {
@@ -33,7 +33,7 @@ impl<'s> Meeting<'s> {
         });
         normals.sort();
         meter.stats.point_looks += looks;
-        Meeting {
+        SurroundingSurfaces {
             points,
             normals: &mut meter.scratch_memory().normals,
         }
@@ -41,7 +41,7 @@ impl<'s> Meeting<'s> {
 
     /// Returns the common normal of both surfaces that is nearest to a direction, if the vector between the points is
     /// along it up to rounding.
-    pub(crate) fn normal(&self, towards: DVec3) -> Option<DVec3> {
+    pub(crate) fn common_normal(&self, towards: DVec3) -> Option<DVec3> {
         let [on_a, on_b] = self.points;
         self.normals.along(towards, on_b - on_a)
     }

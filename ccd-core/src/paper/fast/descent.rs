@@ -13,7 +13,7 @@ use crate::math::order::lesser;
 use crate::motion::bound::Bound;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
-use crate::tuning::{JOIN_BEYOND, OVERLAPPING};
+use crate::tuning::{JOIN_DISTANCE_RATIO, SPLIT_OVERLAP};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
@@ -128,7 +128,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let depth = snapshot.depth_between_middles();
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
-        if depth.is_some_and(|depth| depth > OVERLAPPING) {
+        if depth.is_some_and(|depth| depth > SPLIT_OVERLAP) {
             self.meter.stats.point_looks += snapshot.pieces.points();
             found.open.push(node.unmeasured(at, s));
             return;
@@ -179,7 +179,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let reaches = self.reaches.each(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
-        let step = pair.advance_by(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
+        let step = pair.advance_with(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
             node.lower = checked.lower;
             found.distance = lesser(found.distance, checked.upper);
             snapshot.directed_time(checked, kept, bound, reaches)
@@ -214,7 +214,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         for (at, first) in self.front.above_leaves() {
             let far = [first, first + 1]
                 .into_iter()
-                .all(|child| self.front.node(child).lower >= JOIN_BEYOND * distance);
+                .all(|child| self.front.node(child).lower >= JOIN_DISTANCE_RATIO * distance);
             if !far || self.front.node(at).join_below <= distance {
                 continue;
             }
@@ -223,7 +223,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             if node.lower >= distance && node.clock >= next {
                 self.front.raise(at);
             } else {
-                node.join_below = distance / JOIN_BEYOND;
+                node.join_below = distance / JOIN_DISTANCE_RATIO;
             }
         }
         ControlFlow::Continue(())

@@ -14,7 +14,7 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::closest::required::Required;
 use crate::questions::closest::{Beyond, meets_later};
-use crate::tuning::{COARSE, STRAY_SHARE};
+use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
 use found::{Found, Seen};
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -230,7 +230,7 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
             terms, duration, ..
         } = self.query;
         // Halves mostly suffice, and cost less than measuring the distance.
-        if motions.span.length() > COARSE * duration {
+        if motions.span.length() > MEASURED_SHARE * duration {
             return Ok(stretches.cut_about(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
@@ -246,7 +246,7 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
                 doubt.length(motions),
                 motions.length_for_rate(doubt.rate.abs()),
             ),
-            None => motions.length_for(STRAY_SHARE * terms.tolerance),
+            None => motions.length_for(DEVIATION_SHARE * terms.tolerance),
         };
         Ok(stretches.cut_about(motions.span, time, length))
     }
@@ -293,7 +293,7 @@ struct Doubt {
 
 impl Doubt {
     fn length(&self, motions: &Motions) -> f64 {
-        motions.length_for(STRAY_SHARE * self.stray)
+        motions.length_for(DEVIATION_SHARE * self.stray)
     }
 
     /// Returns whether the distance increases from an end of the stretch inward.

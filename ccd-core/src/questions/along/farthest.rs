@@ -21,7 +21,7 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::closest::guess::nearest_at;
 use crate::rounding::FARTHEST_F64;
-use crate::tuning::SETTLED;
+use crate::tuning::SETTLED_GROWTH;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -202,7 +202,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             _ => above,
         };
         // Deviations and rounding would blur shorter stretches as much.
-        if moved <= greater(SETTLED * (seen.upper - seen.lower), 2.0 * seen.blur) {
+        if moved <= greater(SETTLED_GROWTH * (seen.upper - seen.lower), 2.0 * seen.blur) {
             self.settled = greater(self.settled, upper);
             return Ok(Ok(None));
         }
@@ -286,13 +286,14 @@ impl Motions {
         let way = on_b - on_a;
         let velocity = b.velocity_at(on_b, middle) - a.velocity_at(on_a, middle);
         let ends = greater(length(way + time * velocity), length(way - time * velocity));
-        let (mut bend, mut turn, mut scale) = (length(b.acceleration - a.acceleration), 0.0, 0.0);
+        let (mut second_derivative, mut turn, mut scale) =
+            (length(b.acceleration - a.acceleration), 0.0, 0.0);
         for (stretch, point) in [(a, on_a), (b, on_b)] {
             let motion = &stretch.motion;
             let spin = length(motion.spin());
             let centre = stretch.pose(middle).transform_point(motion.centre());
             let arm = length(point - centre);
-            bend += spin * spin * arm;
+            second_derivative += spin * spin * arm;
             turn += spin;
             let speed =
                 length(motion.velocity()) + spin * arm + middle * length(stretch.acceleration);
@@ -300,7 +301,7 @@ impl Motions {
         }
         // The points of the bodies deviate from those of the motions, which turn.
         let strays = self.stray * (2.0 + turn * time);
-        let grown = (ends - length(way)) + 0.5 * bend * time * time + strays;
+        let grown = (ends - length(way)) + 0.5 * second_derivative * time * time + strays;
         greater(0.0, grown) * (1.0 + FARTHEST_F64) + FARTHEST_F64 * scale
     }
 }

@@ -11,7 +11,7 @@ use crate::problem::Problem;
 use crate::query::{Moving, Query};
 use crate::rounding::STRETCH_F64;
 use crate::settings::{StartPolicy, Terms};
-use crate::tuning::{BLURRED, STRAY_SHARE, WORTH_A_CUT};
+use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
 
 /// A stretch of time within a query.
@@ -93,7 +93,7 @@ impl Motions {
     /// Estimates the length of a stretch in which the deviation is a fixed share of the change of a distance at `rate`.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
-        whole * (STRAY_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
+        whole * (DEVIATION_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
     }
 
     /// Returns the exponent with which deviations grow with time.
@@ -108,7 +108,7 @@ impl Motions {
 
     /// Returns whether a part of this length is much shorter than the stretch.
     pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
-        length < WORTH_A_CUT * self.span.length()
+        length < MAX_CUT_SHARE * self.span.length()
     }
 
     /// Returns the rate at which the bodies approach each other at a contact of the motions.
@@ -153,11 +153,14 @@ impl Motions {
     fn tolerance(&self, whole: f64) -> f64 {
         // Written so that without deviations the result is the whole tolerance, to the last bit.
         let left = whole - 4.0 * self.stray;
-        if self.stray == 0.0 || left >= (1.0 - 4.0 * STRAY_SHARE) * whole {
+        if self.stray == 0.0 || left >= (1.0 - 4.0 * DEVIATION_SHARE) * whole {
             return left;
         }
         // Too little is left for a contact. Distances blurred by deviations need not be known better.
-        let least = greater((1.0 - 4.0 * STRAY_SHARE) * whole, BLURRED * self.stray);
+        let least = greater(
+            (1.0 - 4.0 * DEVIATION_SHARE) * whole,
+            TOLERANCE_PER_DEVIATION * self.stray,
+        );
         greater(least, LEAST_TOLERANCE)
     }
 

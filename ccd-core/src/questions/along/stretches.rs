@@ -11,7 +11,7 @@ use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
 use crate::query::{Moving, Query};
 use crate::settings::Terms;
-use crate::tuning::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
+use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_CUT_SHARE};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -130,8 +130,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Returns whether a contact of a stretch's motions counts as one of the bodies: the tolerance is met, or cutting
     /// does not improve it.
     pub(super) fn is_fine(&self, motions: &Motions) -> Result<bool, InputError> {
-        Ok(motions.stray <= STRAY_SHARE * self.query.terms.tolerance
-            || self.is_shortest(motions)?)
+        Ok(
+            motions.stray <= DEVIATION_SHARE * self.query.terms.tolerance
+                || self.is_shortest(motions)?,
+        )
     }
 
     /// Returns whether the deviations are hardly larger than in a stretch of length 0: only rounding remains.
@@ -169,7 +171,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let Span { from, to, .. } = motions.span;
         let beside = [(from, proven.to), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
-        (motions.stray > MUCH_LONGER * stray).then_some(time)
+        (motions.stray > CUT_DEVIATION_RATIO * stray).then_some(time)
     }
 
     /// Makes the budget of the part that contains a stretch pay for the work that follows.
@@ -245,7 +247,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let Some([early, late]) = self.parts(span, 0.5 * whole) else {
             return false;
         };
-        let half = 0.5 * greater(length, LEAST_CUT * whole);
+        let half = 0.5 * greater(length, MIN_CUT_SHARE * whole);
         let [first, last] = [time - half, time + half];
         // Written so that NaN, or a length lost to rounding, gives a half of the stretch.
         let is_part = length < 0.5 * whole && first < time && last > time;
@@ -279,7 +281,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             (corner > from && corner < to).then_some(corner)
         };
         let whole = span.length();
-        let length = greater(LEAST_CUT * whole, lesser(length, 0.5 * whole));
+        let length = greater(MIN_CUT_SHARE * whole, lesser(length, 0.5 * whole));
         let corner = corner(a).or_else(|| corner(b));
         let at = corner.unwrap_or(from + length);
         if !(at > from && at < to) {
@@ -337,7 +339,7 @@ impl Budgets {
 
     /// Adds a part with a budget of its own, and returns its index; or returns `part` if there are too many.
     fn another(&mut self, part: usize) -> usize {
-        if self.spent.len() >= MOST_PARTS {
+        if self.spent.len() >= MAX_BUDGET_PARTS {
             return part;
         }
         self.spent.push(0);

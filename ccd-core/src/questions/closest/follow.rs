@@ -7,7 +7,7 @@ use crate::engine::pieces::pair;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::lesser;
 use crate::problem::Problem;
-use crate::tuning::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
+use crate::tuning::{FOLLOW_ACCURACY, MAX_FOLLOW_MEASUREMENTS, MAX_FOLLOW_ROTATION};
 
 /// Follows the pieces of a contact to a nearby local minimum of their distance over time. Returns the nearest
 /// measurement.
@@ -82,8 +82,11 @@ impl<O: DistanceOracle> Descent<'_, O> {
         let end = if forward { 1.0 } else { 0.0 };
         // The pieces would meet at this rate. A larger rotation may pass a valley of the distance.
         let turning = self.problem.a.path.rate + self.problem.b.path.rate;
-        let mut step = lesser((here.distance / here.rate).abs(), FOLLOWED_TURN / turning);
-        for _ in 0..FOLLOWING_LOOKS {
+        let mut step = lesser(
+            (here.distance / here.rate).abs(),
+            MAX_FOLLOW_ROTATION / turning,
+        );
+        for _ in 0..MAX_FOLLOW_MEASUREMENTS {
             let next = if forward {
                 here.clock + step
             } else {
@@ -104,17 +107,17 @@ impl<O: DistanceOracle> Descent<'_, O> {
                 return Some([here, there]);
             }
             here = there;
-            step = lesser(2.0 * step, FOLLOWED_TURN / turning);
+            step = lesser(2.0 * step, MAX_FOLLOW_ROTATION / turning);
         }
         None
     }
 
     /// Narrows the interval around a local minimum of the distance, which decreases from the clock of `falling` on.
     fn narrow(&mut self, mut falling: Slope, mut other: Slope) {
-        for look in 0..FOLLOWING_LOOKS {
+        for look in 0..MAX_FOLLOW_MEASUREMENTS {
             let width = other.clock - falling.clock;
             // Written so that NaN is narrow enough.
-            if !((width * falling.rate).abs() > FOLLOWED * self.problem.tolerance) {
+            if !((width * falling.rate).abs() > FOLLOW_ACCURACY * self.problem.tolerance) {
                 return;
             }
             // The step goes to the zero of a straight line through both rates. Every other step halves the interval,

@@ -9,7 +9,7 @@ use crate::engine::nearest::{Nearest, SearchEnd};
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::shortcuts::out_of_reach::{least_distance, nearest_clock};
-use crate::tuning::{FOLLOWED, GUESSES};
+use crate::tuning::{FOLLOW_ACCURACY, MAX_INITIAL_MEASUREMENTS};
 use std::ops::ControlFlow;
 
 /// Measures the bodies at the time when their bounding balls are nearest, and follows the nearest pieces from there.
@@ -24,7 +24,7 @@ pub(crate) fn guess<O: DistanceOracle>(
 ) -> ControlFlow<Outcome, Option<Best>> {
     let mut best: Option<Best> = None;
     let mut clock = nearest_clock(problem);
-    for _ in 0..GUESSES {
+    for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
         let found = nearest_at(problem, clock, upper, oracle, meter);
         let Some(found) = found.map_break(|stop| stopped(problem, best, stop))? else {
@@ -35,7 +35,7 @@ pub(crate) fn guess<O: DistanceOracle>(
         best = Some(followed);
         clock = followed.clock;
         // Written so that NaN is no fall.
-        if !(fell > FOLLOWED * problem.tolerance) {
+        if !(fell > FOLLOW_ACCURACY * problem.tolerance) {
             break;
         }
     }

@@ -12,7 +12,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::trig::sin_cos;
 use crate::rounding::{RATE_F64, TURNS_F64, profile_rounding};
-use crate::tuning::LEAST_INNER;
+use crate::tuning::MIN_PROFILE_RADIUS;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -104,7 +104,7 @@ impl Profile {
         let onward = axis.unit.cross(outward);
         let inner = distance - node.reach(-outward);
         // Written so that NaN is not far.
-        if !(inner > LEAST_INNER * distance) {
+        if !(inner > MIN_PROFILE_RADIUS * distance) {
             return None;
         }
         let [x, y] = axis.azimuths;
@@ -131,8 +131,8 @@ impl Profile {
             let tilt = axis.advance / distance;
             let rounding = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
             let reach = |sign: f64| {
-                let bend = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
-                node.reach(sign * gradient) + bend + rounding
+                let second_derivative = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
+                node.reach(sign * gradient) + second_derivative + rounding
             };
             profile.low[k] = at - reach(-1.0);
             profile.high[k] = at + reach(1.0);

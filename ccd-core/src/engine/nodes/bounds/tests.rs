@@ -13,7 +13,7 @@ use crate::math::lanes::{Vec3x8, load};
 use crate::math::order::{greater, lesser};
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tuning::{ATTACHED_TIME, MUCH_LARGER};
+use crate::tuning::{MAX_TURNING_PLANE_TIME, MUCH_LARGER_RATIO};
 use crate::vectorize;
 use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
@@ -43,7 +43,7 @@ impl Solid {
     }
 
     /// Returns the largest second derivative of a height along `n`, at any time.
-    fn bend(&self, n: DVec3) -> f64 {
+    fn second_derivative(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
     }
@@ -241,12 +241,12 @@ fn clocks(
     level: Level,
     aparts: &[f32; LANES],
     rates: &[f32; LANES],
-    bends: &[f32; LANES],
+    second_derivatives: &[f32; LANES],
     closed: f32,
 ) -> [f32; LANES] {
     vectorize!(level, level => {
-        let [apart, rate, bend] = [load(level, aparts), load(level, rates), load(level, bends)];
-        *clock::free_time(apart, closed, rate, bend)
+        let [apart, rate, second_derivative] = [load(level, aparts), load(level, rates), load(level, second_derivatives)];
+        *clock::free_time(apart, closed, rate, second_derivative)
     })
 }
 
@@ -267,9 +267,9 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         for found in &found {
             self.sample_allowances(found, worst);
             self.check_still(found, worst);
-            if reach > MUCH_LARGER * self.other.radius() {
+            if reach > MUCH_LARGER_RATIO * self.other.radius() {
                 self.check_attached(found, Larger::Split, worst);
-            } else if self.other.radius() > MUCH_LARGER * reach {
+            } else if self.other.radius() > MUCH_LARGER_RATIO * reach {
                 self.check_attached(found, Larger::Other, worst);
             }
         }
@@ -322,7 +322,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             Larger::Other => with_other,
         };
         for (lane, child) in self.children.iter().enumerate() {
-            assert!(free[lane] <= ATTACHED_TIME);
+            assert!(free[lane] <= MAX_TURNING_PLANE_TIME);
             let spin = match with {
                 Larger::Split => child.spin,
                 Larger::Other => self.far.spin,

@@ -5,7 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
-use crate::tuning::MUCH_LARGER;
+use crate::tuning::MUCH_LARGER_RATIO;
 
 /// The number of samples of a lane within its free time, ends included.
 const SAMPLES: usize = 17;
@@ -390,7 +390,7 @@ fn still<L: Simd, C: Children>(
                 .fold(0.0, greater)
         }
     };
-    let much = 0.99 * MUCH_LARGER;
+    let much = 0.99 * MUCH_LARGER_RATIO;
     let members = Members {
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members

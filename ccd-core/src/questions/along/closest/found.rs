@@ -9,7 +9,7 @@ use crate::questions::along::stretches::Stretches;
 use crate::questions::closest::ladder::{Ladder, Rung};
 use crate::settings::Terms;
 use crate::shortcuts::out_of_reach::least_distance;
-use crate::tuning::LEAST_CUT;
+use crate::tuning::MIN_CUT_SHARE;
 
 impl Query<'_> {
     /// Returns the query for measuring distances, with a margin of 0.
@@ -80,7 +80,7 @@ impl Seen {
     pub(super) fn falls_beyond(&self, motions: &Motions) -> Option<f64> {
         let Span { from, to, .. } = motions.span;
         let (near, falls) = (
-            LEAST_CUT * motions.span.length(),
+            MIN_CUT_SHARE * motions.span.length(),
             self.approach * motions.span.length(),
         );
         let time = motions.time(self.time);

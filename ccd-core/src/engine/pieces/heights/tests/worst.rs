@@ -10,7 +10,7 @@ use crate::math::order::greater;
 use crate::math::vector::{distance, length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
-use crate::motion::track::{Angle, Spinning};
+use crate::motion::track::{Angle, RotatingVector};
 use crate::problem::Problem;
 use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use crate::settings::Settings;
@@ -103,10 +103,10 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
     let turn = path.rate * tau;
     let angle = (Angle::new(turn), turn);
-    let seen = Spinning::new(-path.axis, normal);
+    let seen = RotatingVector::new(-path.axis, normal);
     let along = match tape.pick(2) {
         0 => seen.at(angle.0),
-        _ => seen.slope_at(angle.0),
+        _ => seen.derivative_at(angle.0),
     };
     let level = unit(frame.inverse_vector(along))?;
     let (east, north) = level.any_orthonormal_pair();
@@ -154,10 +154,10 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
         Some((of(&arms[chosen as usize]) - least).get())
     };
     let height = miss(seen.at(angle.0), &|arm| n.dot(*arm))?;
-    let rate = miss(seen.slope_at(angle.0), &|arm| {
+    let rate = miss(seen.derivative_at(angle.0), &|arm| {
         n.dot(turning.spin.cross(*arm))
     })?;
-    assert!(heights.missed >= allowed);
+    assert!(heights.support_error >= allowed);
     Some([share(height, allowed), share(rate, path.rate * allowed)])
 }
 

@@ -55,12 +55,12 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     assert!(snapshot.ask(&mut Exhaustive, &mut (), &mut meter).is_some());
     assert_eq!(
         meter.stats.point_looks,
-        USUAL_STEPS * snapshot.pieces.points()
+        ASSUMED_STEPS * snapshot.pieces.points()
     );
     let mut meter = Meter::new(&problem);
     let mut telling = Telling { steps: 7 };
     assert!(snapshot.ask(&mut telling, &mut (), &mut meter).is_some());
-    assert_eq!(meter.stats.point_looks, USUAL_STEPS * 5);
+    assert_eq!(meter.stats.point_looks, ASSUMED_STEPS * 5);
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
     assert!(snapshot.ask(&mut Silent, &mut (), &mut meter).is_none());
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
@@ -91,13 +91,13 @@ fn the_plane_of_the_longest_time_counts() {
             normal: snapshot.frames[0].rotation * checked.axis,
             slack: checked.lower - kept,
         };
-        let passing = snapshot.passing(&checked, kept);
+        let passing = snapshot.plane_of_closest_approach(&checked, kept);
         check_passing(&snapshot, &checked, kept, passing.as_ref());
         let planes: Vec<&Plane> = iter::once(&direct).chain(&passing).collect();
-        let along = |plane: &&Plane| time(snapshot.free_along(plane.normal, plane.slack));
-        let members = snapshot.members();
+        let along = |plane: &&Plane| time(snapshot.fixed_axis_time(plane.normal, plane.slack));
+        let members = snapshot.moving_pieces();
         let attached =
-            |plane: &&Plane| time(snapshot.free_attached(&members, plane, f64::INFINITY));
+            |plane: &&Plane| time(snapshot.turning_plane_time(&members, plane, f64::INFINITY));
         let fixed = planes.iter().map(along).fold(0.0, greater);
         let all = planes.iter().map(attached).fold(fixed, greater);
         // A plane that turns is tried only if a body's turning uses up the slack.
@@ -109,7 +109,7 @@ fn the_plane_of_the_longest_time_counts() {
         turning += usize::from(time(free) > fixed);
         passes += usize::from(fixed > along(&&direct));
         let expected = match along(&&direct) {
-            first if first >= A_WHILE => first,
+            first if first >= FIRST_VISIT_FREE_TIME => first,
             _ => time(free),
         };
         let first = time(snapshot.first_free_time(&checked, kept));
@@ -135,7 +135,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
         let mut meter = Meter::new(&problem);
         let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
         let kept = problem.gap();
-        let plane = snapshot.passing(&checked, kept);
+        let plane = snapshot.plane_of_closest_approach(&checked, kept);
         check_passing(&snapshot, &checked, kept, plane.as_ref());
         planes += usize::from(plane.is_some());
     }
@@ -161,7 +161,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let rate = -away.dot(chased - velocity);
         let slack = 0.1 * rate;
-        let free = snapshot.free_along(-away, slack).unwrap();
+        let free = snapshot.fixed_axis_time(-away, slack).unwrap();
         let speed = chased.length() + velocity.length();
         let allowed = (slack / free - rate) / (RATE_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
@@ -200,15 +200,16 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             normal,
             snapshot.clock,
         );
-        let passes = |slack: f64| snapshot.turn_past(&a, &b, slack);
+        let passes = |slack: f64| snapshot.rotation_keeps_slack(&a, &b, slack);
         let descents = a.descent_until(horizon).zip(b.descent_until(horizon));
-        let Some(descents) = descents.filter(|_| !(a.straight() && b.straight())) else {
+        let Some(descents) = descents.filter(|_| !(a.is_nonrotating() && b.is_nonrotating()))
+        else {
             assert!(!passes(f64::MAX));
             counts[0] += 1;
             continue;
         };
-        let drift = (a.drift() + b.drift()) * horizon;
-        let needed = descents.0 + descents.1 - lesser(0.0, drift);
+        let linear_rate = (a.linear_rate() + b.linear_rate()) * horizon;
+        let needed = descents.0 + descents.1 - lesser(0.0, linear_rate);
         let allowance = RATE_F64 * (a.speed() + b.speed()) * horizon;
         let (mut low, mut high) = (0.0, 2.0 * (needed + allowance));
         assert!(!passes(low) && passes(high));
@@ -225,7 +226,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             (0.5..1.5).contains(&allowed),
             "{allowed} {needed} {allowance}"
         );
-        counts[if drift < 0.0 { 1 } else { 2 }] += 1;
+        counts[if linear_rate < 0.0 { 1 } else { 2 }] += 1;
     }
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
@@ -237,15 +238,15 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
     let mut within = [0; 2];
     for _ in 0..4_000 {
         let any = |rng: &mut Pcg64| magnitude(rng, -3.0, 3.0) * rng.random_range(-1.0..1.0);
-        let (rate, pull) = (any(&mut rng), any(&mut rng));
+        let (rate, linear_acceleration) = (any(&mut rng), any(&mut rng));
         let horizon = magnitude(&mut rng, -2.0, 0.0);
-        let way = |tau: f64| (rate + 0.5 * pull * tau) * tau;
+        let way = |tau: f64| (rate + 0.5 * linear_acceleration * tau) * tau;
         let samples = (0..=2_000).map(|k| way(horizon * f64::from(k) / 2e3));
         let sampled = samples.fold(0.0, lesser);
-        let least = least_drift(rate, pull, horizon);
+        let least = least_linear_displacement(rate, linear_acceleration, horizon);
         // Next to the least value, a sample is off by half a step at most.
-        let missed = pull.abs() * (horizon / 2e3) * (horizon / 2e3);
-        let rounding = 1e-15 * (rate.abs() + pull.abs());
+        let missed = linear_acceleration.abs() * (horizon / 2e3) * (horizon / 2e3);
+        let rounding = 1e-15 * (rate.abs() + linear_acceleration.abs());
         assert!((-rounding..=missed + rounding).contains(&(sampled - least)));
         within[usize::from(least < lesser(0.0, way(horizon)))] += 1;
     }

@@ -128,10 +128,10 @@ fn solids_keep_to_their_sides_of_the_plane() {
 
 #[test]
 fn of_two_planes_the_one_of_the_longer_time_counts() {
-    assert_eq!(longer(Some(1.0), Some(2.0)), Some(2.0));
-    assert_eq!(longer(Some(2.0), Some(1.0)), Some(2.0));
+    assert_eq!(longer_time(Some(1.0), Some(2.0)), Some(2.0));
+    assert_eq!(longer_time(Some(2.0), Some(1.0)), Some(2.0));
     assert_eq!(
-        (longer(None, Some(1.0)), longer(Some(1.0), None)),
+        (longer_time(None, Some(1.0)), longer_time(Some(1.0), None)),
         (None, None)
     );
 }
