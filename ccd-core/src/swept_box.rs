@@ -139,7 +139,7 @@ fn of_motion(
     let (low, high) = at_start(&side);
     // As seen from the centre of rotation, which moves straight, the body only turns.
     let way = path.velocity;
-    let room = DVec3::splat(room(&side, terms));
+    let room = DVec3::splat(half_contact_distance(&side, terms));
     Ok(SweptBox {
         min: low + least(way, DVec3::ZERO) - room,
         max: high + most(way, DVec3::ZERO) + room,
@@ -170,7 +170,7 @@ fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
 
 /// Returns a bound of half the contact distance plus the rounding of the box. The tolerance in that distance is the
 /// greater of the one in the settings and the least that can be certified.
-fn room(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
+fn half_contact_distance(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;
     let rounding = share_of_rounding(side.span(), path.rate, way);

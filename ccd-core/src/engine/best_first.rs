@@ -102,7 +102,7 @@ impl<O: DistanceOracle> Question<O> for Proven {
     type Found = Outcome;
 
     #[inline]
-    fn arrive(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
+    fn reach_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
         if s > 0.0 {
             self.past_start(problem)
                 .map_or(ControlFlow::Continue(()), ControlFlow::Break)

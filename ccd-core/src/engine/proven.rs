@@ -2,7 +2,7 @@
 
 use super::meter::Meter;
 use super::pieces::pair::Step;
-use super::start::{contained, overlapping, touching};
+use super::start::{containment_outcome, overlap_outcome, touching};
 use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -46,7 +46,7 @@ impl Proven {
             Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
             Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
             Step::Contact(contact) => touching(problem, oracle, meter, contact),
-            Step::Overlap(contact) => overlapping(contact),
+            Step::Overlap(contact) => overlap_outcome(contact),
             Step::Stalled => unresolved(Limit::Stalled),
             Step::GaveUp => unresolved(Limit::OracleGaveUp),
         })
@@ -70,7 +70,7 @@ impl Proven {
         // Bodies that are let go were examined when their contact was found.
         match problem.start {
             StartPolicy::Leave => None,
-            StartPolicy::Report => contained(problem, &[], &mut Vec::new()),
+            StartPolicy::Report => containment_outcome(problem, &[], &mut Vec::new()),
         }
     }
 

@@ -35,7 +35,7 @@ pub(crate) trait Question<O: DistanceOracle> {
 
     /// Called with the clock of the next pair before the pair is examined; may end the search.
     #[inline]
-    fn arrive(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
+    fn reach_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
         ControlFlow::Continue(())
     }
 
@@ -79,7 +79,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         problem: &Problem<'_>,
         question: &mut Q,
     ) -> Q::Found {
-        if self.open(problem).is_err() {
+        if self.push_roots(problem).is_err() {
             return question.stopped(problem, 0.0, Limit::Budget);
         }
         let common = Common::new(problem);
@@ -102,7 +102,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         let common = Common::new(problem);
         loop {
             if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
-                question.arrive(problem, s)?;
+                question.reach_clock(problem, s)?;
                 return ControlFlow::Continue(s);
             }
             self.visit(&common, look, question)?;
@@ -110,7 +110,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     }
 
     /// Adds the pair of both roots to the waiting pairs.
-    pub(crate) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
+    pub(crate) fn push_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
         let item = match Next::roots(problem) {
             Next::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
             Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
@@ -135,7 +135,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         let Some((s, item)) = waiting.next() else {
             return ControlFlow::Break(question.done(problem));
         };
-        question.arrive(problem, s)?;
+        question.reach_clock(problem, s)?;
         if let Err(limit) = meter.count_visit(problem) {
             return ControlFlow::Break(question.stopped(problem, s, limit));
         }
@@ -151,7 +151,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             Item::Siblings(siblings) => {
                 if let Some((clock, alone)) = look.part(problem, siblings, s) {
                     let rest = siblings.clock();
-                    let waits = self.wait(rest, (clock, Item::Siblings(alone)));
+                    let waits = self.requeue(rest, (clock, Item::Siblings(alone)));
                     return unless_full(waits, problem, question, s);
                 }
                 // The remaining siblings wait for their own clocks.
@@ -172,14 +172,14 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
                 (clock, Item::Pieces(pair))
             }
         };
-        let waits = self.wait(rest, new);
+        let waits = self.requeue(rest, new);
         unless_full(waits, problem, question, s)
     }
 
     /// Puts the remaining siblings of the last pair, and its new item, back among the waiting items if their clocks are
     /// before the end.
     #[inline(always)]
-    fn wait(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
+    fn requeue(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {

@@ -21,7 +21,7 @@ impl Gap {
             return 0.0;
         }
         if second_derivative < 0.0 {
-            return self.free_time_of_parting();
+            return self.free_time_decelerating();
         }
         let root = (rate * rate + 2.0 * second_derivative * gap).sqrt();
         // If the squares underflow, the root is still at least the rate; NaN stays NaN.
@@ -43,7 +43,7 @@ impl Gap {
 
     /// Returns the free time for a negative `second_derivative`: the gap closes ever slower, and may never close.
     #[cold]
-    fn free_time_of_parting(&self) -> f64 {
+    fn free_time_decelerating(&self) -> f64 {
         let (gap, rate, second_derivative) = (self.gap, self.rate, self.second_derivative);
         let (square, lost) = (rate * rate, -2.0 * second_derivative * gap);
         // A sum that is lost to rounding or to underflow counts as zero.

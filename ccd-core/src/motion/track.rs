@@ -71,9 +71,9 @@ pub(crate) struct AxisMotion {
     linear_rate: f64,
     linear_acceleration: f64,
     /// The component of `n` perpendicular to the axis of rotation.
-    across: DVec3,
+    perpendicular_part: DVec3,
     /// The cross product `n × u`, with the direction `u` of the axis of rotation.
-    beside: DVec3,
+    cross_product: DVec3,
     omega: f64,
 }
 
@@ -84,8 +84,8 @@ impl AxisMotion {
         AxisMotion {
             linear_rate: linear.dot(n),
             linear_acceleration: 0.0,
-            across: n - n.dot(unit) * unit,
-            beside: n.cross(unit),
+            perpendicular_part: n - n.dot(unit) * unit,
+            cross_product: n.cross(unit),
             omega,
         }
     }
@@ -120,7 +120,7 @@ impl AxisMotion {
     /// the axis of rotation.
     #[inline]
     pub(crate) fn second_derivative(&self, distance: f64) -> f64 {
-        self.omega * self.omega * length(self.across) * distance
+        self.omega * self.omega * length(self.perpendicular_part) * distance
     }
 
     #[inline]
@@ -129,8 +129,8 @@ impl AxisMotion {
             height,
             linear_rate: self.linear_rate,
             linear_acceleration: self.linear_acceleration,
-            p: self.across.dot(arm),
-            q: self.beside.dot(arm),
+            p: self.perpendicular_part.dot(arm),
+            q: self.cross_product.dot(arm),
             omega: self.omega,
         }
     }
@@ -168,9 +168,9 @@ impl Angle {
 pub(crate) struct RotatingVector {
     start: DVec3,
     /// The component of the vector perpendicular to the axis.
-    across: DVec3,
+    perpendicular_part: DVec3,
     /// The cross product `u × v` of the axis and the vector.
-    beside: DVec3,
+    cross_product: DVec3,
 }
 
 impl RotatingVector {
@@ -179,26 +179,26 @@ impl RotatingVector {
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
         RotatingVector {
             start,
-            across: start - start.dot(unit) * unit,
-            beside: unit.cross(start),
+            perpendicular_part: start - start.dot(unit) * unit,
+            cross_product: unit.cross(start),
         }
     }
 
     #[inline]
     pub(crate) fn at(&self, angle: Angle) -> DVec3 {
-        self.start + self.across * angle.cos_minus_one + self.beside * angle.sin
+        self.start + self.perpendicular_part * angle.cos_minus_one + self.cross_product * angle.sin
     }
 
     /// Returns the derivative of the vector, per radian.
     #[inline]
     pub(crate) fn derivative_at(&self, angle: Angle) -> DVec3 {
-        self.beside * angle.cos - self.across * angle.sin
+        self.cross_product * angle.cos - self.perpendicular_part * angle.sin
     }
 
     /// Returns the length of the derivative, which is constant.
     #[inline]
     pub(crate) fn derivative_length(&self) -> f64 {
-        self.beside.length()
+        self.cross_product.length()
     }
 }
 

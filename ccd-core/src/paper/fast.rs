@@ -111,7 +111,7 @@ impl<O: DistanceOracle> Fast<O> {
         meter: &mut Meter,
     ) -> Outcome {
         let mut proven = Proven::default();
-        self.front.plant(hulls);
+        self.front.reset(hulls);
         let mut s = 0.0;
         while s < 1.0 {
             meter.stats.advancements += 1;

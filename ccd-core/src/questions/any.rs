@@ -8,7 +8,7 @@ use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Step;
 use crate::engine::proven::{Proven, free_by_bounding_volumes};
 use crate::engine::search::{Advance, Question, Search};
-use crate::engine::start::overlapping;
+use crate::engine::start::overlap_outcome;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
@@ -94,7 +94,7 @@ struct Any {
 
 impl Any {
     /// Gives up a pair that cannot be proven further, because another pair may be in contact.
-    fn leave(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
+    fn give_up_pair(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
         if self.stuck.is_none_or(|(first, _)| s < first) {
             self.stuck = Some((s, limit));
         }
@@ -125,9 +125,9 @@ impl<O: DistanceOracle> Question<O> for Any {
                 time: problem.time(s),
                 contact: contact.cap_lower_bound(0.0),
             },
-            Step::Overlap(contact) => overlapping(contact),
-            Step::Stalled => return self.leave(s, Limit::Stalled),
-            Step::GaveUp => return self.leave(s, Limit::OracleGaveUp),
+            Step::Overlap(contact) => overlap_outcome(contact),
+            Step::Stalled => return self.give_up_pair(s, Limit::Stalled),
+            Step::GaveUp => return self.give_up_pair(s, Limit::OracleGaveUp),
         })
     }
 

@@ -257,7 +257,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     return ControlFlow::Break(free);
                 }
                 let mut proven = Proven::default();
-                if search.open(problem).is_err() {
+                if search.push_roots(problem).is_err() {
                     return ControlFlow::Break(Question::<O>::stopped(
                         &mut proven,
                         problem,

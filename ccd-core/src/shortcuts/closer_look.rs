@@ -15,7 +15,7 @@ use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW}
 #[derive(Debug)]
 pub(crate) struct CloserLook {
     /// True if f32 is too coarse for the gap to keep between the largest nodes.
-    fine: bool,
+    is_f32_coarse: bool,
     /// The number of splits in the search so far.
     splits: u64,
     screw: Option<Screw>,
@@ -26,7 +26,7 @@ impl CloserLook {
         let radius = |side: &Side<'_>| f64::from(side.body.tree().radius());
         let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
         CloserLook {
-            fine: problem.takes(Shortcut::FlatNodes)
+            is_f32_coarse: problem.takes(Shortcut::FlatNodes)
                 && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
             splits: 0,
             screw: None,
@@ -42,7 +42,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        if self.fine && siblings.removed_count() < MAX_NEWTON_STEPS {
+        if self.is_f32_coarse && siblings.removed_count() < MAX_NEWTON_STEPS {
             part_flat(problem, siblings, s)
         } else {
             None

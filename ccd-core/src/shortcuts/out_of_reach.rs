@@ -22,7 +22,8 @@ pub(crate) fn out_of_reach(problem: &Problem<'_>) -> bool {
 /// Returns a lower bound of the distance of the bodies at all times, by bounding balls; negative if the balls meet.
 pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
-    let distance = least_length(b.centre - a.centre, b.velocity - a.velocity) - bow(problem);
+    let distance =
+        least_length(b.centre - a.centre, b.velocity - a.velocity) - deviation_from_line(problem);
     // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
     // the rounding of this distance, too.
     distance - a.radius - b.radius - 2.0 * problem.rounding
@@ -30,7 +31,7 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
 
 /// Returns how far the vector between the balls' centres may be off a linear function of time, because of
 /// accelerations.
-fn bow(problem: &Problem<'_>) -> f64 {
+fn deviation_from_line(problem: &Problem<'_>) -> f64 {
     0.125 * length(problem.b.path.acceleration - problem.a.path.acceleration) * (1.0 + RATE_F64)
 }
 

@@ -13,7 +13,7 @@ use crate::engine::meter::Meter;
 use crate::engine::proven::free_by_bounding_volumes;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
-use crate::motion::period::{Period, Reaching};
+use crate::motion::period::{PathWithReach, Period};
 use crate::problem::{Problem, Side};
 use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
 use crate::settings::StartPolicy;
@@ -69,7 +69,7 @@ impl<'a> Rounds<'a> {
     /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
     #[inline]
     pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
-        if turns_often(problem) && free_by_bounding_volumes(problem).is_none() {
+        if turns_many_times(problem) && free_by_bounding_volumes(problem).is_none() {
             Rounds::of_many_turns(problem)
         } else {
             None
@@ -87,7 +87,7 @@ impl<'a> Rounds<'a> {
         }
         let tolerance = problem.tolerance;
         let bodies = [&problem.a, &problem.b].map(reaching);
-        let [a, b] = bodies.map(|Reaching { path, reach }| {
+        let [a, b] = bodies.map(|PathWithReach { path, reach }| {
             let way = length(path.centre_at(0.0)) + path.speed();
             place_rounding(reach, path.rate, way)
         });
@@ -99,8 +99,8 @@ impl<'a> Rounds<'a> {
         }
         let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
         let size = lesser(a, b);
-        let period =
-            cheapest(bodies, known).or_else(|| cheapest(bodies, MAX_SCREW_DRIFT * size))?;
+        let period = period_with_least_work(bodies, known)
+            .or_else(|| period_with_least_work(bodies, MAX_SCREW_DRIFT * size))?;
         let mut rounds = Rounds {
             whole: problem.clone(),
             period,
@@ -110,7 +110,7 @@ impl<'a> Rounds<'a> {
             patience: 1.0,
             gap: f64::INFINITY,
         };
-        rounds.plan(f64::INFINITY);
+        rounds.start_round(f64::INFINITY);
         Some(rounds)
     }
 
@@ -122,12 +122,12 @@ impl<'a> Rounds<'a> {
         let room = (tolerance - 2.0 * self.change()) - 4.0 * self.rounding;
         let left = greater(room, PERIOD_CHANGE_SHARE * tolerance);
         let to = match self.round {
-            Round::Repeated(_) => lesser(1.0, self.from + self.period.covering()),
+            Round::Repeated(_) => lesser(1.0, self.from + self.period.length_rounded_up()),
             Round::Each(_) => self.end(),
         };
         self.whole.part(
             [self.from, to],
-            self.raised() + 0.5 * (tolerance - left),
+            self.raised_margin() + 0.5 * (tolerance - left),
             left,
         )
     }
@@ -141,9 +141,11 @@ impl<'a> Rounds<'a> {
         let unresolved =
             |rounds: &Self, reason| Outcome::unresolved(rounds.whole.time(rounds.from), reason);
         match *outcome {
-            Outcome::Free { proven_gap } => self.prove(proven_gap)?,
-            Outcome::Contact { time, contact } => self.meet(time, contact)?,
-            Outcome::Touching { contact } => self.meet(self.whole.time(self.from), contact)?,
+            Outcome::Free { proven_gap } => self.record_gap(proven_gap)?,
+            Outcome::Contact { time, contact } => self.process_contact(time, contact)?,
+            Outcome::Touching { contact } => {
+                self.process_contact(self.whole.time(self.from), contact)?
+            }
             Outcome::Unresolved(_) => return ControlFlow::Break(*outcome),
             Outcome::Interval { .. } | Outcome::Measured { .. } => {
                 unreachable!("no outcome of a search for contacts")
@@ -162,8 +164,8 @@ impl<'a> Rounds<'a> {
     }
 
     /// Records that the bodies keep a gap in a round, and continues with the next.
-    fn prove(&mut self, gap: f64) -> ControlFlow<Outcome> {
-        self.gap = lesser(self.gap, (gap - self.raised()).next_down());
+    fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
+        self.gap = lesser(self.gap, (gap - self.raised_margin()).next_down());
         self.from = self.end();
         if self.from >= 1.0 {
             let proven_gap = greater(self.gap, self.whole.margin);
@@ -172,27 +174,27 @@ impl<'a> Rounds<'a> {
         match self.round {
             Round::Repeated(count) => {
                 self.patience = 1.0;
-                self.plan(2.0 * count);
+                self.start_round(2.0 * count);
             }
             Round::Each(count) => {
                 self.patience = 2.0 * count;
-                self.plan(2.0);
+                self.start_round(2.0);
             }
         }
         ControlFlow::Continue(())
     }
 
     /// Processes a contact in a round: the bodies are in contact, or the round was too long and is shortened.
-    fn meet(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
+    fn process_contact(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
         let within = self.whole.contact_distance();
-        let contact = loosened(contact, self.rounding);
+        let contact = widened(contact, self.rounding);
         let Separation { upper, .. } = contact.separation;
         match self.round {
             Round::Repeated(count) if !(upper <= within) => {
                 // More periods than this would give the same contact.
                 let fewer = (upper - within) / self.period.change;
                 match lesser(0.5 * count, fewer).floor() {
-                    fewer if fewer >= 2.0 => self.plan(fewer),
+                    fewer if fewer >= 2.0 => self.start_round(fewer),
                     _ => self.round = Round::Each(self.patience),
                 }
                 ControlFlow::Continue(())
@@ -206,7 +208,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Starts a round of `count` periods, or of all that are left.
-    fn plan(&mut self, count: f64) {
+    fn start_round(&mut self, count: f64) {
         let left = ((1.0 - self.from) / self.period.length).ceil();
         self.round = match lesser(count, left) {
             count if count >= 2.0 => Round::Repeated(count),
@@ -235,13 +237,13 @@ impl<'a> Rounds<'a> {
     }
 
     /// Returns the distance beyond the margin that the searched part has to keep.
-    fn raised(&self) -> f64 {
+    fn raised_margin(&self) -> f64 {
         self.change() + self.rounding
     }
 }
 
 #[inline]
-fn turns_often(problem: &Problem<'_>) -> bool {
+fn turns_many_times(problem: &Problem<'_>) -> bool {
     let turns = |side: &Side<'_>| side.path.rate >= 2.0 * TAU;
     turns(&problem.a) || turns(&problem.b)
 }
@@ -261,7 +263,7 @@ impl<'a> Sample<'a> {
     /// Returns the first period if all others are equal to it, up to a part of the tolerance; `None` otherwise.
     #[inline]
     pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
-        if turns_often(problem) {
+        if turns_many_times(problem) {
             Sample::of_many_turns(problem)
         } else {
             None
@@ -288,12 +290,12 @@ impl<'a> Sample<'a> {
 
     /// Widens the bounds of a contact in the period so that they hold for the whole problem.
     pub(crate) fn contact(&self, contact: Contact) -> Contact {
-        loosened(contact, self.rounding)
+        widened(contact, self.rounding)
     }
 }
 
 /// Widens the bounds of a contact by an error.
-fn loosened(contact: Contact, rounding: f64) -> Contact {
+fn widened(contact: Contact, rounding: f64) -> Contact {
     let Separation { lower, upper, .. } = contact.separation;
     Contact {
         separation: Separation {
@@ -305,9 +307,9 @@ fn loosened(contact: Contact, rounding: f64) -> Contact {
     }
 }
 
-fn reaching<'p>(side: &'p Side<'_>) -> Reaching<'p> {
+fn reaching<'p>(side: &'p Side<'_>) -> PathWithReach<'p> {
     let (centre, radius) = side.body.tree().ball();
-    Reaching {
+    PathWithReach {
         path: &side.path,
         reach: centre.distance(side.path.centre) * (1.0 + f64::EPSILON) + radius,
     }
@@ -315,7 +317,7 @@ fn reaching<'p>(side: &'p Side<'_>) -> Reaching<'p> {
 
 /// Returns the period that leaves the least time to search, if rounds end once distances have changed by `change`;
 /// `None` if no period saves time.
-fn cheapest(bodies: [Reaching<'_>; 2], change: f64) -> Option<Period> {
+fn period_with_least_work(bodies: [PathWithReach<'_>; 2], change: f64) -> Option<Period> {
     let searched = |period: &Period| {
         let rounds = greater(1.0, period.change / (period.length * change));
         lesser(1.0, period.length * rounds)

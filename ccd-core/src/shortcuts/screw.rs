@@ -13,7 +13,7 @@ mod outline;
 mod profile;
 
 use super::placed::Placed;
-use super::screw::profile::{Profile, ScrewAxis, Way, keep_apart};
+use super::screw::profile::{Profile, ScrewAxis, ScrewPath, keep_apart};
 use crate::body::tree::{Below, Members, NodeId, NodeOrTriangle};
 use crate::engine::capacity::empty;
 use crate::math::order::lesser;
@@ -30,21 +30,21 @@ pub(crate) struct Screw {
     turning: Which,
     axis: ScrewAxis,
     /// The whole path along the screw, and the distance to keep on it. The distance includes the drift of the axis.
-    way: Way,
+    path: ScrewPath,
 }
 
 /// The profiles of both bodies' nodes and triangles, each computed when first needed.
 #[derive(Debug, Default)]
-pub(crate) struct Profiles([OfBody; 2]);
+pub(crate) struct Profiles([BodyProfiles; 2]);
 
 #[derive(Debug, Default)]
-struct OfBody {
+struct BodyProfiles {
     /// The index of each node's profile, by node id.
-    places: Vec<u32>,
+    profile_indices: Vec<u32>,
     known: Vec<Profile>,
 }
 
-/// The value of `places` for a profile that is not computed yet.
+/// The value of `profile_indices` for a profile that is not computed yet.
 const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
@@ -80,15 +80,15 @@ impl Screw {
         }
         // Rounding counts once for the positions, and once for the axis.
         let kept = problem.node_gap() + 2.0 * problem.rounding + CLOSED_GAP * problem.tolerance;
-        profiles.0[0].forget(&problem.a);
-        profiles.0[1].forget(&problem.b);
+        profiles.0[0].clear(&problem.a);
+        profiles.0[1].clear(&problem.b);
         Some(Screw {
             turning,
             axis: ScrewAxis::new(side.path.centre_at(0.0), unit, along / side.path.rate),
-            way: Way {
+            path: ScrewPath {
                 pitch: TAU * (along / side.path.rate),
                 angles: [0.0, side.path.rate],
-                needed: kept + drift * (1.0 + RATE_F64),
+                needed_gap: kept + drift * (1.0 + RATE_F64),
             },
         })
     }
@@ -133,26 +133,26 @@ impl Screw {
             Which::A => (a, b),
             Which::B => (b, a),
         };
-        let [_, end] = self.way.angles;
-        let way = Way {
+        let [_, end] = self.path.angles;
+        let way = ScrewPath {
             angles: [s * end, end],
-            ..self.way
+            ..self.path
         };
         Some(keep_apart(turning, still, &self.axis, &way))
     }
 }
 
-impl OfBody {
-    fn forget(&mut self, side: &Side<'_>) {
+impl BodyProfiles {
+    fn clear(&mut self, side: &Side<'_>) {
         let count = side.body.tree().nodes() + side.body.pieces().len();
         empty(&mut self.known);
-        empty(&mut self.places);
-        self.places.resize(count, UNKNOWN);
+        empty(&mut self.profile_indices);
+        self.profile_indices.resize(count, UNKNOWN);
     }
 
     /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly does.
     fn of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
-        let place = &mut self.places[id as usize];
+        let place = &mut self.profile_indices[id as usize];
         if *place == UNKNOWN {
             *place = match profile(side, id, axis) {
                 Some(profile) if self.known.len() < NONE as usize => {
@@ -171,7 +171,7 @@ impl OfBody {
 fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| Placed::new(side, id, 0.0);
     match triangles(side, id) {
-        Some(few) => Profile::about(few.map(place), axis),
+        Some(few) => Profile::union_of(few.map(place), axis),
         None => Profile::new(&place(id), axis),
     }
 }

@@ -21,35 +21,35 @@ use glam::DVec3;
 use std::cell::Cell;
 
 /// A piece with the pose and the motion of its body at a clock.
-pub(crate) struct Member<'p> {
+pub(crate) struct MovingPiece<'p> {
     pub(crate) side: &'p Side<'p>,
     pub(crate) frame: &'p Frame,
     pub(crate) piece: Piece<'p>,
     pub(crate) clock: f64,
     /// An upper bound of the rate at which any point moves relative to the first one, along any fixed axis.
-    pub(crate) swing: f64,
+    pub(crate) relative_speed: f64,
 }
 
-impl<'p> Member<'p> {
+impl<'p> MovingPiece<'p> {
     pub(crate) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
-        let swing = if side.path.turns() {
+        let relative_speed = if side.path.turns() {
             side.path.rate * piece.max_distance_from(piece.points[0])
         } else {
             0.0
         };
-        Member {
+        MovingPiece {
             side,
             frame,
             piece,
             clock,
-            swing,
+            relative_speed,
         }
     }
 
-    /// Returns the upper bound `swing` for one axis.
-    pub(crate) fn swing_about(&self, normal: DVec3) -> f64 {
+    /// Returns the upper bound `relative_speed` for one axis.
+    pub(crate) fn relative_speed_along(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
-        self.swing * path.spin.cross(normal).length() / path.rate
+        self.relative_speed * path.spin.cross(normal).length() / path.rate
     }
 }
 
@@ -66,7 +66,7 @@ pub(crate) struct SweepingPiece<'p> {
     /// The derivative `V'` of `V`, which is constant.
     acceleration: DVec3,
     /// The direction of the angular velocity `ω_s` of the piece's own body.
-    own_unit: DVec3,
+    own_axis: DVec3,
     own_omega: f64,
     /// The relative angular velocity `Δ`.
     relative: DVec3,
@@ -78,7 +78,7 @@ pub(crate) struct SweepingPiece<'p> {
     /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
     reach: f64,
     /// A bound of the displacement of points by rounding, for both bodies together.
-    misplaced: f64,
+    rounding_displacement: f64,
     /// The number of evaluations of the plane against a point.
     pub(crate) looks: Cell<u64>,
 }
@@ -96,8 +96,8 @@ impl<'p> SweepingPiece<'p> {
     /// Creates the view of a piece that moves past a plane which turns with the body of `holder`. The `normal` points
     /// from that body to the piece, and `rounding` is the problem's.
     pub(crate) fn new(
-        holder: &Member<'_>,
-        other: &Member<'p>,
+        holder: &MovingPiece<'_>,
+        other: &MovingPiece<'p>,
         normal: DVec3,
         rounding: f64,
     ) -> Self {
@@ -121,7 +121,7 @@ impl<'p> SweepingPiece<'p> {
             velocity,
             speed,
             acceleration,
-            own_unit: own.axis,
+            own_axis: own.axis,
             own_omega: own.rate,
             relative: path.spin - own.spin,
             piece: other.piece,
@@ -129,7 +129,7 @@ impl<'p> SweepingPiece<'p> {
             reference,
             radius,
             reach: offset.length() + speed + radius,
-            misplaced: rounding,
+            rounding_displacement: rounding,
             looks: Cell::new(0),
         }
     }
@@ -138,7 +138,7 @@ impl<'p> SweepingPiece<'p> {
     /// `slack` is the present excess over that gap.
     pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.allowances();
-        let apart = slack - height - self.least();
+        let apart = slack - height - self.least_start_height();
         first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
             self.looks.set(self.looks.get() + self.piece.looks());
             let turned = self.turned(tau);
@@ -152,7 +152,10 @@ impl<'p> SweepingPiece<'p> {
                 gap.free_time()
             };
             let least = match self.piece.ball() {
-                Some(_) => free(self.lowest(turned.axis), self.lowest(turned.closing)),
+                Some(_) => free(
+                    self.least_height_along(turned.axis),
+                    self.least_height_along(turned.closing),
+                ),
                 None => self
                     .arms()
                     .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
@@ -169,19 +172,19 @@ impl<'p> SweepingPiece<'p> {
         let rounding = attached_rounding(turns);
         let fastest = self.omega * self.reach + self.speed + self.own_omega * self.radius;
         (
-            2.0 * self.misplaced + rounding * self.reach,
-            turns * self.misplaced + rounding * fastest,
+            2.0 * self.rounding_displacement + rounding * self.reach,
+            turns * self.rounding_displacement + rounding * fastest,
         )
     }
 
     /// Returns the least height of the points at the start.
-    fn least(&self) -> f64 {
+    fn least_start_height(&self) -> f64 {
         let Turned { height, axis, .. } = self.turned(0.0);
-        height + self.lowest(axis)
+        height + self.least_height_along(axis)
     }
 
     /// Returns the least height along a direction over the vectors to the points.
-    fn lowest(&self, direction: DVec3) -> f64 {
+    fn least_height_along(&self, direction: DVec3) -> f64 {
         if self.piece.ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
             return direction.dot(lowest - self.reference);
@@ -204,7 +207,7 @@ impl<'p> SweepingPiece<'p> {
         let turning = self.normal.derivative_at(angle) * self.omega;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
-            let turned = RotatingVector::new(-self.own_unit, v).at(own);
+            let turned = RotatingVector::new(-self.own_axis, v).at(own);
             self.frame.inverse_vector(turned)
         };
         Turned {

@@ -89,7 +89,7 @@ fn room_of(scene: &Scene, k: usize) -> f64 {
         given: None,
         path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
     };
-    room(&side, &scene.config.terms())
+    half_contact_distance(&side, &scene.config.terms())
 }
 
 /// Tests that bodies do not touch if their boxes are apart, also if the boxes are hardly apart.

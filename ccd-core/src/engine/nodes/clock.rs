@@ -25,7 +25,7 @@ pub(crate) fn free_time<L: Simd>(
 /// Like `free_time`, for a second derivative `second_derivative` that may be negative: a gap that closes ever slower may never
 /// close.
 #[inline(always)]
-pub(crate) fn parting_free_time<L: Simd>(
+pub(crate) fn free_time_decelerating<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
     rate: f32x8<L>,
@@ -50,7 +50,7 @@ pub(crate) fn parting_free_time<L: Simd>(
 
 /// Like `free_time`, with a second derivative of 0.
 #[inline(always)]
-pub(crate) fn straight_free_time<L: Simd>(
+pub(crate) fn free_time_at_constant_rate<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
     rate: f32x8<L>,

@@ -108,7 +108,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         if let Some(acceleration) = motion.acceleration {
             let along = axis.n.dot(Vec3x8::splat(axis.n.level(), acceleration));
             let rounding = splat(axis.n.level(), RATE_F32 * acceleration.length());
-            clock::parting_free_time(
+            clock::free_time_decelerating(
                 apart,
                 motion.closed,
                 rate,
@@ -117,7 +117,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         } else if motion.split.turns || motion.other.turns {
             clock::free_time(apart, motion.closed, rate, second_derivative)
         } else {
-            clock::straight_free_time(apart, motion.closed, rate)
+            clock::free_time_at_constant_rate(apart, motion.closed, rate)
         }
     }
 }

@@ -8,7 +8,7 @@ use super::turn::Turn;
 use crate::body::tree::{Below, LANES, Members, Node, NodeId, NodeOrTriangle, unit_normal, up};
 use crate::math::order::greater;
 use crate::math::packed::{Packed, PackedMatrix, as_vec3};
-use crate::motion::relative::{Seen, View};
+use crate::motion::relative::{RelativeState, View};
 use crate::problem::{Side, Which};
 use crate::rounding::{REACH_F32, WAY_F32};
 use crate::vectorize;
@@ -119,7 +119,7 @@ struct RelativeMotion<'p, L: Simd> {
     split_side: &'p Side<'p>,
     other_side: &'p Side<'p>,
     /// The other body's present pose and motion in the split body's frame.
-    seen: Seen<L>,
+    seen: RelativeState<L>,
     view: &'p View,
     /// The time left to the end of the duration.
     horizon: f32,
@@ -153,7 +153,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
     /// Bounds the children in a group against the other body's node.
     #[inline(always)]
     fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
-        let Seen {
+        let RelativeState {
             rotation, offset, ..
         } = self.seen;
         let centre = self.view.centre(self.level) - Packed::new(self.level, members.origin);

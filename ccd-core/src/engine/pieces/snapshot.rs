@@ -14,7 +14,7 @@ use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{RATE_F64, RESTING};
 use crate::shortcuts::Shortcut;
-use crate::shortcuts::sweeping_piece::{Member, SweepingPiece};
+use crate::shortcuts::sweeping_piece::{MovingPiece, SweepingPiece};
 use crate::tuning::{
     ASSUMED_STEPS, FIRST_VISIT_FREE_TIME, MAX_NEWTON_STEPS, RESTED, ROTATION_GAP_SHARE,
 };
@@ -270,7 +270,7 @@ impl<'p> Snapshot<'p> {
     /// worth trying: the rotation of that body does not use up the slack within `free`.
     pub(crate) fn turning_plane_time(
         &self,
-        members: &[Member<'_>; 2],
+        members: &[MovingPiece<'_>; 2],
         plane: &Plane,
         free: f64,
     ) -> Option<f64> {
@@ -278,10 +278,11 @@ impl<'p> Snapshot<'p> {
             return Some(0.0);
         }
         let [a, b] = members;
-        let uses_up = |swing: f64| swing * free > ROTATION_GAP_SHARE * plane.slack;
+        let uses_up =
+            |relative_speed: f64| relative_speed * free > ROTATION_GAP_SHARE * plane.slack;
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
-            if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
+            if uses_up(holder.relative_speed) && uses_up(holder.relative_speed_along(normal)) {
                 let sweep = SweepingPiece::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.slack, self.horizon());
                 self.count_evaluations(sweep.looks.get());
@@ -292,12 +293,12 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Returns the pieces of A and of B with their motions.
-    pub(crate) fn moving_pieces(&self) -> [Member<'_>; 2] {
+    pub(crate) fn moving_pieces(&self) -> [MovingPiece<'_>; 2] {
         let Problem { a, b, .. } = self.problem;
         let [frame_a, frame_b] = &self.frames;
         [
-            Member::new(a, frame_a, self.pieces.a, self.clock),
-            Member::new(b, frame_b, self.pieces.b, self.clock),
+            MovingPiece::new(a, frame_a, self.pieces.a, self.clock),
+            MovingPiece::new(b, frame_b, self.pieces.b, self.clock),
         ]
     }
 

@@ -36,11 +36,11 @@ struct Found {
     /// The nearest pair of pieces in contact.
     contact: Option<Contact>,
     /// The pairs that may have to be split, as a heap with the nearest first.
-    open: BinaryHeap<Open>,
+    open: BinaryHeap<OpenPair>,
 }
 
 /// A pair of the front with its distance.
-struct Open {
+struct OpenPair {
     lower: f64,
     at: u32,
 }
@@ -63,18 +63,18 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             if self.front.node(at).stays_apart() {
                 continue;
             }
-            self.look(oracle, &snapshot, at, &mut found)?;
+            self.measure(oracle, &snapshot, at, &mut found)?;
         }
-        while let Some(Open { lower, at }) = found.open.pop() {
+        while let Some(OpenPair { lower, at }) = found.open.pop() {
             // Written so that a pair with NaN is split.
             if lower >= found.distance {
                 break;
             }
-            let Some(first) = self.front.drop_below(self.hulls, at) else {
+            let Some(first) = self.front.split(self.hulls, at) else {
                 continue;
             };
-            self.look(oracle, &snapshot, first, &mut found)?;
-            self.look(oracle, &snapshot, first + 1, &mut found)?;
+            self.measure(oracle, &snapshot, first, &mut found)?;
+            self.measure(oracle, &snapshot, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
             return ControlFlow::Break(self.proven.contact(self.problem, contact, s));
@@ -85,7 +85,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     }
 
     /// Computes the distance of a pair in the front.
-    fn look<O>(
+    fn measure<O>(
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
@@ -103,14 +103,14 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {
-                self.look_at_nodes(oracle, snapshot, at, found);
+                self.measure_nodes(oracle, snapshot, at, found);
                 ControlFlow::Continue(())
             }
-            Item::Pieces(_) => self.look_at_pieces(oracle, snapshot, at, found),
+            Item::Pieces(_) => self.measure_pieces(oracle, snapshot, at, found),
         }
     }
 
-    fn look_at_nodes<O>(
+    fn measure_nodes<O>(
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
@@ -130,12 +130,12 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         // here.
         if depth.is_some_and(|depth| depth > SPLIT_OVERLAP) {
             self.meter.stats.point_looks += snapshot.pieces.points();
-            found.open.push(node.unmeasured(at, s));
+            found.open.push(node.open_unmeasured(at, s));
             return;
         }
         let Some(checked) = snapshot.ask(oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
-            found.open.push(node.unmeasured(at, s));
+            found.open.push(node.open_unmeasured(at, s));
             return;
         };
         let reaches = self.reaches.each(problem, node.pair, &snapshot);
@@ -156,11 +156,11 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let done = apart && (settled || node.stays_apart());
         if !(done || checked.lower >= found.distance) {
             let lower = checked.lower;
-            found.open.push(Open { lower, at });
+            found.open.push(OpenPair { lower, at });
         }
     }
 
-    fn look_at_pieces<O>(
+    fn measure_pieces<O>(
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
@@ -211,17 +211,17 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return ControlFlow::Continue(());
         }
         let distance = found.distance;
-        for (at, first) in self.front.above_leaves() {
+        for (at, first) in self.front.parents_of_leaves() {
             let far = [first, first + 1]
                 .into_iter()
                 .all(|child| self.front.node(child).lower >= JOIN_DISTANCE_RATIO * distance);
             if !far || self.front.node(at).join_below <= distance {
                 continue;
             }
-            self.look(oracle, snapshot, at, found)?;
+            self.measure(oracle, snapshot, at, found)?;
             let node = self.front.node(at);
             if node.lower >= distance && node.clock >= next {
-                self.front.raise(at);
+                self.front.join_children(at);
             } else {
                 node.join_below = distance / JOIN_DISTANCE_RATIO;
             }
@@ -232,10 +232,10 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
 
 impl<C> Node<C> {
     /// Marks a pair to be split, whatever its distance.
-    fn unmeasured(&mut self, at: u32, s: f64) -> Open {
+    fn open_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
         (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
         let lower = self.lower;
-        Open { lower, at }
+        OpenPair { lower, at }
     }
 }
 
@@ -251,23 +251,23 @@ impl Found {
 }
 
 /// The order of the heap: the nearest pair is the greatest; among equals, the one that came first.
-impl Ord for Open {
+impl Ord for OpenPair {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.lower.total_cmp(&self.lower);
         nearer.then(other.at.cmp(&self.at))
     }
 }
 
-impl PartialOrd for Open {
+impl PartialOrd for OpenPair {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Open {
+impl PartialEq for OpenPair {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Open {}
+impl Eq for OpenPair {}

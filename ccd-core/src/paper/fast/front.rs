@@ -57,7 +57,7 @@ impl<C> Default for Front<C> {
 
 impl<C: Clone + Default> Front<C> {
     /// Resets the tree to the pair of roots.
-    pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
+    pub(super) fn reset(&mut self, hulls: HullPair<'_>) {
         empty(&mut self.nodes);
         empty(&mut self.vacant);
         self.nodes.push(Node::new(hulls, [0, 0], C::default()));
@@ -96,7 +96,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Returns the pairs whose children are both leaves and do not stay apart to the end, each with its first child.
-    pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
+    pub(super) fn parents_of_leaves(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
         self.walk(|at, node| {
             if let Some(first) = node.children
@@ -112,7 +112,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Splits a leaf into two pairs that cover it, and returns the first of them; `None` for a pair of pieces.
-    pub(super) fn drop_below(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
+    pub(super) fn split(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
         let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
             return None;
@@ -143,7 +143,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Removes the two leaves below a pair, so that the pair becomes a leaf.
-    pub(super) fn raise(&mut self, at: u32) {
+    pub(super) fn join_children(&mut self, at: u32) {
         if let Some(first) = self.nodes[at as usize].children.take() {
             self.vacant.push(first);
             self.leaves -= 1;

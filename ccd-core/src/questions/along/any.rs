@@ -1,6 +1,6 @@
 //! Decides whether two bodies on trajectories touch at all.
 
-use super::contacts::{Seen, SoFar};
+use super::contacts::{ProvenContacts, StretchResult};
 use super::drive::{Question, drive};
 use super::lengths::{cut_at_once, length};
 use super::motions::{Motions, Span};
@@ -24,7 +24,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let mut any = Any {
             schedule: self,
-            kept: SoFar::new(query),
+            proven: ProvenContacts::new(query),
             undecided: f64::INFINITY,
         };
         drive(&mut any, query, oracle)
@@ -33,7 +33,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
 struct Any<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
-    kept: SoFar,
+    proven: ProvenContacts,
     /// The first time at which it is undecided whether one body is inside the other.
     undecided: f64,
 }
@@ -41,7 +41,7 @@ struct Any<'s, O: DistanceOracle> {
 impl<O: DistanceOracle> Any<'_, O> {
     fn unresolved(&self, stretches: &Stretches<'_, '_>, until: f64, limit: Limit) -> Answer {
         let until = lesser(lesser(until, self.undecided), stretches.first());
-        self.kept.unresolved(stretches, until, limit)
+        self.proven.unresolved(stretches, until, limit)
     }
 }
 
@@ -63,15 +63,17 @@ impl<O: DistanceOracle> Question<O> for Any<'_, O> {
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
         let answer = self.schedule.any_contact_of(problem, oracle);
-        let seen = match self.kept.see(stretches, motions, &answer)? {
-            Seen::Done => return Ok(ControlFlow::Continue(())),
-            Seen::Stopped(until, limit) => {
+        let seen = match self.proven.record(stretches, motions, &answer)? {
+            StretchResult::Done => return Ok(ControlFlow::Continue(())),
+            StretchResult::Stopped(until, limit) => {
                 return Ok(ControlFlow::Break(self.unresolved(stretches, until, limit)));
             }
-            Seen::Near(s, contact) => (s, contact),
+            StretchResult::Near(s, contact) => (s, contact),
         };
-        if stretches.is_fine(motions)? {
-            let found = self.kept.found(stretches, motions, answer.outcome)?;
+        if stretches.accepts_contact(motions)? {
+            let found = self
+                .proven
+                .contact_answer(stretches, motions, answer.outcome)?;
             // One body is inside the other: they have met before, or overlap at the start.
             if let Outcome::Unresolved(known) = found.outcome {
                 self.undecided = lesser(self.undecided, known.safe_until);
@@ -95,9 +97,9 @@ impl<O: DistanceOracle> Question<O> for Any<'_, O> {
     fn done(&mut self, stretches: &mut Stretches<'_, '_>, _: &mut O) -> Result<Answer, InputError> {
         Ok(if self.undecided.is_finite() {
             let limit = Limit::Undecided;
-            self.kept.unresolved(stretches, self.undecided, limit)
+            self.proven.unresolved(stretches, self.undecided, limit)
         } else {
-            self.kept.free(stretches)
+            self.proven.free(stretches)
         })
     }
 }

@@ -90,33 +90,33 @@ struct Search<'s, 'j, 'a, O: DistanceOracle> {
 }
 
 /// A waiting stretch of time with an upper bound of the distance in it; the order is that of the bounds.
-struct Part {
+struct BoundedStretch {
     span: Span,
     upper: f64,
 }
 
-impl Ord for Part {
+impl Ord for BoundedStretch {
     fn cmp(&self, other: &Self) -> Ordering {
         self.upper.total_cmp(&other.upper)
     }
 }
 
-impl PartialOrd for Part {
+impl PartialOrd for BoundedStretch {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Part {
+impl PartialEq for BoundedStretch {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Part {}
+impl Eq for BoundedStretch {}
 
 /// The nearest points of both bodies at a time, with bounds of their distance.
-struct Seen {
+struct MeasuredPoints {
     points: [DVec3; 2],
     lower: f64,
     upper: f64,
@@ -124,14 +124,14 @@ struct Seen {
     blur: f64,
 }
 
-impl Seen {
+impl MeasuredPoints {
     /// Creates the value from the contact of the bodies in a pose.
     fn of(pose: &Motions, contact: Contact) -> Self {
         let separation = contact.separation;
         let points = [separation.witness_a, separation.witness_b];
-        Seen {
+        MeasuredPoints {
             points,
-            blur: pose.drift(points, 0.0),
+            blur: pose.distance_growth(points, 0.0),
             lower: greater(0.0, separation.lower),
             upper: separation.upper,
         }
@@ -161,7 +161,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             Ok(part) => BinaryHeap::from_iter(part),
             Err(reason) => return Ok(Err((f64::INFINITY, reason))),
         };
-        while let Some(Part { span, upper }) = waiting.pop() {
+        while let Some(BoundedStretch { span, upper }) = waiting.pop() {
             let all = greater(upper, self.settled);
             // Written so that NaN is not the end.
             if upper <= self.lower() + terms.tolerance || upper <= self.settled {
@@ -188,14 +188,18 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
 
     /// Measures the bodies in the middle of a stretch, and bounds their distance in the whole stretch. Returns `None`
     /// if the stretch needs no further cut.
-    fn part(&mut self, span: Span, above: f64) -> Result<Result<Option<Part>, Limit>, InputError> {
-        self.stretches.turn_to(span);
+    fn part(
+        &mut self,
+        span: Span,
+        above: f64,
+    ) -> Result<Result<Option<BoundedStretch>, Limit>, InputError> {
+        self.stretches.charge_to(span);
         let seen = match self.measure(span.middle())? {
             Ok(seen) => seen,
             Err(reason) => return Ok(Err(reason)),
         };
         let motions = Motions::new(self.stretches.query(), span)?;
-        let moved = motions.drift(seen.points, 0.5 * span.length());
+        let moved = motions.distance_growth(seen.points, 0.5 * span.length());
         // Written so that NaN is no bound.
         let upper = match seen.upper + moved {
             upper if upper >= 0.0 => lesser(upper, above),
@@ -206,11 +210,11 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             self.settled = greater(self.settled, upper);
             return Ok(Ok(None));
         }
-        Ok(Ok(Some(Part { span, upper })))
+        Ok(Ok(Some(BoundedStretch { span, upper })))
     }
 
     /// Measures the distance of the bodies at a time.
-    fn measure(&mut self, time: f64) -> Result<Result<Seen, Limit>, InputError> {
+    fn measure(&mut self, time: f64) -> Result<Result<MeasuredPoints, Limit>, InputError> {
         let (pose, terms) = match self.stretches.pose(time)? {
             Ok(pose) => pose,
             Err(reason) => return Ok(Err(reason)),
@@ -223,29 +227,29 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         });
         self.stretches.add(&answer.stats);
         Ok(answer.found.map(|place| match place {
-            Place::Apart(contact) => {
+            Placement::Apart(contact) => {
                 let contact = pose.contact(contact);
                 if contact.separation.lower > self.lower() {
                     self.best = Some((time, contact));
                 }
-                Seen::of(&pose, contact)
+                MeasuredPoints::of(&pose, contact)
             }
-            Place::Meeting(contact) => Seen {
+            Placement::Meeting(contact) => MeasuredPoints {
                 lower: 0.0,
-                ..Seen::of(&pose, pose.contact(contact))
+                ..MeasuredPoints::of(&pose, pose.contact(contact))
             },
-            Place::Inside(point) => Seen {
+            Placement::Inside(point) => MeasuredPoints {
                 points: [point; 2],
                 lower: 0.0,
                 upper: pose.stray,
-                blur: pose.drift([point; 2], 0.0),
+                blur: pose.distance_growth([point; 2], 0.0),
             },
         }))
     }
 }
 
 /// How the bodies are placed at a time: apart, meeting, or one inside the other.
-enum Place {
+enum Placement {
     Apart(Contact),
     /// The surfaces meet, or nearly so, and one of the bodies may be inside the other. One of the bodies may be inside
     /// the other.
@@ -259,18 +263,18 @@ fn measured<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
-) -> Result<Place, Limit> {
+) -> Result<Placement, Limit> {
     match at_start(problem, f64::INFINITY, oracle, meter) {
-        Some(Outcome::Touching { contact }) => Ok(Place::Apart(contact)),
+        Some(Outcome::Touching { contact }) => Ok(Placement::Apart(contact)),
         Some(Outcome::Overlapping { overlap, .. }) => Ok(match overlap {
-            Overlap::Pieces(contact) => Place::Meeting(contact),
-            Overlap::AInsideB(point) | Overlap::BInsideA(point) => Place::Inside(point),
+            Overlap::Pieces(contact) => Placement::Meeting(contact),
+            Overlap::AInsideB(point) | Overlap::BInsideA(point) => Placement::Inside(point),
         }),
         Some(Outcome::Unresolved(known)) if known.limit != Limit::Undecided => Err(known.limit),
         // Any two points bound the distance from above.
         _ => match nearest_at(problem, 0.0, f64::INFINITY, oracle, meter) {
-            ControlFlow::Continue(Some(nearest)) => Ok(Place::Meeting(nearest.contact)),
-            ControlFlow::Break(SearchEnd::Overlap(_, contact)) => Ok(Place::Meeting(contact)),
+            ControlFlow::Continue(Some(nearest)) => Ok(Placement::Meeting(nearest.contact)),
+            ControlFlow::Break(SearchEnd::Overlap(_, contact)) => Ok(Placement::Meeting(contact)),
             ControlFlow::Break(SearchEnd::Limit(reason)) => Err(reason),
             ControlFlow::Continue(None) => Err(Limit::OracleGaveUp),
         },
@@ -280,7 +284,7 @@ fn measured<O: DistanceOracle>(
 impl Motions {
     /// Returns an upper bound of the growth of the distance between a point of A and a point of B, within `time` before
     /// or after the middle of the stretch. The points are given at that middle.
-    fn drift(&self, [on_a, on_b]: [DVec3; 2], time: f64) -> f64 {
+    fn distance_growth(&self, [on_a, on_b]: [DVec3; 2], time: f64) -> f64 {
         let middle = 0.5 * self.span.length();
         let [a, b] = &self.stretches;
         let way = on_b - on_a;

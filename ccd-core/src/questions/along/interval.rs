@@ -108,7 +108,7 @@ impl Trajectory for Reversed<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let (first, last) = (self.time(to), self.time(from));
         let stretch = self.of.stretch(first, last)?;
-        let end = stretch.started(last - first)?;
+        let end = stretch.with_start_at(last - first)?;
         // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
         let off = 2.0 * U64 * self.duration;
         let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));

@@ -20,7 +20,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<bool, InputError> {
-    let Some(time) = stretches.looks_too_long(motions) else {
+    let Some(time) = stretches.end_if_too_long(motions) else {
         return Ok(false);
     };
     let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {

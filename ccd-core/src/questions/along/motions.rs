@@ -58,18 +58,18 @@ impl Motions {
         let stretches = [a?, b?];
         let stray = |k: usize| stretches[k].stray.at(reach(bodies[k], &stretches[k]));
         Ok(Motions {
-            stray: sum(stray(0), stray(1)),
+            stray: rounded_up_sum(stray(0), stray(1)),
             stretches,
             span,
         })
     }
 
     /// Removes the accelerations, and adds the displacements that they cause to the deviations.
-    pub(super) fn straight(mut self) -> Self {
+    pub(super) fn without_accelerations(mut self) -> Self {
         let time = self.span.length();
         for stretch in &mut self.stretches {
             let far = 0.5 * (time * (time * length(stretch.acceleration)));
-            self.stray = sum(self.stray, far * (1.0 + STRETCH_F64));
+            self.stray = rounded_up_sum(self.stray, far * (1.0 + STRETCH_F64));
             stretch.acceleration = DVec3::ZERO;
         }
         self
@@ -87,17 +87,19 @@ impl Motions {
 
     /// Estimates the length of a stretch that has a given deviation. Deviations shrink with a power of the length.
     pub(super) fn length_for(&self, stray: f64) -> f64 {
-        self.span.length() * (stray / self.stray).powf(1.0 / self.order())
+        self.span.length() * (stray / self.stray).powf(1.0 / self.deviation_exponent())
     }
 
     /// Estimates the length of a stretch in which the deviation is a fixed share of the change of a distance at `rate`.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
-        whole * (DEVIATION_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
+        whole
+            * (DEVIATION_SHARE * rate * whole / self.stray)
+                .powf(1.0 / (self.deviation_exponent() - 1.0))
     }
 
     /// Returns the exponent with which deviations grow with time.
-    fn order(&self) -> f64 {
+    fn deviation_exponent(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
         if self.stretches.iter().any(accelerates) {
             3.0
@@ -165,7 +167,7 @@ impl Motions {
     }
 
     /// Converts a distance of the motions to a lower bound of the bodies' distance.
-    pub(super) fn at_least(&self, distance: f64) -> f64 {
+    pub(super) fn lower_bound_for_bodies(&self, distance: f64) -> f64 {
         if self.stray > 0.0 {
             (distance - self.stray).next_down()
         } else {
@@ -188,8 +190,8 @@ impl Motions {
         let Separation { lower, upper, .. } = contact.separation;
         Contact {
             separation: Separation {
-                lower: self.at_least(lower),
-                upper: sum(upper, self.stray),
+                lower: self.lower_bound_for_bodies(lower),
+                upper: rounded_up_sum(upper, self.stray),
                 ..contact.separation
             },
             ..contact
@@ -204,7 +206,7 @@ fn reach(moving: &Moving<'_>, stretch: &Stretch) -> f64 {
 }
 
 /// Returns a sum rounded up; exact if a term is zero.
-fn sum(a: f64, b: f64) -> f64 {
+fn rounded_up_sum(a: f64, b: f64) -> f64 {
     if b > 0.0 && a != 0.0 {
         (a + b).next_up()
     } else {

@@ -25,7 +25,7 @@ pub(super) struct Stretches<'j, 'a> {
     /// The stretch that was proven last, with its deviation.
     proven: Option<(Span, f64)>,
     /// The time at which the query started; `None` if there is no deadline. No clock is read then.
-    begun: Option<Instant>,
+    charged_from: Option<Instant>,
 }
 
 impl<'j, 'a> Stretches<'j, 'a> {
@@ -42,7 +42,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             budgets: Budgets::default(),
             looked_at_start: false,
             proven: None,
-            begun: query.terms.deadline.map(|_| Instant::now()),
+            charged_from: query.terms.deadline.map(|_| Instant::now()),
         }
     }
 
@@ -73,7 +73,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         }
         let spent = self.budgets.spent(self.stats.work());
         let budget = terms.budget.checked_sub(spent);
-        let deadline = match (terms.deadline, self.begun) {
+        let deadline = match (terms.deadline, self.charged_from) {
             (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
                 Some(left) => Some(left),
                 None => return Err(Limit::Deadline),
@@ -95,9 +95,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Adds work on the whole query, which no part's budget pays for.
-    pub(super) fn add_for_no_part(&mut self, stats: &Stats) {
+    pub(super) fn add_uncharged(&mut self, stats: &Stats) {
         self.stats.add(stats);
-        self.budgets.begun += stats.work();
+        self.budgets.charged_from += stats.work();
     }
 
     /// Returns the motions in a stretch, with the settings; or the limit that was reached. The stretch is cut until the
@@ -108,7 +108,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         accelerations: bool,
     ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
         loop {
-            self.turn_to(span);
+            self.charge_to(span);
             let terms = match self.terms() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
@@ -117,7 +117,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             let motions = if accelerations {
                 motions
             } else {
-                motions.straight()
+                motions.without_accelerations()
             };
             if motions.is_in_range(self.query) || !self.cut(span, 0.5 * span.length()) {
                 return Ok(Ok((motions, terms)));
@@ -129,7 +129,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Returns whether a contact of a stretch's motions counts as one of the bodies: the tolerance is met, or cutting
     /// does not improve it.
-    pub(super) fn is_fine(&self, motions: &Motions) -> Result<bool, InputError> {
+    pub(super) fn accepts_contact(&self, motions: &Motions) -> Result<bool, InputError> {
         Ok(
             motions.stray <= DEVIATION_SHARE * self.query.terms.tolerance
                 || self.is_shortest(motions)?,
@@ -160,13 +160,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Records that the bodies are proven apart in a stretch.
-    pub(super) fn prove(&mut self, motions: &Motions) {
+    pub(super) fn record_proven(&mut self, motions: &Motions) {
         self.proven = Some((motions.span, motions.stray));
     }
 
     /// Returns the common time of a stretch and the last proven one, if the stretch's deviations are much larger: then
     /// the stretch is probably too long.
-    pub(super) fn looks_too_long(&mut self, motions: &Motions) -> Option<f64> {
+    pub(super) fn end_if_too_long(&mut self, motions: &Motions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
         let Span { from, to, .. } = motions.span;
         let beside = [(from, proven.to), (to, proven.from)];
@@ -175,8 +175,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Makes the budget of the part that contains a stretch pay for the work that follows.
-    pub(super) fn turn_to(&mut self, span: Span) {
-        self.budgets.turn_to(span.part, self.stats.work());
+    pub(super) fn charge_to(&mut self, span: Span) {
+        self.budgets.charge_to(span.part, self.stats.work());
     }
 
     /// Returns the poses of both bodies at a time, with the settings; or the limit that was reached.
@@ -288,7 +288,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             return None;
         }
         let [before, after] = match corner {
-            Some(_) => [(); 2].map(|()| self.budgets.another(part)),
+            Some(_) => [(); 2].map(|()| self.budgets.new_part(part)),
             None => [part; 2],
         };
         Some([
@@ -312,7 +312,7 @@ struct Budgets {
     /// The index of the part that pays at present.
     part: usize,
     /// The total work when this part began to pay.
-    begun: u64,
+    charged_from: u64,
 }
 
 impl Default for Budgets {
@@ -320,7 +320,7 @@ impl Default for Budgets {
         Budgets {
             spent: vec![0],
             part: 0,
-            begun: 0,
+            charged_from: 0,
         }
     }
 }
@@ -328,17 +328,17 @@ impl Default for Budgets {
 impl Budgets {
     /// Returns the work spent on the present part; `work` is the total of all parts.
     fn spent(&self, work: u64) -> u64 {
-        self.spent[self.part] + (work - self.begun)
+        self.spent[self.part] + (work - self.charged_from)
     }
 
     /// Makes another part pay for the work that follows.
-    fn turn_to(&mut self, part: usize, work: u64) {
+    fn charge_to(&mut self, part: usize, work: u64) {
         self.spent[self.part] = self.spent(work);
-        (self.part, self.begun) = (part, work);
+        (self.part, self.charged_from) = (part, work);
     }
 
     /// Adds a part with a budget of its own, and returns its index; or returns `part` if there are too many.
-    fn another(&mut self, part: usize) -> usize {
+    fn new_part(&mut self, part: usize) -> usize {
         if self.spent.len() >= MAX_BUDGET_PARTS {
             return part;
         }

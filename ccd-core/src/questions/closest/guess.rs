@@ -1,7 +1,7 @@
 //! Estimates the least distance first, from measurements at a few times.
 
 use super::follow::follow;
-use super::{Best, unresolved};
+use super::{BestPair, unresolved};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -16,13 +16,13 @@ use std::ops::ControlFlow;
 /// The search repeats this at the time found, as long as it finds nearer pieces.
 ///
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
-pub(crate) fn guess<O: DistanceOracle>(
+pub(crate) fn initial_estimate<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<Outcome, Option<Best>> {
-    let mut best: Option<Best> = None;
+) -> ControlFlow<Outcome, Option<BestPair>> {
+    let mut best: Option<BestPair> = None;
     let mut clock = nearest_clock(problem);
     for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
@@ -54,14 +54,14 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<SearchEnd, Option<Best>> {
+) -> ControlFlow<SearchEnd, Option<BestPair>> {
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
     let mut nearest = Nearest::new(problem, clock, &mut lists).with_cutoff(beyond);
     let stopped = nearest.search(oracle, meter);
     let found = nearest.nearest_pieces();
     lists.clear();
     meter.scratch_memory().nearest = lists;
-    let best = |(pieces, contact)| Best {
+    let best = |(pieces, contact)| BestPair {
         clock,
         pieces,
         contact,
@@ -77,11 +77,12 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
 }
 
 /// Returns the outcome when the bodies overlap at the start, or a limit is reached.
-fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: SearchEnd) -> Outcome {
+fn stopped(problem: &Problem<'_>, best: Option<BestPair>, stop: SearchEnd) -> Outcome {
     match stop {
         SearchEnd::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
         SearchEnd::Limit(limit) => {
-            let seen = |best: Best| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
+            let seen =
+                |best: BestPair| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
             let lower = greater(0.0, least_distance(problem));
             Outcome::Unresolved(Unresolved::least(lower, best.map(seen), limit))
         }

@@ -62,7 +62,7 @@ impl Ladder {
     }
 
     /// Makes the first rung earlier, for a search that a deadline or another thread may end.
-    pub(crate) fn timed(self) -> Self {
+    pub(crate) fn with_early_start(self) -> Self {
         Ladder {
             next: self.next.min(FIRST_TIMED),
             ..self
@@ -71,7 +71,7 @@ impl Ladder {
 
     /// Returns the next rung if it is time for it. The rung may take half as much work as was done before.
     #[inline]
-    pub(crate) fn due(&mut self, work: u64, upper: f64) -> Option<Rung> {
+    pub(crate) fn next_if_due(&mut self, work: u64, upper: f64) -> Option<Rung> {
         if work < self.next {
             return None;
         }

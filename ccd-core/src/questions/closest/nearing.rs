@@ -2,7 +2,7 @@
 
 use super::follow::follow;
 use super::ladder::{LAST_RUNGS, Ladder, Rung};
-use super::{Best, Beyond};
+use super::{BestPair, Beyond};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -17,8 +17,8 @@ use crate::shortcuts::closer_look::CloserLook;
 use std::ops::ControlFlow;
 
 /// A search for the least distance, in which each pair is proven to keep the least distance found so far.
-pub(crate) struct Nearing {
-    pub(crate) best: Option<Best>,
+pub(crate) struct LeastDistanceSearch {
+    pub(crate) best: Option<BestPair>,
     /// The distance above which pairs are ignored.
     pub(crate) beyond: f64,
     pub(crate) proven: Proven,
@@ -28,9 +28,9 @@ pub(crate) struct Nearing {
     pub(crate) ladder: Ladder,
 }
 
-impl Nearing {
+impl LeastDistanceSearch {
     pub(crate) fn upper(&self) -> f64 {
-        let upper = |best: Best| best.contact.separation.upper;
+        let upper = |best: BestPair| best.contact.separation.upper;
         self.best.map_or(self.beyond, upper)
     }
 
@@ -42,7 +42,7 @@ impl Nearing {
 
     pub(crate) fn unresolved(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.ladder.lower, self.upper());
-        let seen = |best: Best| {
+        let seen = |best: BestPair| {
             let contact = best.contact.cap_lower_bound(lower);
             (problem.time(best.clock), contact)
         };
@@ -62,7 +62,7 @@ impl Nearing {
         let work = meter.stats.work();
         let budget = problem.budget.min(work.saturating_add(rung.budget));
         let lower = Rung { budget, ..rung }.problem(problem);
-        let mut below = Nearing {
+        let mut below = LeastDistanceSearch {
             best: None,
             beyond: lower.contact_distance(),
             proven: Proven::default(),
@@ -78,7 +78,7 @@ impl Nearing {
         let common = Common::new(&lower);
         let mut look = CloserLook::new(&lower);
         let mut found = None;
-        if search.open(&lower).is_ok() {
+        if search.push_roots(&lower).is_ok() {
             while below.best.is_none() && found.is_none() {
                 found = search.visit(&common, &mut look, &mut below).break_value();
             }
@@ -101,7 +101,7 @@ impl Nearing {
 
     /// Returns the final outcome. If some pair could not be proven to the end, the best provable lower bound is proven
     /// first.
-    pub(crate) fn at_last<O: DistanceOracle>(
+    pub(crate) fn final_outcome<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
         found: Result<Outcome, Beyond>,
@@ -125,7 +125,7 @@ impl Nearing {
     }
 }
 
-impl<O: DistanceOracle> Question<O> for Nearing {
+impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
     type Found = Result<Outcome, Beyond>;
 
     fn conclude(
@@ -143,7 +143,7 @@ impl<O: DistanceOracle> Question<O> for Nearing {
         match step {
             Step::FreeUntil(clock) => ControlFlow::Continue(clock),
             Step::Contact(contact) => {
-                let seen = Best {
+                let seen = BestPair {
                     clock,
                     pieces,
                     contact,

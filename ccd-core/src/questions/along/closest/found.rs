@@ -44,7 +44,7 @@ impl Query<'_> {
 }
 
 /// The bounds of the distance of a stretch's motions, and where they are nearest.
-pub(super) struct Seen {
+pub(super) struct StretchResult {
     pub(super) lower: f64,
     pub(super) upper: f64,
     /// The amount by which the deviations widen the bounds for the bodies.
@@ -55,11 +55,11 @@ pub(super) struct Seen {
     pub(super) approach: f64,
 }
 
-impl Seen {
+impl StretchResult {
     /// Creates the result for motions that are farther apart than the least distance found so far. The bodies are so
     /// despite their deviations.
     pub(super) fn beyond(lower: f64) -> Self {
-        Seen {
+        StretchResult {
             lower,
             upper: lower,
             blur: 0.0,
@@ -70,14 +70,14 @@ impl Seen {
 
     /// Returns whether the bounds are wider than the tolerance only because of rounding. Cutting the stretch does not
     /// help then.
-    pub(super) fn is_loose(&self, tolerance: f64) -> bool {
+    pub(super) fn is_limited_by_rounding(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
         width > tolerance && self.blur <= width
     }
 
     /// Returns the end of the stretch at which the motions are nearest, if they would get nearer beyond it by more than
     /// the deviations; `None` otherwise.
-    pub(super) fn falls_beyond(&self, motions: &Motions) -> Option<f64> {
+    pub(super) fn end_with_decrease_beyond(&self, motions: &Motions) -> Option<f64> {
         let Span { from, to, .. } = motions.span;
         let (near, falls) = (
             MIN_CUT_SHARE * motions.span.length(),
@@ -110,7 +110,11 @@ impl Found {
         Found {
             lower: f64::INFINITY,
             best: None,
-            ladder: if is_timed { ladder.timed() } else { ladder },
+            ladder: if is_timed {
+                ladder.with_early_start()
+            } else {
+                ladder
+            },
         }
     }
 
@@ -123,8 +127,12 @@ impl Found {
     ///
     /// # Errors
     /// The limit that was reached.
-    pub(super) fn see(&mut self, motions: &Motions, outcome: &Outcome) -> Result<Seen, Limit> {
-        let mut seen = Seen {
+    pub(super) fn record(
+        &mut self,
+        motions: &Motions,
+        outcome: &Outcome,
+    ) -> Result<StretchResult, Limit> {
+        let mut seen = StretchResult {
             lower: 0.0,
             upper: 0.0,
             blur: motions.stray,
@@ -187,7 +195,7 @@ impl Found {
         let apart = |&span: &Span| {
             let motions = Motions::new(query, span)?;
             let problem = motions.problem(query, &query.terms)?;
-            Ok(motions.at_least(least_distance(&problem)))
+            Ok(motions.lower_bound_for_bodies(least_distance(&problem)))
         };
         let spans = stretches.waiting().iter().chain([&span]);
         // Written so that NaN is no bound.
