@@ -183,7 +183,7 @@ impl Body {
         self.pieces.get(index as usize).with_support(support_of)
     }
 
-    /// Computes in advance, on all cores, the values that [`Piece::kept`] would compute when first requested.
+    /// Computes in advance, on all cores, the values that [`Piece::cached`] would compute when first requested.
     ///
     /// Searches for extremal points of hulls are prepared in advance as well. Values that exist already stay.
     ///
@@ -194,12 +194,12 @@ impl Body {
     /// use ccd_core::{Body, Piece};
     /// struct Count(usize);
     /// let cube = Body::cuboid([1.0; 3])?;
-    /// cube.keep(|piece| Count(piece.points.len()));
+    /// cube.precompute(|piece| Count(piece.points.len()));
     /// let never = |_: &Piece| -> Count { unreachable!("it is there") };
-    /// assert_eq!(cube.pieces().get(0).kept(never).map(|count| count.0), Some(8));
+    /// assert_eq!(cube.pieces().get(0).cached(never).map(|count| count.0), Some(8));
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
-    pub fn keep<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {
+    pub fn precompute<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {
         let mut pieces: Vec<Piece<'_>> = self.pieces.iter().collect();
         if let Some(surface) = &self.surface {
             pieces.extend(surface.triangles.pieces.iter());
@@ -210,7 +210,7 @@ impl Body {
         }
         for_each(&mut pieces, &(), |(), _, piece| {
             // Pieces in queries have this search, too.
-            let _ = piece.with_support(support_of).kept(&make);
+            let _ = piece.with_support(support_of).cached(&make);
         });
     }
 

@@ -59,7 +59,7 @@ pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> 
 /// Returns the middle of the overlap of two parallel segments, or the end of `one` that is nearest to `other`, as a
 /// parameter of `one`.
 #[inline]
-pub(crate) fn beside(one: &Line, other: &Line) -> f64 {
+pub(crate) fn middle_of_overlap(one: &Line, other: &Line) -> f64 {
     let start = one.nearest(other.start);
     let end = one.nearest(other.at(other.length));
     0.5 * (start + end)

@@ -5,7 +5,7 @@ use crate::escape::{self, Escape};
 use crate::feature::{Behind, Feature, Next, Pair, Which};
 use crate::placed::{Placed, PlacedPair};
 use crate::termination::{Brent, End};
-use crate::tolerance::STEPS_PER_FEATURE;
+use crate::tolerance::MAX_STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
 /// Marches from a pair of features to the nearest pair.
@@ -16,7 +16,7 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
     let features = placed.a.shape().features() + placed.b.shape().features();
     let mut pair = start;
     let mut brent = Brent::new(start);
-    for _ in 0..STEPS_PER_FEATURE * features {
+    for _ in 0..MAX_STEPS_PER_FEATURE * features {
         counters.steps += 1;
         pair = match step(placed, pair) {
             Next::To(a, b) => Pair { a, b },

@@ -1,7 +1,7 @@
 //! Two polytopes in A's frame: A as it is stored, B transformed when needed.
 
 use crate::polytope::{Edge, Polytope};
-use crate::tolerance::PLACING;
+use crate::tolerance::PLACEMENT_ERROR;
 use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -112,7 +112,7 @@ impl Scale {
     /// Returns the largest rounding error of a difference of two transformed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
-        PLACING * self.size
+        PLACEMENT_ERROR * self.size
     }
 }
 

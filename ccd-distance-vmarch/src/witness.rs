@@ -12,7 +12,7 @@ use ccd_core::{Claim, Combination};
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
     /// The nearest points as combinations of vertices.
-    spots: [Corners<3>; 2],
+    combinations: [Corners<3>; 2],
     /// The direction from A to B along which they are apart, of any length.
     pub(crate) axis: DVec3,
 }
@@ -46,17 +46,17 @@ impl Witness {
     pub(crate) fn claim(&self, placed: &PlacedPair<'_>) -> Claim {
         Claim {
             axis: self.axis,
-            a: named(placed.a.shape(), &self.spots[0]),
-            b: named(placed.b.shape(), &self.spots[1]),
+            a: named(placed.a.shape(), &self.combinations[0]),
+            b: named(placed.b.shape(), &self.combinations[1]),
         }
     }
 
     #[inline]
     fn swapped(self) -> Self {
-        let ([x, y], [on_x, on_y]) = (self.points, self.spots);
+        let ([x, y], [on_x, on_y]) = (self.points, self.combinations);
         Witness {
             points: [y, x],
-            spots: [on_y, on_x],
+            combinations: [on_y, on_x],
             axis: -self.axis,
         }
     }
@@ -86,7 +86,7 @@ fn vertex_vertex<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness 
     let points = [x.vertex(v), y.vertex(w)];
     Witness {
         points,
-        spots: [corner(v), corner(w)],
+        combinations: [corner(v), corner(w)],
         axis: points[1] - points[0],
     }
 }
@@ -99,7 +99,7 @@ fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
     let offset = foot - point;
     Witness {
         points: [point, foot],
-        spots: [corner(v), on_edge(y, e, parameter)],
+        combinations: [corner(v), on_edge(y, e, parameter)],
         axis: across(offset, line.along),
     }
 }
@@ -116,7 +116,7 @@ fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     let axis = across(across(axis, one.along), other.along);
     Witness {
         points,
-        spots: [on_edge(x, e, s), on_edge(y, f, t)],
+        combinations: [on_edge(x, e, s), on_edge(y, f, t)],
         axis,
     }
 }
@@ -128,7 +128,7 @@ fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
     let (foot, spot) = on_face(point, y, f, normal);
     Witness {
         points: [point, foot],
-        spots: [corner(v), spot],
+        combinations: [corner(v), spot],
         axis: -normal,
     }
 }

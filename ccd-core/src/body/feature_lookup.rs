@@ -83,7 +83,7 @@ impl FacetsByCorner {
     /// or one that belongs to no list.
     fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > CLIMBED_POINTS;
-        let kept = many.then(|| piece.kept(|piece| Box::new(FacetsByCorner::new(piece))))?;
+        let kept = many.then(|| piece.cached(|piece| Box::new(FacetsByCorner::new(piece))))?;
         kept.map(|kept| &**kept)
     }
 

@@ -63,13 +63,13 @@ impl<'a> Piece<'a> {
     /// let middle = |piece: &Piece| Middle(piece.points.iter().sum::<DVec3>() / 3.0);
     /// let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y];
     /// let list = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
-    /// let kept = list.get(0).kept(middle).unwrap();
+    /// let kept = list.get(0).cached(middle).unwrap();
     /// assert_eq!(kept.0, DVec3::new(1.0, 1.0, 0.0));
-    /// assert!(std::ptr::eq(kept, list.get(0).kept(middle).unwrap()));
-    /// assert!(Piece::from_points(&corners).kept(middle).is_none());
+    /// assert!(std::ptr::eq(kept, list.get(0).cached(middle).unwrap()));
+    /// assert!(Piece::from_points(&corners).cached(middle).is_none());
     /// ```
     #[inline]
-    pub fn kept<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
+    pub fn cached<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
         let slot = self.slot?;
         let entry = slot.side_table.entry(slot.len, slot.index);
         Some(entry.get_or_init(|| make(self)))
@@ -82,7 +82,7 @@ impl<'a> Piece<'a> {
         if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
             return self;
         }
-        let support = self.kept(|piece| Box::new(make(piece)));
+        let support = self.cached(|piece| Box::new(make(piece)));
         Piece {
             support: support.map(|kept| &**kept),
             ..self
