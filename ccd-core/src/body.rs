@@ -151,7 +151,7 @@ impl Body {
         if !(whole && solid(&self) && solid(&surface) && surface.pieces.all_triangles()) {
             return Err(InputError::BadSurface);
         }
-        let [x, y, z] = self.tree.half().map(f64::from);
+        let [x, y, z] = self.tree.half_extents().map(f64::from);
         let volume = signed_volume(&surface.pieces).abs() / 6.0;
         self.excess = greater(self.excess, surface.excess);
         self.surface = Some(Box::new(Surface {

@@ -108,7 +108,7 @@ fn of_stretch(
     terms: &Terms<'_>,
 ) -> Result<SweptBox, InputError> {
     let swept = of_motion(body, &stretch.motion, time, terms)?;
-    let (centre, radius) = body.tree().ball();
+    let (centre, radius) = body.tree().bounding_ball();
     let reach = centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius;
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
     let room = (moved + stretch.stray.at(reach)) * (1.0 + STRETCH_F64);
@@ -149,7 +149,7 @@ fn of_motion(
 /// Returns a box that contains the body in all orientations, with its centre of rotation at the start.
 fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
-    let whole = side.body.tree().whole();
+    let whole = side.body.tree().body_box();
     let frame = path.frame(0.0);
     let centre = frame.point(whole.centre);
     let reach = DVec3::AXES.map(|axis| {

@@ -135,13 +135,13 @@ impl<'a> Piece<'a> {
     /// Returns the centre and radius of a ball around the points; `None` if there are few points, or no search
     /// structure.
     #[inline]
-    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
-        self.support.and_then(Support::ball)
+    pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
+        self.support.and_then(Support::bounding_ball)
     }
 
     /// Returns an upper bound of the distances of the piece's points from `from`, as tight as rounding allows.
     pub(crate) fn max_distance_from(&self, from: DVec3) -> f64 {
-        if let Some((middle, radius)) = self.ball() {
+        if let Some((middle, radius)) = self.bounding_ball() {
             return (distance(middle, from) + radius) * (1.0 + RATE_F64);
         }
         let squares = self.points.iter().map(|p| p.distance_squared(from));
@@ -149,7 +149,7 @@ impl<'a> Piece<'a> {
     }
 
     /// Returns the approximate number of points that a search for an extremal point evaluates.
-    pub(crate) fn looks(&self) -> u64 {
+    pub(crate) fn evaluations_per_search(&self) -> u64 {
         let few = self.points.len().min(CLIMBED_POINTS);
         match self.support {
             Some(_) => few as u64,

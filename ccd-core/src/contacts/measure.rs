@@ -50,18 +50,18 @@ pub(super) fn measure(
         }
     }
     if is_blurred(distance, problem.rounding)
-        && let Some(common) = common_normals(candidate.points).along(normal, b - a)
+        && let Some(common) = common_normals(candidate.points).nearest_normal_along(normal, b - a)
     {
         normal = common;
     }
     let way = unit(b - a).unwrap_or(normal);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
-    let name = |k: usize| skins[k].name(spots[k], candidate.faces[k]);
+    let name = |k: usize| skins[k].feature_of(spots[k], candidate.faces[k]);
     FeaturePair {
         feature_a: name(0),
         feature_b: name(1),
-        piece_a: problem.a.number(face(0).piece),
-        piece_b: problem.b.number(face(1).piece),
+        piece_a: problem.a.index_in_given_body(face(0).piece),
+        piece_b: problem.b.index_in_given_body(face(1).piece),
         separation: Separation {
             lower: support_gap(&points, normal) - radii - problem.rounding,
             upper: greater(0.0, distance - radii) + problem.rounding,
@@ -101,10 +101,10 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
 /// outside it leads from the middle of one piece to the middle of the other.
 fn outward_direction(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
     let out = |k: usize| {
-        let out = skins[k].outward(spots[k], candidate.faces[k]);
+        let out = skins[k].outward_direction(spots[k], candidate.faces[k]);
         unit(out).unwrap_or(DVec3::ZERO)
     };
-    let middle = |k: usize| skins[k].middle(skins[k].face(candidate.faces[k]).piece);
+    let middle = |k: usize| skins[k].centroid(skins[k].face(candidate.faces[k]).piece);
     match out(0) - out(1) {
         DVec3::ZERO => middle(1) - middle(0),
         towards => towards,

@@ -146,7 +146,7 @@ impl<'a> Skin<'a> {
 
     /// Returns the approximate outward direction at a corner, edge or face: the sum of the normals around it, or zero
     /// if none is known.
-    pub(super) fn outward(&self, spot: Spot, face: u32) -> DVec3 {
+    pub(super) fn outward_direction(&self, spot: Spot, face: u32) -> DVec3 {
         let at = |corner: u32| self.corner_normals[corner as usize];
         match spot {
             Spot::Corner(corner) => at(corner),
@@ -194,7 +194,7 @@ impl<'a> Skin<'a> {
     }
 
     /// Returns the middle of a piece's points.
-    pub(super) fn middle(&self, piece: u32) -> DVec3 {
+    pub(super) fn centroid(&self, piece: u32) -> DVec3 {
         let points = self.body.pieces().get(piece as usize).points;
         self.to_a
             .point(points.iter().sum::<DVec3>() / points.len() as f64)
@@ -241,7 +241,7 @@ impl<'a> Skin<'a> {
 
     /// Returns the mesh's feature of a corner, edge or face. If it has no number, the feature is that of the face
     /// `face`, or the piece.
-    pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
+    pub(super) fn feature_of(&self, spot: Spot, face: u32) -> Feature {
         let id = |corner: u32| self.mesh_number(corner);
         let own = match spot {
             Spot::Corner(corner) => id(corner).map(Feature::Vertex),

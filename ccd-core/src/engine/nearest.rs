@@ -91,18 +91,18 @@ impl<'p> Nearest<'p> {
             match pair {
                 Next::Split(split) => {
                     let expansion = measure(&self.common, &split, self.clock);
-                    self.wait(Siblings::new(&expansion, split, 0.0))?;
+                    self.enqueue(Siblings::new(&expansion, split, 0.0))?;
                 }
                 Next::Measure(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }
-            next = self.next();
+            next = self.next_pair();
         }
         ControlFlow::Continue(())
     }
 
-    fn wait(&mut self, siblings: Siblings) -> ControlFlow<SearchEnd> {
+    fn enqueue(&mut self, siblings: Siblings) -> ControlFlow<SearchEnd> {
         let distance = siblings.clock();
-        if !(distance < self.upper()) {
+        if !(distance < self.upper_bound()) {
             return ControlFlow::Continue(());
         }
         match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
@@ -112,8 +112,8 @@ impl<'p> Nearest<'p> {
     }
 
     /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
-    fn next(&mut self) -> Option<Next> {
-        let (upper, search_radius) = (self.upper(), self.search_radius());
+    fn next_pair(&mut self) -> Option<Next> {
+        let (upper, search_radius) = (self.upper_bound(), self.search_radius());
         let (distance, siblings) = self.lists.waiting.next()?;
         // Pairs without a distance may intersect.
         if distance > 0.0 && distance >= search_radius {
@@ -137,7 +137,7 @@ impl<'p> Nearest<'p> {
     ) -> ControlFlow<SearchEnd> {
         let problem = self.problem;
         let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
-        let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
+        let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter) else {
             return ControlFlow::Break(SearchEnd::Limit(Limit::OracleGaveUp));
         };
         let inner = &mut meter.scratch_memory().inner;
@@ -156,21 +156,21 @@ impl<'p> Nearest<'p> {
             self.lists.touching.push(ids);
         }
         self.lower = lesser(self.lower, checked.lower);
-        if checked.upper < self.upper() {
+        if checked.upper < self.upper_bound() {
             self.nearest = Some((ids, contact(&snapshot, ids, &checked)));
         }
         ControlFlow::Continue(())
     }
 
     /// Returns the least upper bound found so far, or the distance beyond which pairs are ignored.
-    fn upper(&self) -> f64 {
+    fn upper_bound(&self) -> f64 {
         let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
         self.nearest.map_or(self.beyond, upper)
     }
 
     /// Returns the distance at and beyond which pairs need not be examined.
     fn search_radius(&self) -> f64 {
-        let upper = self.upper();
+        let upper = self.upper_bound();
         if upper <= self.problem.contact_distance() {
             upper * (1.0 - NEAREST_SHARE)
         } else {

@@ -14,8 +14,8 @@ use std::ops::ControlFlow;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
 pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
-    let by_balls = problem.takes(Shortcut::Balls) && out_of_reach(problem);
-    let is_free = by_balls || problem.takes(Shortcut::Boxes) && keep_apart(problem);
+    let by_balls = problem.uses(Shortcut::Balls) && out_of_reach(problem);
+    let is_free = by_balls || problem.uses(Shortcut::Boxes) && keep_apart(problem);
     is_free.then(|| Outcome::Free {
         proven_gap: problem.proven_gap(),
     })
@@ -33,7 +33,7 @@ impl Proven {
     /// query.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
-    pub(crate) fn conclude<O: DistanceOracle>(
+    pub(crate) fn on_advance<O: DistanceOracle>(
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -75,7 +75,7 @@ impl Proven {
     }
 
     /// Returns the outcome if all pairs are apart to the end.
-    pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
+    pub(crate) fn finish(&mut self, problem: &Problem<'_>) -> Outcome {
         self.past_start(problem).unwrap_or(Outcome::Free {
             proven_gap: problem.proven_gap(),
         })

@@ -145,7 +145,7 @@ impl<T> Waiting<T> for Queue<T> {
     }
 
     #[inline]
-    fn renew(&mut self, clock: f64, rank: Rank) {
+    fn postpone_as_newest(&mut self, clock: f64, rank: Rank) {
         let place = self.place_of_least();
         let key = self.newest(clock, rank, place);
         self.set(place, key);
@@ -155,7 +155,7 @@ impl<T> Waiting<T> for Queue<T> {
     fn replace(&mut self, clock: f64, rank: Rank, item: T) {
         let place = self.place_of_least();
         self.items[place as usize] = item;
-        self.renew(clock, rank);
+        self.postpone_as_newest(clock, rank);
     }
 
     #[inline]

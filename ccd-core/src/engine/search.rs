@@ -35,12 +35,12 @@ pub(crate) trait Question<O: DistanceOracle> {
 
     /// Called with the clock of the next pair before the pair is examined; may end the search.
     #[inline]
-    fn reach_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
+    fn on_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
         ControlFlow::Continue(())
     }
 
     /// Processes the advance of a pair of pieces: returns the pair's next clock, or the result.
-    fn conclude(
+    fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -49,10 +49,10 @@ pub(crate) trait Question<O: DistanceOracle> {
     ) -> ControlFlow<Self::Found, f64>;
 
     /// Returns the result if a limit is reached at clock `s`.
-    fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
+    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
 
     /// Returns the result if all pairs are proven apart to the end.
-    fn done(&mut self, problem: &Problem<'_>) -> Self::Found;
+    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found;
 }
 
 /// What a step found out about a pair of pieces.
@@ -80,7 +80,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         question: &mut Q,
     ) -> Q::Found {
         if self.push_roots(problem).is_err() {
-            return question.stopped(problem, 0.0, Limit::Budget);
+            return question.on_limit(problem, 0.0, Limit::Budget);
         }
         let common = Common::new(problem);
         let mut look = CloserLook::new(problem);
@@ -102,7 +102,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         let common = Common::new(problem);
         loop {
             if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
-                question.reach_clock(problem, s)?;
+                question.on_clock(problem, s)?;
                 return ControlFlow::Continue(s);
             }
             self.visit(&common, look, question)?;
@@ -133,18 +133,18 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             meter,
         } = self;
         let Some((s, item)) = waiting.next() else {
-            return ControlFlow::Break(question.done(problem));
+            return ControlFlow::Break(question.on_end(problem));
         };
-        question.reach_clock(problem, s)?;
+        question.on_clock(problem, s)?;
         if let Err(limit) = meter.count_visit(problem) {
-            return ControlFlow::Break(question.stopped(problem, s, limit));
+            return ControlFlow::Break(question.on_limit(problem, s, limit));
         }
         let (next, rest) = match item {
             Item::Pieces(pair) => {
                 let advance = advance(problem, *oracle, meter, pair, s);
-                match question.conclude(problem, *oracle, meter, advance)? {
+                match question.on_advance(problem, *oracle, meter, advance)? {
                     clock if clock >= 1.0 => waiting.remove(),
-                    clock => waiting.renew(clock, Rank::PiecePair),
+                    clock => waiting.postpone_as_newest(clock, Rank::PiecePair),
                 }
                 return ControlFlow::Continue(());
             }
@@ -168,7 +168,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             Next::Measure(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
-                let clock = question.conclude(problem, *oracle, meter, advance)?;
+                let clock = question.on_advance(problem, *oracle, meter, advance)?;
                 (clock, Item::Pieces(pair))
             }
         };
@@ -218,6 +218,6 @@ fn unless_full<O: DistanceOracle, Q: Question<O>>(
 ) -> ControlFlow<Q::Found> {
     match waits {
         Ok(()) => ControlFlow::Continue(()),
-        Err(Full) => ControlFlow::Break(question.stopped(problem, s, Limit::Budget)),
+        Err(Full) => ControlFlow::Break(question.on_limit(problem, s, Limit::Budget)),
     }
 }

@@ -59,7 +59,7 @@ impl<T> Waiting<T> for Stack<T> {
         self.last().0 = clock;
     }
 
-    fn renew(&mut self, clock: f64, _: Rank) {
+    fn postpone_as_newest(&mut self, clock: f64, _: Rank) {
         self.last().0 = clock;
     }
 

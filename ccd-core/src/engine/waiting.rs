@@ -18,7 +18,7 @@ pub(crate) trait Waiting<T> {
     ///
     /// # Panics
     /// When no item waits.
-    fn renew(&mut self, clock: f64, rank: Rank);
+    fn postpone_as_newest(&mut self, clock: f64, rank: Rank);
 
     /// Replaces the next item by a new one.
     ///

@@ -80,7 +80,7 @@ impl View {
                 spin: row(other.spin),
             }
         } else {
-            RelativeRotation::one_turns(own, other, inverse, [offset, change], acceleration)
+            RelativeRotation::one_body_turns(own, other, inverse, [offset, change], acceleration)
         };
         View {
             seen,
@@ -149,7 +149,7 @@ impl View {
 impl RelativeRotation {
     /// Prepares the relative motion if at most one of the bodies turns. The rotation of the other one has only the
     /// constant part.
-    fn one_turns(
+    fn one_body_turns(
         own: &Path,
         other: &Path,
         inverse: [DMat3; 3],

@@ -98,7 +98,7 @@ impl Stretch {
         if self.acceleration == DVec3::ZERO {
             pose
         } else {
-            pose.moved(0.5 * time * (time * self.acceleration))
+            pose.translated(0.5 * time * (time * self.acceleration))
         }
     }
 

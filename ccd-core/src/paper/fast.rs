@@ -89,7 +89,7 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
         let Some(hulls) = HullPair::of(problem) else {
             return self.without_trees.solve(problem, oracle);
         };
-        self.reaches.forget();
+        self.reaches.invalidate();
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
             in_rounds(problem, meter, |problem, meter| {
@@ -139,7 +139,7 @@ impl<O: DistanceOracle> Fast<O> {
             }
             s = next;
         }
-        proven.end(problem)
+        proven.finish(problem)
     }
 }
 

@@ -110,7 +110,7 @@ impl Any {
 impl<O: DistanceOracle> Question<O> for Any {
     type Found = Outcome;
 
-    fn conclude(
+    fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         _: &mut O,
@@ -131,14 +131,14 @@ impl<O: DistanceOracle> Question<O> for Any {
         })
     }
 
-    fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Outcome {
+    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Outcome {
         self.unresolved(problem, s, limit)
     }
 
-    fn done(&mut self, problem: &Problem<'_>) -> Outcome {
+    fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
         match self.stuck {
             Some((s, limit)) => self.unresolved(problem, s, limit),
-            None => self.proven.end(problem),
+            None => self.proven.finish(problem),
         }
     }
 }

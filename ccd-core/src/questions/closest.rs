@@ -84,7 +84,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         };
         let begun = problem.deadline.map(|_| Instant::now());
         let answer = required.decide(|rung| {
-            let mut problem = rung.problem(&problem.measuring());
+            let mut problem = rung.problem(&problem.for_distances());
             problem.deadline = begun.and_then(|begun| {
                 (problem.deadline).map(|deadline| deadline.saturating_sub(begun.elapsed()))
             });
@@ -114,7 +114,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> SearchResult<Result<Outcome, Beyond>> {
         let mut scratch = self.scratch.take();
         let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
-            let problem = problem.measuring();
+            let problem = problem.for_distances();
             let found = match Sample::of(&problem) {
                 Some(sample) => {
                     let found = self.search_least_distance(&sample.part, beyond, oracle, meter);
@@ -181,7 +181,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         // Pairs that keep the least distance also keep any smaller one.
         loop {
             let upper = nearing.upper();
-            let below = problem.below(upper);
+            let below = problem.for_distances_below(upper);
             // Written so that NaN is the end.
             if !(upper > problem.tolerance && upper > below.contact_distance()) {
                 return nearing.found(problem, 0.0);
@@ -213,7 +213,7 @@ fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<O
     })?;
     let lower = sample.lower(found.lower());
     Ok(
-        match found.map_contacts(|contact, _| sample.contact(contact)) {
+        match found.map_contacts(|contact, _| sample.widen_contact(contact)) {
             Outcome::Measured { upper, at, .. } => Outcome::Measured { lower, upper, at },
             Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
                 lower: greater(0.0, lower),

@@ -3,7 +3,9 @@
 use super::along::first::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{achieved_tolerance, ignoring_start_contact, outcome_for_given_bodies};
+use crate::engine::answer::{
+    achieved_tolerance, outcome_for_given_bodies, problem_after_start_contact,
+};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::{Proven, free_by_bounding_volumes};
@@ -141,7 +143,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         let mut meter = Meter::new(&problem);
         meter.scratch = memory.scratch.take();
         memory.queue.clear();
-        let current = problem.reporting();
+        let current = problem.reporting_start_contact();
         Steps {
             part: first_part(&current),
             current,
@@ -203,15 +205,15 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             self.begun = None;
             let outcome = match &mut self.part {
                 None => outcome,
-                Some((rounds, part)) => match rounds.conclude(&outcome, &mut self.meter) {
+                Some((rounds, part)) => match rounds.on_outcome(&outcome, &mut self.meter) {
                     ControlFlow::Break(outcome) => outcome,
                     ControlFlow::Continue(()) => {
-                        *part = rounds.part();
+                        *part = rounds.between_clocks();
                         continue;
                     }
                 },
             };
-            let parting = ignoring_start_contact(
+            let parting = problem_after_start_contact(
                 &self.current,
                 self.start,
                 &outcome,
@@ -258,7 +260,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                 }
                 let mut proven = Proven::default();
                 if search.push_roots(problem).is_err() {
-                    return ControlFlow::Break(Question::<O>::stopped(
+                    return ControlFlow::Break(Question::<O>::on_limit(
                         &mut proven,
                         problem,
                         0.0,
@@ -276,7 +278,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
 
 fn first_part<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
     let rounds = Rounds::of(problem)?;
-    let part = rounds.part();
+    let part = rounds.between_clocks();
     Some((rounds, part))
 }
 

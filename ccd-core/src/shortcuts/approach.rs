@@ -28,7 +28,7 @@ impl Approach {
             let across = n.cross(path.spin);
             straight += n.dot(path.velocity_at(node.centre, s));
             // n·(ω×w) = w·(n×ω) of points at w from the centre.
-            turning += greater(0.0, node.reach(across)) + RATE_F64 * path.rate * radius;
+            turning += greater(0.0, node.extent_along(across)) + RATE_F64 * path.rate * radius;
             let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
             let across = length(across) + RATE_F64 * path.rate;
             second_derivative += across * path.rate * from_axis * (1.0 + RATE_F64);

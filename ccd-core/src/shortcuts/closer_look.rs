@@ -26,7 +26,7 @@ impl CloserLook {
         let radius = |side: &Side<'_>| f64::from(side.body.tree().radius());
         let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
         CloserLook {
-            is_f32_coarse: problem.takes(Shortcut::FlatNodes)
+            is_f32_coarse: problem.uses(Shortcut::FlatNodes)
                 && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
             splits: 0,
             screw: None,
@@ -74,7 +74,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits == SPLITS_BEFORE_SCREW && problem.takes(Shortcut::Screw) {
+        if self.splits == SPLITS_BEFORE_SCREW && problem.uses(Shortcut::Screw) {
             self.screw = Screw::of(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.

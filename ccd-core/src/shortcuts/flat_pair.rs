@@ -63,21 +63,21 @@ impl Flat {
             }
         };
         Some(Flat {
-            normal: node.turned(normal),
+            normal: node.rotated(normal),
             node,
             half,
         })
     }
 
     /// Returns `max n·(x − centre)` over the node's points `x`, for a unit vector `n`.
-    fn reach(&self, n: DVec3) -> f64 {
+    fn extent_along(&self, n: DVec3) -> f64 {
         match self.half {
             Some(half) => {
                 let along = self.normal.dot(n).abs();
                 let across = length(n.cross(self.normal));
                 half * along + self.node.radius * (across + RATE_F64)
             }
-            None => self.node.reach(n),
+            None => self.node.extent_along(n),
         }
     }
 }
@@ -87,7 +87,7 @@ fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f6
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
     let kept = problem.rounding + problem.node_gap();
-    let gap = n.dot(way) - a.reach(n) - b.reach(-n) - kept;
+    let gap = n.dot(way) - a.extent_along(n) - b.extent_along(-n) - kept;
     // Written so that NaN gives no time.
     if !(gap > CLOSED_GAP * problem.tolerance) {
         return 0.0;

@@ -51,7 +51,7 @@ struct Ball {
 
 impl Ball {
     fn of(side: &Side<'_>) -> Self {
-        let (centre, radius) = side.body.tree().ball();
+        let (centre, radius) = side.body.tree().bounding_ball();
         let path = &side.path;
         // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.
         let turned = match path.rate {

@@ -32,8 +32,8 @@ pub(crate) fn in_rounds(
         return search(problem, meter);
     };
     loop {
-        let outcome = search(&rounds.part(), meter);
-        match rounds.conclude(&outcome, meter) {
+        let outcome = search(&rounds.between_clocks(), meter);
+        match rounds.on_outcome(&outcome, meter) {
             ControlFlow::Continue(()) => {}
             ControlFlow::Break(outcome) => return outcome,
         }
@@ -78,7 +78,7 @@ impl<'a> Rounds<'a> {
 
     #[cold]
     fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
-        if !problem.takes(Shortcut::Rounds) {
+        if !problem.uses(Shortcut::Rounds) {
             return None;
         }
         // Bodies that rest on each other are let go pair by pair, from the start on.
@@ -115,17 +115,17 @@ impl<'a> Rounds<'a> {
     }
 
     /// Returns the problem to search in this round.
-    pub(crate) fn part(&self) -> Problem<'a> {
+    pub(crate) fn between_clocks(&self) -> Problem<'a> {
         let tolerance = self.whole.tolerance;
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
         // distances is lost.
-        let room = (tolerance - 2.0 * self.change()) - 4.0 * self.rounding;
+        let room = (tolerance - 2.0 * self.distance_change()) - 4.0 * self.rounding;
         let left = greater(room, PERIOD_CHANGE_SHARE * tolerance);
         let to = match self.round {
             Round::Repeated(_) => lesser(1.0, self.from + self.period.length_rounded_up()),
-            Round::Each(_) => self.end(),
+            Round::Each(_) => self.end_clock(),
         };
-        self.whole.part(
+        self.whole.between_clocks(
             [self.from, to],
             self.raised_margin() + 0.5 * (tolerance - left),
             left,
@@ -133,7 +133,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Processes the outcome of a round, and starts the next round or returns the outcome of the query.
-    pub(crate) fn conclude(
+    pub(crate) fn on_outcome(
         &mut self,
         outcome: &Outcome,
         meter: &mut Meter,
@@ -166,7 +166,7 @@ impl<'a> Rounds<'a> {
     /// Records that the bodies keep a gap in a round, and continues with the next.
     fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
         self.gap = lesser(self.gap, (gap - self.raised_margin()).next_down());
-        self.from = self.end();
+        self.from = self.end_clock();
         if self.from >= 1.0 {
             let proven_gap = greater(self.gap, self.whole.margin);
             return ControlFlow::Break(Outcome::Free { proven_gap });
@@ -217,7 +217,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Returns the clock at which the round ends.
-    fn end(&self) -> f64 {
+    fn end_clock(&self) -> f64 {
         let (Round::Repeated(count) | Round::Each(count)) = self.round;
         let end = self.from + count * self.period.length;
         // A rest of the time that is only rounding is covered, too.
@@ -229,7 +229,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Returns a bound of the difference between distances in the round and those in the searched part.
-    fn change(&self) -> f64 {
+    fn distance_change(&self) -> f64 {
         match self.round {
             Round::Repeated(count) => count * self.period.change,
             Round::Each(_) => 0.0,
@@ -238,7 +238,7 @@ impl<'a> Rounds<'a> {
 
     /// Returns the distance beyond the margin that the searched part has to keep.
     fn raised_margin(&self) -> f64 {
-        self.change() + self.rounding
+        self.distance_change() + self.rounding
     }
 }
 
@@ -273,11 +273,12 @@ impl<'a> Sample<'a> {
     #[cold]
     fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
         let rounds = Rounds::of_many_turns(problem)?;
-        let (change, rounding) = (rounds.change(), rounds.rounding);
+        let (change, rounding) = (rounds.distance_change(), rounds.rounding);
         // Written so that NaN is too much.
-        let stands_for_all = matches!(rounds.round, Round::Repeated(_)) && rounds.end() >= 1.0;
+        let stands_for_all =
+            matches!(rounds.round, Round::Repeated(_)) && rounds.end_clock() >= 1.0;
         (stands_for_all && change <= PERIOD_CHANGE_SHARE * problem.tolerance).then(|| Sample {
-            part: rounds.part().measuring(),
+            part: rounds.between_clocks().for_distances(),
             change,
             rounding,
         })
@@ -289,7 +290,7 @@ impl<'a> Sample<'a> {
     }
 
     /// Widens the bounds of a contact in the period so that they hold for the whole problem.
-    pub(crate) fn contact(&self, contact: Contact) -> Contact {
+    pub(crate) fn widen_contact(&self, contact: Contact) -> Contact {
         widened(contact, self.rounding)
     }
 }
@@ -308,7 +309,7 @@ fn widened(contact: Contact, rounding: f64) -> Contact {
 }
 
 fn reaching<'p>(side: &'p Side<'_>) -> PathWithReach<'p> {
-    let (centre, radius) = side.body.tree().ball();
+    let (centre, radius) = side.body.tree().bounding_ball();
     PathWithReach {
         path: &side.path,
         reach: centre.distance(side.path.centre) * (1.0 + f64::EPSILON) + radius,

@@ -39,15 +39,15 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let at = Vec3x8::splat(level, other.centre());
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split.velocity(at) - self.other_turning;
-        let across = motion.split.across(axis.n);
-        let own = motion.other.across(axis.n);
+        let across = motion.split.cross_spin(axis.n);
+        let own = motion.other.cross_spin(axis.n);
         self.free_attached(
             axis,
             second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
             &SweepingNode {
-                rate: axis.n.dot(velocity) + other.reach(own - across),
-                distance: motion.split.arms(at) + other.radius(),
+                rate: axis.n.dot(velocity) + other.extent_along(own - across),
+                distance: motion.split.distances_from_centre(at) + other.radius(),
                 speed: self.other_speed,
                 own_rate: motion.other.rate,
             },
@@ -62,15 +62,15 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let at = children.centre(level);
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
-        let across = motion.other.across(axis.n);
-        let own = motion.split.across(axis.n);
+        let across = motion.other.cross_spin(axis.n);
+        let own = motion.split.cross_spin(axis.n);
         self.free_attached(
             axis,
             second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
             &SweepingNode {
-                rate: axis.n.dot(velocity) + children.reach(own - across),
-                distance: motion.other.arms(at) + children.radius(level),
+                rate: axis.n.dot(velocity) + children.extent_along(own - across),
+                distance: motion.other.distances_from_centre(at) + children.radius(level),
                 speed: self.speed,
                 own_rate: motion.split.rate,
             },

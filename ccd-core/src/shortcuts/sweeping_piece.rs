@@ -140,7 +140,8 @@ impl<'p> SweepingPiece<'p> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least_start_height();
         first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
-            self.looks.set(self.looks.get() + self.piece.looks());
+            self.looks
+                .set(self.looks.get() + self.piece.evaluations_per_search());
             let turned = self.turned(tau);
             let second_derivative = self.second_derivative(tau);
             let free = |axis: f64, closing: f64| {
@@ -151,7 +152,7 @@ impl<'p> SweepingPiece<'p> {
                 };
                 gap.free_time()
             };
-            let least = match self.piece.ball() {
+            let least = match self.piece.bounding_ball() {
                 Some(_) => free(
                     self.least_height_along(turned.axis),
                     self.least_height_along(turned.closing),
@@ -185,7 +186,7 @@ impl<'p> SweepingPiece<'p> {
 
     /// Returns the least height along a direction over the vectors to the points.
     fn least_height_along(&self, direction: DVec3) -> f64 {
-        if self.piece.ball().is_some() {
+        if self.piece.bounding_ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
             return direction.dot(lowest - self.reference);
         }
@@ -203,7 +204,7 @@ impl<'p> SweepingPiece<'p> {
         let angle = Angle::new(self.omega * tau);
         let own = Angle::new(self.own_omega * tau);
         let axis = self.normal.at(angle);
-        let (offset, velocity) = self.moved(tau);
+        let (offset, velocity) = self.offset_and_velocity_after(tau);
         let turning = self.normal.derivative_at(angle) * self.omega;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
@@ -219,7 +220,7 @@ impl<'p> SweepingPiece<'p> {
     }
 
     /// Returns the vectors `D` and `V` after a time `tau`.
-    fn moved(&self, tau: f64) -> (DVec3, DVec3) {
+    fn offset_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);
         (
             self.offset + velocity * tau,
@@ -229,7 +230,7 @@ impl<'p> SweepingPiece<'p> {
 
     /// Returns a bound of the second derivative of heights, for [`MAX_TURNING_PLANE_TIME`] from `tau` on.
     fn second_derivative(&self, tau: f64) -> f64 {
-        let (offset, _) = self.moved(tau);
+        let (offset, _) = self.offset_and_velocity_after(tau);
         let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
         let across = self.omega * (self.normal.derivative_length() + RATE_F64);
         let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);

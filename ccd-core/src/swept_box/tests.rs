@@ -41,7 +41,7 @@ fn points_stay_in_their_box() {
             let excess = (swept.max - swept.min - size).max_element() / size.max_element();
             tightest = lesser(tightest, excess);
             // In the worst case the box is about a ball.
-            let whole = scene.bodies[k].tree().whole();
+            let whole = scene.bodies[k].tree().body_box();
             let ball = distance(whole.centre, path.centre) + whole.radius;
             let worst = path.velocity.abs() + 2.0 * (ball + room_of(&scene, k));
             // Coordinates are rounded at their position.

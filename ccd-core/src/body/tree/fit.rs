@@ -2,7 +2,7 @@
 
 mod sample;
 
-use super::group::up;
+use super::group::round_up_to_f32;
 use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
@@ -96,7 +96,7 @@ struct FittedBox {
 impl FittedBox {
     fn along(frame: DMat3, points: &[DVec3]) -> Self {
         let turned = frame.transpose();
-        let (low, high) = crate::body::hierarchy::bounds(points.iter().map(|&p| turned * p));
+        let (low, high) = crate::body::hierarchy::bounding_box(points.iter().map(|&p| turned * p));
         FittedBox { frame, low, high }
     }
 
@@ -118,13 +118,13 @@ impl FittedBox {
         }
         // A product that cancels is off by this much, which `up` does not cover in a flat box.
         let rounding = 8.0 * U64 * square.sqrt();
-        let outward = |x: f64| up(x + rounding).next_up();
+        let outward = |x: f64| round_up_to_f32(x + rounding).next_up();
         Node {
             centre,
             axes,
             half: half.map(outward),
             radius: outward(square.sqrt() + node_points.radius),
-            rounding: up(node_points.radius),
+            rounding: round_up_to_f32(node_points.radius),
             below,
         }
     }

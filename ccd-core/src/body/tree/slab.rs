@@ -21,7 +21,7 @@ pub(crate) struct Slab {
 
 impl Slab {
     /// Fits a slab to corners around a centre; `None` unless the triangles are in one plane up to rounding.
-    pub(super) fn about(corners: &[DVec3], centre: DVec3) -> Option<Self> {
+    pub(super) fn fit_to(corners: &[DVec3], centre: DVec3) -> Option<Self> {
         let triangles = corners.as_chunks().0.iter();
         let normal = unit(triangles.map(|[a, b, c]| (b - a).cross(c - a)).sum())?;
         let (mut half, mut size) = (0.0, 0.0);

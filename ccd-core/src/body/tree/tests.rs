@@ -249,6 +249,6 @@ fn unit_normals_and_upper_numbers_are_those_of_f64_rounded() {
     }
     assert_eq!(unit_normal([DVec3::ONE; 3]), Vec3::ZERO);
     for (x, above) in [(0.5, 0.5), (0.1, 0.1_f32), (0.7, 0.7_f32.next_up())] {
-        assert_eq!(up(x), above, "{x}");
+        assert_eq!(round_up_to_f32(x), above, "{x}");
     }
 }

@@ -263,7 +263,7 @@ fn flat_differences_have_no_tetrahedron() {
             b_to_a: at(turn * DVec3::Z),
         };
         assert_eq!(super::tetrahedron(&pair, ROUNDING), None);
-        assert!(!InnerPolytope::default().begin(&pair, ROUNDING));
+        assert!(!InnerPolytope::default().start_with_tetrahedron(&pair, ROUNDING));
     }
 }
 

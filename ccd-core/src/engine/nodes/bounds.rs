@@ -39,9 +39,9 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
     lanes: u8,
 ) -> Bounds {
     let pairs = EightPairs::new(level, children, other, motion);
-    let widest = axis::widest(children, other, pairs.offset);
+    let widest = axis::widest_axis(children, other, pairs.offset);
     let travel = pairs.velocity * splat(level, motion.horizon);
-    let passing = axis::passing(children, other, pairs.offset, travel);
+    let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
     let revisit = widest.gap - motion.slack - (radius + other.radius()) * REVISIT_DISTANCE;
     let split_child = (widest.split_reach + radius * ADDED_THICKNESS)
@@ -102,7 +102,7 @@ impl<L: Simd> PassingNode<L> {
             Larger::Split => Some(PassingNode {
                 turning_plane_time: pairs.free_with_split(axis),
                 spin: motion.split.rate,
-                arm: splat(level, motion.split.arm(other.centre())),
+                arm: splat(level, motion.split.distance_from_centre(other.centre())),
                 large: children.radius(level),
                 small: splat(level, other.radius()),
                 other_is_piece: children.pieces(level),
@@ -110,7 +110,7 @@ impl<L: Simd> PassingNode<L> {
             Larger::Other => Some(PassingNode {
                 turning_plane_time: pairs.free_with_other(axis),
                 spin: motion.other.rate,
-                arm: motion.other.arms(children.centre(level)),
+                arm: motion.other.distances_from_centre(children.centre(level)),
                 large: splat(level, other.radius()),
                 small: children.radius(level),
                 other_is_piece: mask32x8::splat(level, other.is_piece()),

@@ -95,13 +95,13 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
         let mut second_derivative = splat(axis.n.level(), LEAST_BEND_F32);
         if motion.split.turns {
-            let m = motion.split.across(axis.n);
-            rate += self.children.reach(m);
+            let m = motion.split.cross_spin(axis.n);
+            rate += self.children.extent_along(m);
             second_derivative += second_derivative_bound(m, motion.split.rate, self.speed);
         }
         if motion.other.turns {
-            let m = motion.other.across(axis.n);
-            rate += self.other.reach(m);
+            let m = motion.other.cross_spin(axis.n);
+            rate += self.other.extent_along(m);
             second_derivative += second_derivative_bound(m, motion.other.rate, self.other_speed);
         }
         let apart = axis.gap - motion.slack;

@@ -5,7 +5,9 @@ use super::common::Common;
 use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::turn::Turn;
-use crate::body::tree::{Below, LANES, Members, Node, NodeId, NodeOrTriangle, unit_normal, up};
+use crate::body::tree::{
+    Below, LANES, Members, Node, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,
+};
 use crate::math::order::greater;
 use crate::math::packed::{Packed, PackedMatrix, as_vec3};
 use crate::motion::relative::{RelativeState, View};
@@ -238,7 +240,7 @@ impl<L: Simd> GroupView<'_, L> {
             centre: centre.as_vec3(),
             corners: [p.as_vec3(), q.as_vec3(), r.as_vec3()],
             normal: unit_normal([a, b, c]),
-            radius: up(greater(farthest, r.length_squared()).sqrt()).next_up(),
+            radius: round_up_to_f32(greater(farthest, r.length_squared()).sqrt()).next_up(),
         }
     }
 

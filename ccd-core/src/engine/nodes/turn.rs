@@ -38,7 +38,7 @@ impl Turn {
 
     /// Returns the cross products `n × ω`.
     #[inline(always)]
-    pub(crate) fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
+    pub(crate) fn cross_spin<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
         if self.turns {
             n.cross(Vec3x8::splat(n.level(), self.spin))
         } else {
@@ -48,13 +48,13 @@ impl Turn {
 
     /// Returns the distances of points from the centre of rotation.
     #[inline(always)]
-    pub(crate) fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
+    pub(crate) fn distances_from_centre<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
         (x - Vec3x8::splat(x.level(), self.centre)).length()
     }
 
     /// Returns the distance of a point from the centre of rotation; 0 without rotation.
     #[inline(always)]
-    pub(crate) fn arm(&self, x: Vec3) -> f32 {
+    pub(crate) fn distance_from_centre(&self, x: Vec3) -> f32 {
         if self.turns {
             (x - self.centre).length()
         } else {

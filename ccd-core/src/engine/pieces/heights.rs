@@ -89,7 +89,7 @@ impl<'a> Heights<'a> {
             second_derivative: 0.0,
             support_error: 0.0,
         };
-        match piece.ball() {
+        match piece.bounding_ball() {
             Some((middle, radius)) => heights.init_many(middle, radius),
             None => heights.init_few(),
         }
@@ -151,15 +151,15 @@ impl<'a> Heights<'a> {
     }
 
     /// Returns lower bounds of the heights and rates of all points after `tau`.
-    pub(crate) fn bound(&self, tau: f64) -> Point {
+    pub(crate) fn bound_all(&self, tau: f64) -> Point {
         let start = Point {
             height: f64::INFINITY,
             rate: f64::INFINITY,
             second_derivative: 0.0,
         };
-        match self.piece.ball() {
+        match self.piece.bounding_ball() {
             Some(_) => self.bound_of_many(self.angle(tau), tau),
-            None => self.each(tau).fold(start, |bound, point| Point {
+            None => self.points_at(tau).fold(start, |bound, point| Point {
                 height: lesser(bound.height, point.height),
                 rate: lesser(bound.rate, point.rate),
                 second_derivative: greater(bound.second_derivative, point.second_derivative),
@@ -170,7 +170,7 @@ impl<'a> Heights<'a> {
     /// Returns the largest descent of any point below [`Heights::least_height`] by rotation alone, up to `horizon`; `None` if
     /// there are many points.
     pub(crate) fn descent_until(&self, horizon: f64) -> Option<f64> {
-        if self.piece.ball().is_some() {
+        if self.piece.bounding_ball().is_some() {
             return None;
         }
         let end = self.angle(horizon);
@@ -199,16 +199,16 @@ impl<'a> Heights<'a> {
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
     pub(crate) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
-        match self.piece.ball() {
-            Some(_) => of(&self.bound(tau)),
+        match self.piece.bounding_ball() {
+            Some(_) => of(&self.bound_all(tau)),
             None => self
-                .each(tau)
+                .points_at(tau)
                 .map(|point| of(&point))
                 .fold(f64::INFINITY, lesser),
         }
     }
 
-    fn each(&self, tau: f64) -> impl Iterator<Item = Point> {
+    fn points_at(&self, tau: f64) -> impl Iterator<Item = Point> {
         let angle = self.angle(tau);
         self.tracks().map(move |(track, _)| Point {
             height: track.height_at(tau, angle),
@@ -278,11 +278,11 @@ pub(crate) fn least_free_of_many(
     free: impl Fn(&Point, &Point) -> f64,
 ) -> f64 {
     let of_below = || {
-        let bound = above.bound(tau);
+        let bound = above.bound_all(tau);
         below.least_of(tau, |x| free(&bound, x))
     };
     let of_above = || {
-        let bound = below.bound(tau);
+        let bound = below.bound_all(tau);
         above.least_of(tau, |y| free(y, &bound))
     };
     match (above.is_nonrotating(), below.is_nonrotating()) {

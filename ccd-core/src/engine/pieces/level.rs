@@ -24,7 +24,7 @@ impl TouchingPlane {
     /// it.
     pub(crate) fn of(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
         let normal = contact.separation.normal;
-        let given = problem.given();
+        let given = problem.with_given_bodies();
         let problem = given.as_ref().unwrap_or(problem);
         let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
         let [frame_a, frame_b] = &snapshot.frames;

@@ -21,7 +21,7 @@ impl<'s> SurroundingSurfaces<'s> {
         let reach = AROUND * problem.rounding;
         let (mut looks, turn) = (0, pieces.b_to_a.rotation);
         let normals = &mut meter.scratch_memory().normals;
-        normals.begin(LEVEL * problem.rounding);
+        normals.reset(LEVEL * problem.rounding);
         problem.a.body.offsets_around(points[0], reach, |way| {
             looks += 1;
             normals.add_offset_of_a(way);
@@ -43,6 +43,6 @@ impl<'s> SurroundingSurfaces<'s> {
     /// along it up to rounding.
     pub(crate) fn common_normal(&self, towards: DVec3) -> Option<DVec3> {
         let [on_a, on_b] = self.points;
-        self.normals.along(towards, on_b - on_a)
+        self.normals.nearest_normal_along(towards, on_b - on_a)
     }
 }

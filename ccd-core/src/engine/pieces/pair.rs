@@ -98,7 +98,7 @@ impl<C: Default + Clone> Pair<C> {
         free_time: impl FnOnce(&Snapshot<'_>, &Checked, f64) -> Option<f64>,
     ) -> Step {
         let (problem, s) = (snapshot.problem, snapshot.clock);
-        let Some(checked) = snapshot.ask(oracle, &mut self.cache, meter) else {
+        let Some(checked) = snapshot.query_oracle(oracle, &mut self.cache, meter) else {
             return Step::GaveUp;
         };
         let ids = [self.a, self.b];
@@ -140,7 +140,7 @@ impl<C: Default + Clone> Pair<C> {
             Goal::Resting { floor } => (floor, true),
             Goal::PlaneContact(level) => {
                 let free = snapshot.plane_time(&level, checked.witness_a);
-                meter.stats.point_looks += snapshot.looks();
+                meter.stats.point_looks += snapshot.evaluations();
                 return step_after(s, free).unwrap_or_else(|| in_contact(&checked));
             }
         };
@@ -166,7 +166,7 @@ impl<C: Default + Clone> Pair<C> {
             self.goal = Goal::PlaneContact(level);
             step_after(s, snapshot.plane_time(&level, checked.witness_a))
         });
-        meter.stats.point_looks += snapshot.looks();
+        meter.stats.point_looks += snapshot.evaluations();
         match step {
             Some(step) => step,
             None if is_resting => in_contact(&checked),
@@ -186,7 +186,7 @@ impl<C: Default + Clone> Pair<C> {
             return None;
         }
         let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
-        let start = snapshot.ask(oracle, &mut C::default(), meter)?;
+        let start = snapshot.query_oracle(oracle, &mut C::default(), meter)?;
         let start = sharpen(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting =
@@ -227,8 +227,8 @@ pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Check
         },
         feature_a: feature(&problem.a, a, &checked.claim.a),
         feature_b: feature(&problem.b, b, &checked.claim.b),
-        piece_a: problem.a.number(a),
-        piece_b: problem.b.number(b),
+        piece_a: problem.a.index_in_given_body(a),
+        piece_b: problem.b.index_in_given_body(b),
     }
 }
 

@@ -53,7 +53,7 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Creates the snapshot of two other pieces at the same clock.
-    pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
+    pub(crate) fn with_pieces(&self, [a, b]: [Piece<'p>; 2]) -> Self {
         Snapshot {
             pieces: PiecePair {
                 a,
@@ -66,7 +66,7 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Calls the oracle, and checks its claim; `None` if the oracle gave up.
-    pub(crate) fn ask<O: DistanceOracle>(
+    pub(crate) fn query_oracle<O: DistanceOracle>(
         &self,
         oracle: &mut O,
         cache: &mut O::Cache,
@@ -168,7 +168,7 @@ impl<'p> Snapshot<'p> {
         };
         let free = gap.free_time();
         // Written so that NaN gives no time.
-        (!(free >= self.horizon())).then_some(free)
+        (!(free >= self.time_left())).then_some(free)
     }
 
     /// Returns how deeply two pieces of many points overlap along the axis between their middles, in units of the
@@ -176,7 +176,7 @@ impl<'p> Snapshot<'p> {
     #[cfg(feature = "hull-tree")]
     pub(crate) fn depth_between_middles(&self) -> Option<f64> {
         let pair = &self.pieces;
-        let ((a, radius_a), (b, radius_b)) = (pair.a.ball()?, pair.b.ball()?);
+        let ((a, radius_a), (b, radius_b)) = (pair.a.bounding_ball()?, pair.b.bounding_ball()?);
         let axis = unit(pair.b_to_a.point(b) - a)?;
         let gap = separation::support_gap(pair, axis, a) - pair.a.radius - pair.b.radius;
         Some(-gap / lesser(radius_a, radius_b))
@@ -259,7 +259,7 @@ impl<'p> Snapshot<'p> {
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
             - self.problem.b.path.velocity_at(b, self.clock);
         let nearest = (b - a).dot(velocity) / velocity.length_squared();
-        let way = b - a - velocity * nearest.clamp(0.0, self.horizon());
+        let way = b - a - velocity * nearest.clamp(0.0, self.time_left());
         let normal = unit(way)?;
         let axis = self.frames[0].inverse_vector(normal);
         let slack = self.gap_along(axis, checked.witness_a) - kept;
@@ -274,7 +274,7 @@ impl<'p> Snapshot<'p> {
         plane: &Plane,
         free: f64,
     ) -> Option<f64> {
-        if !self.problem.takes(Shortcut::TurningPieces) {
+        if !self.problem.uses(Shortcut::TurningPieces) {
             return Some(0.0);
         }
         let [a, b] = members;
@@ -284,7 +284,7 @@ impl<'p> Snapshot<'p> {
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.relative_speed) && uses_up(holder.relative_speed_along(normal)) {
                 let sweep = SweepingPiece::new(holder, other, normal, self.problem.rounding);
-                let free = sweep.free_time(plane.slack, self.horizon());
+                let free = sweep.free_time(plane.slack, self.time_left());
                 self.count_evaluations(sweep.looks.get());
                 longest = greater(longest, free?);
             }
@@ -303,7 +303,7 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Returns the number of evaluations of points' heights so far.
-    pub(crate) fn looks(&self) -> u64 {
+    pub(crate) fn evaluations(&self) -> u64 {
         self.looks.get()
     }
 
@@ -311,7 +311,7 @@ impl<'p> Snapshot<'p> {
         self.looks.set(self.looks.get() + points);
     }
 
-    fn horizon(&self) -> f64 {
+    fn time_left(&self) -> f64 {
         1.0 - self.clock
     }
 
@@ -348,7 +348,7 @@ impl<'p> Snapshot<'p> {
         let points = self.pieces.points();
         self.count_evaluations(points);
         let crossing = match (a.few_tracks(), b.few_tracks()) {
-            (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
+            (Some(below), Some(above)) => first_crossing(self.time_left(), rounds, |tau| {
                 self.count_evaluations(points);
                 least_free(
                     &above.at(b.angle(tau), tau),
@@ -356,7 +356,7 @@ impl<'p> Snapshot<'p> {
                     free,
                 )
             }),
-            _ => first_crossing(self.horizon(), rounds, |tau| {
+            _ => first_crossing(self.time_left(), rounds, |tau| {
                 self.count_evaluations(points);
                 least_free_of_many(&b, &a, tau, free)
             }),
@@ -371,7 +371,7 @@ impl<'p> Snapshot<'p> {
     /// Returns whether the pieces pass each other: the points' descent by rotation up to the end certainly leaves some
     /// slack. Without this test, the steps towards the time of closest approach become ever shorter.
     fn rotation_keeps_slack(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
-        let horizon = self.horizon();
+        let horizon = self.time_left();
         let linear_rate = least_linear_displacement(
             a.linear_rate() + b.linear_rate(),
             a.linear_acceleration() + b.linear_acceleration(),

@@ -1,7 +1,7 @@
 //! Computes the distance of two bodies at one clock by a descent from the last front `[FAST06 Alg. 3]`.
 
 use super::front::{Front, Item, Node};
-use super::hull_pair::{HullPair, Near};
+use super::hull_pair::{FeatureOwners, HullPair};
 use super::reach::Reaches;
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
@@ -124,7 +124,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let Item::Nodes(cache) = &mut node.item else {
             return;
         };
-        let snapshot = snapshot.with(self.hulls.hulls(node.pair));
+        let snapshot = snapshot.with_pieces(self.hulls.hulls(node.pair));
         let depth = snapshot.depth_between_middles();
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
@@ -133,22 +133,22 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             found.open.push(node.open_unmeasured(at, s));
             return;
         }
-        let Some(checked) = snapshot.ask(oracle, cache, self.meter) else {
+        let Some(checked) = snapshot.query_oracle(oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
             found.open.push(node.open_unmeasured(at, s));
             return;
         };
-        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
         let free = snapshot.directed_time(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
-        node.near = self.hulls.near(node.pair, &checked.claim);
+        node.near = self.hulls.feature_owners(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
         let contact = problem.contact_distance();
         // Contacts at the start are found at the start, or never.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         let apart = checked.lower > reach && node.clock > s;
         // The distance bound is that of the pieces below the nodes, which are not in contact.
-        let settled = node.near == Near::Pieces && checked.upper > contact;
+        let settled = node.near == FeatureOwners::Pieces && checked.upper > contact;
         if settled && apart {
             found.distance = lesser(found.distance, checked.upper);
         }
@@ -175,8 +175,8 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let Item::Pieces(pair) = &mut node.item else {
             return ControlFlow::Continue(());
         };
-        let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
-        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
+        let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
         let step = pair.advance_with(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
@@ -190,7 +190,9 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             found.touch(contact);
             return ControlFlow::Continue(());
         }
-        node.clock = self.proven.conclude(problem, oracle, self.meter, step, s)?;
+        node.clock = self
+            .proven
+            .on_advance(problem, oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 
@@ -233,7 +235,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
 impl<C> Node<C> {
     /// Marks a pair to be split, whatever its distance.
     fn open_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
-        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
+        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, FeatureOwners::Bridges, s);
         let lower = self.lower;
         OpenPair { lower, at }
     }

@@ -18,7 +18,7 @@ pub(super) struct HullPair<'a> {
 
 /// Which of the nearest features of two nodes belong to bridges: facets outside of all pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Near {
+pub(super) enum FeatureOwners {
     /// Both features belong to pieces.
     Pieces,
     /// The feature of this body belongs to a bridge.
@@ -50,24 +50,24 @@ impl<'a> HullPair<'a> {
     }
 
     /// Returns which nearest features belong to bridges; `claim` has the nearest points.
-    pub(super) fn near(&self, [a, b]: [u32; 2], claim: &Claim) -> Near {
+    pub(super) fn feature_owners(&self, [a, b]: [u32; 2], claim: &Claim) -> FeatureOwners {
         match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
-            (false, false) => Near::Pieces,
-            (true, false) => Near::Bridge(Which::A),
-            (false, true) => Near::Bridge(Which::B),
-            (true, true) => Near::Bridges,
+            (false, false) => FeatureOwners::Pieces,
+            (true, false) => FeatureOwners::Bridge(Which::A),
+            (false, true) => FeatureOwners::Bridge(Which::B),
+            (true, true) => FeatureOwners::Bridges,
         }
     }
 
     /// Returns the pairs that replace a pair. One node is replaced by its children: if only one body has a bridge, that
     /// body's node, else the larger node, or the one with children if the other has none.
-    pub(super) fn below(&self, [a, b]: [u32; 2], near: Near) -> Below {
+    pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: FeatureOwners) -> Below {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
-            Near::Bridge(body) => body,
-            Near::Pieces | Near::Bridges => self.larger([a, b]),
+            FeatureOwners::Bridge(body) => body,
+            FeatureOwners::Pieces | FeatureOwners::Bridges => self.larger([a, b]),
         };
-        match (self.a.below(a), self.b.below(b), body) {
+        match (self.a.children_of_pair(a), self.b.children_of_pair(b), body) {
             (Leaf(a), Leaf(b), _) => Below::Pieces([a, b]),
             (Inner(left, right), Leaf(_), _) | (Inner(left, right), _, Which::A) => {
                 Below::Pairs([[left, b], [right, b]])
@@ -109,7 +109,7 @@ impl<'a> Hulls<'a> {
         }
     }
 
-    fn below(self, node: u32) -> HierarchyNode {
+    fn children_of_pair(self, node: u32) -> HierarchyNode {
         match self {
             Hulls::Tree(tree) => tree.hierarchy().nodes()[node as usize],
             Hulls::Single(_) => HierarchyNode::Leaf(0),

@@ -90,11 +90,15 @@ impl<O: DistanceOracle> Question<O> for Any<'_, O> {
         Ok(ControlFlow::Break(stalled))
     }
 
-    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
         self.unresolved(stretches, span.from, limit)
     }
 
-    fn done(&mut self, stretches: &mut Stretches<'_, '_>, _: &mut O) -> Result<Answer, InputError> {
+    fn on_end(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        _: &mut O,
+    ) -> Result<Answer, InputError> {
         Ok(if self.undecided.is_finite() {
             let limit = Limit::Undecided;
             self.proven.unresolved(stretches, self.undecided, limit)

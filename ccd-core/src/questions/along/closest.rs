@@ -29,7 +29,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let answer = match query.terms.clearance {
             Some(distance) => self.decide_clearance_along(query, distance, oracle)?,
-            None => self.approach_of_bodies_along(&query.measuring(), oracle)?,
+            None => self.approach_of_bodies_along(&query.for_distances(), oracle)?,
         };
         Ok(answer.to_shapes(query.excess()))
     }
@@ -176,14 +176,14 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
             return Ok(ControlFlow::Continue(()));
         }
         self.found.lower = 0.0;
-        self.done(stretches, oracle).map(ControlFlow::Break)
+        self.on_end(stretches, oracle).map(ControlFlow::Break)
     }
 
-    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
         self.found.unresolved(self.query, stretches, span, limit)
     }
 
-    fn done(
+    fn on_end(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,

@@ -42,7 +42,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let query = &query.measuring();
+        let query = &query.for_distances();
         let mut search = Search {
             stretches: Stretches::new(query),
             schedule: self,
@@ -194,7 +194,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         above: f64,
     ) -> Result<Result<Option<BoundedStretch>, Limit>, InputError> {
         self.stretches.charge_to(span);
-        let seen = match self.measure(span.middle())? {
+        let seen = match self.measure(span.middle_time())? {
             Ok(seen) => seen,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -220,7 +220,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
             Err(reason) => return Ok(Err(reason)),
         };
         let query = self.stretches.query();
-        let problem = pose.problem(query, &terms)?.measuring();
+        let problem = pose.problem(query, &terms)?.for_distances();
         let kept = &mut self.schedule.scratch;
         let answer = run_metered(&problem, self.oracle, kept, |oracle, meter| {
             (measured(&problem, oracle, meter), 0.0)

@@ -88,11 +88,15 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for First<'_, S> {
         Ok(ControlFlow::Continue(()))
     }
 
-    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
         self.proven.unresolved(stretches, span.from, limit)
     }
 
-    fn done(&mut self, stretches: &mut Stretches<'_, '_>, _: &mut O) -> Result<Answer, InputError> {
+    fn on_end(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        _: &mut O,
+    ) -> Result<Answer, InputError> {
         Ok(self.proven.free(stretches))
     }
 }

@@ -37,7 +37,7 @@ impl Span {
     }
 
     /// Returns the time in the middle of the stretch.
-    pub(super) fn middle(&self) -> f64 {
+    pub(super) fn middle_time(&self) -> f64 {
         self.from + 0.5 * self.length()
     }
 }
@@ -201,7 +201,7 @@ impl Motions {
 
 /// Returns an upper bound of the distances of a body's points from the centre of a stretch's motion.
 fn reach(moving: &Moving<'_>, stretch: &Stretch) -> f64 {
-    let (centre, radius) = moving.body.tree().ball();
+    let (centre, radius) = moving.body.tree().bounding_ball();
     centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius
 }
 

@@ -207,7 +207,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let Ok((motions, terms)) = self.pose(time)? else {
             return Ok(None);
         };
-        let problem = motions.problem(self.query, &terms)?.measuring();
+        let problem = motions.problem(self.query, &terms)?.for_distances();
         let answer = run_metered(&problem, oracle, scratch, |oracle, meter| {
             (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
         });
@@ -251,7 +251,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let [first, last] = [time - half, time + half];
         // Written so that NaN, or a length lost to rounding, gives a half of the stretch.
         let is_part = length < 0.5 * whole && first < time && last > time;
-        if !is_part || early.to != span.middle() {
+        if !is_part || early.to != span.middle_time() {
             if time < late.from {
                 self.waiting.extend([late, early]);
             } else {

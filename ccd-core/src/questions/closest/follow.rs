@@ -55,7 +55,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         }
         let pieces @ [a, b] = self.best.pieces;
         let snapshot = Snapshot::new(self.problem, a, b, clock);
-        let checked = snapshot.ask(self.oracle, &mut self.cache, self.meter)?;
+        let checked = snapshot.query_oracle(self.oracle, &mut self.cache, self.meter)?;
         if checked.upper < self.best.contact.separation.upper {
             self.best = BestPair {
                 clock,

@@ -33,7 +33,7 @@ pub(crate) struct Rung {
 impl Rung {
     /// Returns the problem of whether there is any contact within the rung's margin.
     pub(crate) fn problem<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
-        let mut asking = problem.keeping(self.margin, self.tolerance);
+        let mut asking = problem.with_margin(self.margin, self.tolerance);
         asking.budget = self.budget;
         asking
     }

@@ -128,7 +128,7 @@ impl LeastDistanceSearch {
 impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
     type Found = Result<Outcome, Beyond>;
 
-    fn conclude(
+    fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -167,15 +167,15 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
         }
     }
 
-    fn stopped(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
+    fn on_limit(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
         Ok(self.unresolved(problem, limit))
     }
 
-    fn done(&mut self, problem: &Problem<'_>) -> Self::Found {
+    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found {
         if let Some(limit) = self.stuck {
             return Ok(self.unresolved(problem, limit));
         }
-        match self.proven.end(problem) {
+        match self.proven.finish(problem) {
             overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
             Outcome::Free { proven_gap } => self.found(problem, proven_gap),
             Outcome::Unresolved(known) => Ok(self.unresolved(problem, known.limit)),

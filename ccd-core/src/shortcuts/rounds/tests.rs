@@ -295,7 +295,7 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
             DepthFirst::default().closest_approach_of(&problem, &mut Exhaustive)
         });
         let whole = problem(1_000.0);
-        sampled += usize::from(Sample::of(&whole.measuring()).is_some());
+        sampled += usize::from(Sample::of(&whole.for_distances()).is_some());
         let (lower, upper) = (many.outcome.lower(), many.outcome.upper());
         if let Outcome::Measured {
             at: Some((time, _)),

@@ -105,7 +105,7 @@ impl Profile {
         let distance = length(across);
         let outward = across / distance;
         let onward = axis.unit.cross(outward);
-        let inner = distance - node.reach(-outward);
+        let inner = distance - node.extent_along(-outward);
         // Written so that NaN is not far.
         if !(inner > MIN_PROFILE_RADIUS * distance) {
             return None;
@@ -116,7 +116,7 @@ impl Profile {
         let zeta = height - axis.advance * azimuth;
         let ahead = axis.unit - axis.advance / distance * onward;
         let (arm, steep) = (length(way), axis.advance / (0.5 * inner));
-        let aside = greater(node.reach(onward), node.reach(-onward));
+        let aside = greater(node.extent_along(onward), node.extent_along(-onward));
         let mut profile = Profile {
             low: [0.0; SURFACES],
             high: [0.0; SURFACES],
@@ -135,7 +135,7 @@ impl Profile {
             let rounding = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
             let reach = |sign: f64| {
                 let second_derivative = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
-                node.reach(sign * gradient) + second_derivative + rounding
+                node.extent_along(sign * gradient) + second_derivative + rounding
             };
             profile.low[k] = at - reach(-1.0);
             profile.high[k] = at + reach(1.0);

@@ -172,11 +172,11 @@ fn find<L: Simd, C: Children, P: OtherNode>(
     some: Vec3,
 ) -> [Found; 3] {
     let pairs = sample.pairs(level);
-    let some = axis::towards(Vec3x8::splat(level, some), pairs.offset);
+    let some = axis::oriented_towards(Vec3x8::splat(level, some), pairs.offset);
     let axes = [
         widest(&pairs),
         passing(&pairs),
-        axis::along(pairs.children, pairs.other, pairs.offset, some),
+        axis::axis_along(pairs.children, pairs.other, pairs.offset, some),
     ];
     axes.map(|axis| along(&pairs, axis))
 }
@@ -185,20 +185,24 @@ type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
 fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
-    axis::widest(pairs.children, pairs.other, pairs.offset)
+    axis::widest_axis(pairs.children, pairs.other, pairs.offset)
 }
 
 #[inline(never)]
 fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
     let travel = pairs.velocity * splat(pairs.offset.level(), pairs.motion.horizon);
-    axis::passing(pairs.children, pairs.other, pairs.offset, travel)
+    axis::closest_approach_axis(pairs.children, pairs.other, pairs.offset, travel)
 }
 
 #[inline(never)]
 fn along<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>, axis: Axis<L>) -> Found {
     let motion = pairs.motion;
-    let (m, o) = (motion.split.across(axis.n), motion.other.across(axis.n));
-    let rate = axis.n.dot(pairs.velocity) + pairs.children.reach(m) + pairs.other.reach(o);
+    let (m, o) = (
+        motion.split.cross_spin(axis.n),
+        motion.other.cross_spin(axis.n),
+    );
+    let rate =
+        axis.n.dot(pairs.velocity) + pairs.children.extent_along(m) + pairs.other.extent_along(o);
     Found {
         axis: [*axis.n.x, *axis.n.y, *axis.n.z],
         gap: *axis.gap,

@@ -385,7 +385,7 @@ fn still<L: Simd, C: Children>(
             let [a, b, c] = far.body.pieces().triangle(piece as usize);
             let mean = (a + b + c) / 3.0;
             [a, b, c]
-                .map(|p| up(p.distance(mean)))
+                .map(|p| round_up_to_f32(p.distance(mean)))
                 .into_iter()
                 .fold(0.0, greater)
         }

@@ -58,7 +58,7 @@ fn many_points_are_bounded_like_all_of_them() {
         };
         let heights = Heights::new(side, &piece, &frame, normal, clock);
         let twin = Heights::new(side, &bare, &frame, normal, clock);
-        many += usize::from(piece.ball().is_some());
+        many += usize::from(piece.bounding_ball().is_some());
         assert!(heights.speed() >= twin.speed() * (1.0 - 1e-15));
         // A ball about the points extends no farther than that, except by its own slack.
         assert!(
@@ -74,7 +74,7 @@ fn many_points_are_bounded_like_all_of_them() {
             * (span + velocity.length() + linear_acceleration.length());
         assert!((heights.least_height() - twin.least_height()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
-            let (bound, all) = (heights.bound(tau), twin.bound(tau));
+            let (bound, all) = (heights.bound_all(tau), twin.bound_all(tau));
             if piece.points.len() <= MAX_FEW {
                 continue;
             }
@@ -145,7 +145,7 @@ fn points_rise_and_sink_as_their_body_turns() {
             spin,
         };
         twin.check(&Heights::new(side, &piece, &frame, normal, clock));
-        many += usize::from(piece.ball().is_some());
+        many += usize::from(piece.bounding_ball().is_some());
     }
     assert!(many > 50, "{many}");
 }
@@ -203,7 +203,7 @@ impl Twin {
         assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
         assert_eq!(heights.few_tracks().is_some(), self.arms.len() <= MAX_FEW);
         for tau in [0.0, 0.1, 0.5, 1.0] {
-            let bound = heights.bound(tau);
+            let bound = heights.bound_all(tau);
             assert!(is(bound.height, self.least_height(tau, |p| p.height)));
             assert!(is(bound.rate, self.least_height(tau, |p| p.rate)));
             assert!(
@@ -228,7 +228,7 @@ impl Twin {
 
     /// Compares the largest descent by rotation with samples.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
-        let many = heights.piece.ball().is_some();
+        let many = heights.piece.bounding_ball().is_some();
         let Some(descent) = heights.descent_until(horizon) else {
             assert!(many);
             return;

@@ -69,7 +69,9 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .unwrap();
         assert_eq!(meter.stats.oracle_calls, 1);
         let kept = problem.gap();
         if checked.lower <= kept {

@@ -13,7 +13,7 @@ use crate::tuning::MIN_CUT_SHARE;
 
 impl Query<'_> {
     /// Returns the query for measuring distances, with a margin of 0.
-    pub(in crate::questions::along) fn measuring(&self) -> Self {
+    pub(in crate::questions::along) fn for_distances(&self) -> Self {
         Query {
             terms: Terms {
                 margin: 0.0,
@@ -32,7 +32,7 @@ impl Query<'_> {
             tolerance,
             budget,
         } = rung;
-        let mut asking = self.measuring();
+        let mut asking = self.for_distances();
         asking.terms = Terms {
             margin,
             tolerance,

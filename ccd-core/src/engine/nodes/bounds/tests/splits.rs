@@ -41,7 +41,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             let axis = widest(&self.pairs(level));
             Rows {
                 radius: *self.group.radius(level),
-                arms: *self.motion.other.arms(self.group.centre(level)),
+                arms: *self.motion.other.distances_from_centre(self.group.centre(level)),
                 split_reach: *axis.split_reach,
                 other_reach: *axis.other_reach,
                 gap: along.gap,
@@ -126,7 +126,7 @@ impl Rows {
         let (swept, past) = match motion.larger {
             None => (Some(false), Some(false)),
             Some(Larger::Split) => {
-                let arm = motion.split.arm(sample.other.centre());
+                let arm = motion.split.distance_from_centre(sample.other.centre());
                 let other_is_piece = self.pieces >> lane & 1 == 1;
                 (
                     swept(greater(fixed, free(2)), motion.split.rate, arm, radius),

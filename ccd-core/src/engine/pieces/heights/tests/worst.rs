@@ -68,7 +68,11 @@ fn share_of_rates(tape: &mut Tape) -> Option<f64> {
         let off = (Double::from(found.rate) - exact).get().abs();
         share(off, RATE_F64 * heights.speed())
     };
-    let shares = piece.points.iter().zip(heights.each(tau)).map(share_of);
+    let shares = piece
+        .points
+        .iter()
+        .zip(heights.points_at(tau))
+        .map(share_of);
     Some(shares.fold(f64::NEG_INFINITY, greater))
 }
 
@@ -139,7 +143,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
         centre: Double3::from(motion.centre()),
     };
     let heights = Heights::new(side, &piece, &frame, normal, clock);
-    let (middle, radius) = piece.ball()?;
+    let (middle, radius) = piece.bounding_ball()?;
     let farthest = length(frame.rotation * (middle - path.centre)) + radius;
     let allowed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     let n = Double3::from(normal);

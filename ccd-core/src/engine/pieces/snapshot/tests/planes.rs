@@ -52,17 +52,29 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     let problem = scene.problem();
     let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
     let mut meter = Meter::new(&problem);
-    assert!(snapshot.ask(&mut Exhaustive, &mut (), &mut meter).is_some());
+    assert!(
+        snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .is_some()
+    );
     assert_eq!(
         meter.stats.point_looks,
         ASSUMED_STEPS * snapshot.pieces.points()
     );
     let mut meter = Meter::new(&problem);
     let mut telling = Telling { steps: 7 };
-    assert!(snapshot.ask(&mut telling, &mut (), &mut meter).is_some());
+    assert!(
+        snapshot
+            .query_oracle(&mut telling, &mut (), &mut meter)
+            .is_some()
+    );
     assert_eq!(meter.stats.point_looks, ASSUMED_STEPS * 5);
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
-    assert!(snapshot.ask(&mut Silent, &mut (), &mut meter).is_none());
+    assert!(
+        snapshot
+            .query_oracle(&mut Silent, &mut (), &mut meter)
+            .is_none()
+    );
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
 }
 
@@ -82,7 +94,9 @@ fn the_plane_of_the_longest_time_counts() {
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .unwrap();
         let kept = problem.gap();
         if checked.lower <= kept {
             continue;
@@ -133,7 +147,9 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .unwrap();
         let kept = problem.gap();
         let plane = snapshot.plane_of_closest_approach(&checked, kept);
         check_passing(&snapshot, &checked, kept, plane.as_ref());
@@ -166,7 +182,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let allowed = (slack / free - rate) / (RATE_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
         let points = snapshot.pieces.points();
-        assert_eq!(snapshot.looks(), 2 * points);
+        assert_eq!(snapshot.evaluations(), 2 * points);
     }
 }
 
@@ -185,7 +201,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
         }
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
-        let (horizon, normal) = (snapshot.horizon(), direction(&mut rng));
+        let (horizon, normal) = (snapshot.time_left(), direction(&mut rng));
         let a = Heights::new(
             &problem.a,
             &snapshot.pieces.a,
@@ -334,7 +350,10 @@ fn depth_is_measured_between_the_middles_of_many_points() {
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let pair = &snapshot.pieces;
-        let [(from, large), (to, small)] = [pair.a.ball().unwrap(), pair.b.ball().unwrap()];
+        let [(from, large), (to, small)] = [
+            pair.a.bounding_ball().unwrap(),
+            pair.b.bounding_ball().unwrap(),
+        ];
         let placed = |p: DVec3| pair.b_to_a.point(p);
         let axis = (placed(to) - from).normalize();
         let heights = |p: DVec3| axis.dot(p);

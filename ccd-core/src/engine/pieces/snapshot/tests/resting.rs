@@ -86,7 +86,9 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
     let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
     let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
     let mut meter = Meter::new(&problem);
-    let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+    let checked = snapshot
+        .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+        .unwrap();
     let checked = sharpen(&snapshot.pieces, &checked, problem.rounding);
     let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
