@@ -165,7 +165,8 @@ impl<'a> Query<'a> {
     /// # Errors
     /// [`InputError::OutOfRange`] for
     /// - a negative duration, margin or clearance, and a tolerance that is not positive;
-    /// - quantities that exceed [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE) or [`MAX_TURN`](crate::limits::MAX_TURN): tolerance and
+    /// - quantities that exceed [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE) or
+    /// [`MAX_TURN`](crate::limits::MAX_TURN): tolerance and
     ///   margin; for motions each body's coordinates of the position at the start and of the centre, its
     ///   distance from B's position to the centre and on along its travel, and its turn;
     /// - along trajectories, a duration above [`MAX_DURATION`].

@@ -63,12 +63,12 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 /// - the turn adds 12 of a quaternion, which is 45 as an angle, and 9 of its size, which is at most
 ///   π: 73.
 ///
-/// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of `way`,
-/// the distance of the centres at the start and along their travel. If neither body turns, the 40 of axis,
-/// sine, cosine and sums fall away twice, in `R` and in the rotation into A's frame, and so do 28 of the turn
-/// (a turn between poses may be lost in rounding): 192 of the 300 are left, and 56 of the 96. The constant term covers coordinates so small that their squares underflow:
-/// a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far
-/// above. Without this allowance a touching pair could be certified apart.
+/// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of `way`, the distance of the
+/// centres at the start and along their travel. If neither body turns, the 40 of axis, sine, cosine and sums fall away
+/// twice, in `R` and in the rotation into A's frame, and so do 28 of the turn (a turn between poses may be lost in
+/// rounding): 192 of the 300 are left, and 56 of the 96. The constant term covers coordinates so small that their
+/// squares underflow: a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far above.
+/// Without this allowance a touching pair could be certified apart.
 pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     let [of_span, of_way] = match turns {
         [0.0, 0.0] => [192.0, 56.0],

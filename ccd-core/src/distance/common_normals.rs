@@ -63,8 +63,8 @@ impl CommonNormals {
         self.project_onto_cone(towards).or_else(others)
     }
 
-    /// Like [`CommonNormals::nearest_normal`], but returns `None` unless the vector `between` the two points is along the normal,
-    /// up to the slack.
+    /// Like [`CommonNormals::nearest_normal`], but returns `None` unless the vector `between` the two points is along
+    /// the normal, up to the slack.
     pub(crate) fn nearest_normal_along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
         let n = self.nearest_normal(towards)?;
         let ahead = n.dot(between);
@@ -87,8 +87,8 @@ impl CommonNormals {
         Some(best)
     }
 
-    /// Like [`CommonNormals::project_onto_cone`], with the result perpendicular to `level`, and for the first `count` offsets
-    /// only.
+    /// Like [`CommonNormals::project_onto_cone`], with the result perpendicular to `level`, and for the first `count`
+    /// offsets only.
     fn project_perpendicular(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
         let level = unit(level)?;
         let mut best = unit_if_distinct(towards - level * level.dot(towards))?;

@@ -3,8 +3,8 @@
 use crate::rounding::RATE_F64;
 use crate::tuning::MIN_NEWTON_GROWTH;
 
-/// A gap that decreases by at most `rate τ + second_derivative τ²/2` within a time `τ`. The second derivative `second_derivative` is negative if
-/// the bodies accelerate away from each other.
+/// A gap that decreases by at most `rate τ + second_derivative τ²/2` within a time `τ`. The second derivative
+/// `second_derivative` is negative if the bodies accelerate away from each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub(crate) gap: f64,

@@ -32,8 +32,8 @@ impl Track {
             + self.omega * (angle.cos * self.q - angle.sin * self.p)
     }
 
-    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `linear_rate` and `linear_acceleration`.
-    /// `end` is the rotation at `horizon`.
+    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `linear_rate` and
+    /// `linear_acceleration`. `end` is the rotation at `horizon`.
     pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
         let turn = self.omega * horizon;

@@ -4,8 +4,8 @@ use crate::math::lanes::splat;
 use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
 use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
-/// Returns the largest τ with `apart ≥ rate τ + second_derivative τ²/2`. It is 0 for NaN, and for a pair that is apart by at most
-/// `closed`, even if it recedes.
+/// Returns the largest τ with `apart ≥ rate τ + second_derivative τ²/2`. It is 0 for NaN, and for a pair that is apart
+/// by at most `closed`, even if it recedes.
 #[inline(always)]
 pub(crate) fn free_time<L: Simd>(
     apart: f32x8<L>,
@@ -22,7 +22,7 @@ pub(crate) fn free_time<L: Simd>(
     proven.select(tau, splat(apart.token(), 0.0))
 }
 
-/// Like `free_time`, for a second derivative `second_derivative` that may be negative: a gap that closes ever slower may never
+/// Like `free_time`, for a `second_derivative` that may be negative: a gap that closes ever slower may never
 /// close.
 #[inline(always)]
 pub(crate) fn free_time_decelerating<L: Simd>(
@@ -32,7 +32,7 @@ pub(crate) fn free_time_decelerating<L: Simd>(
     second_derivative: f32x8<L>,
 ) -> f32x8<L> {
     let level = apart.token();
-    let second_derivatives = free_time(apart, closed, rate, second_derivative.max(LEAST_BEND_F32));
+    let accelerating = free_time(apart, closed, rate, second_derivative.max(LEAST_BEND_F32));
     let (square, lost) = (rate * rate, second_derivative * -2.0 * apart);
     // A sum that is lost to rounding or to underflow counts as zero.
     let left = (square - lost) + (square + lost) * (16.0 * U32) + f32::MIN_POSITIVE;
@@ -43,9 +43,7 @@ pub(crate) fn free_time_decelerating<L: Simd>(
     let known = square.simd_le(f32::MAX) & lost.simd_le(f32::MAX);
     let proven = apart.simd_gt(closed) & known & rate.simd_le(f32::MAX);
     let parts = proven.select(parts, splat(level, 0.0));
-    second_derivative
-        .simd_lt(0.0)
-        .select(parts, second_derivatives)
+    second_derivative.simd_lt(0.0).select(parts, accelerating)
 }
 
 /// Like `free_time`, with a second derivative of 0.

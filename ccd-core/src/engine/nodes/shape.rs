@@ -40,8 +40,8 @@ pub(crate) trait OtherNode {
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.extent_along(n)
     }
-    /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads from
-    /// the given points to the node's centre.
+    /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads
+    /// from the given points to the node's centre.
     fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;

@@ -167,8 +167,8 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// Returns the largest descent of any point below [`Heights::least_height`] by rotation alone, up to `horizon`; `None` if
-    /// there are many points.
+    /// Returns the largest descent of any point below [`Heights::least_height`] by rotation alone, up to `horizon`;
+    /// `None` if there are many points.
     pub(crate) fn descent_until(&self, horizon: f64) -> Option<f64> {
         if self.piece.bounding_ball().is_some() {
             return None;

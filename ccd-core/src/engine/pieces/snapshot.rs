@@ -266,8 +266,8 @@ impl<'p> Snapshot<'p> {
         (slack > 0.0).then_some(Plane { normal, slack })
     }
 
-    /// Like [`Snapshot::fixed_axis_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is not
-    /// worth trying: the rotation of that body does not use up the slack within `free`.
+    /// Like [`Snapshot::fixed_axis_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
+    /// not worth trying: the rotation of that body does not use up the slack within `free`.
     pub(crate) fn turning_plane_time(
         &self,
         members: &[MovingPiece<'_>; 2],
@@ -372,12 +372,12 @@ impl<'p> Snapshot<'p> {
     /// slack. Without this test, the steps towards the time of closest approach become ever shorter.
     fn rotation_keeps_slack(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.time_left();
-        let linear_rate = least_linear_displacement(
+        let displacement = least_linear_displacement(
             a.linear_rate() + b.linear_rate(),
             a.linear_acceleration() + b.linear_acceleration(),
             horizon,
         );
-        let left = slack + linear_rate - RATE_F64 * (a.speed() + b.speed()) * horizon;
+        let left = slack + displacement - RATE_F64 * (a.speed() + b.speed()) * horizon;
         // Written so that NaN is not past.
         if (a.is_nonrotating() && b.is_nonrotating()) || !(left > 0.0) {
             return false;

@@ -200,13 +200,10 @@ fn the_sound_bound_holds_over_intervals() {
         for &arm in &arms {
             for k in 1..=32 {
                 let tau = f64::from(k) / 32.0;
-                let linear_displacement = height(&motion, n, 0.0, arm, tau);
+                let rise = height(&motion, n, 0.0, arm, tau);
                 let slack = 1e-13 * (1.0 + motion.linear.length() + motion.spin.length());
-                assert!(
-                    linear_displacement <= bound * tau + slack,
-                    "{linear_displacement} > {bound} × {tau}"
-                );
-                fastest = greater(fastest, linear_displacement / tau);
+                assert!(rise <= bound * tau + slack, "{rise} > {bound} × {tau}");
+                fastest = greater(fastest, rise / tau);
             }
         }
         beaten += usize::from(fastest > instant + 1e-9);

@@ -134,8 +134,8 @@ impl Profile {
             let tilt = axis.advance / distance;
             let rounding = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
             let reach = |sign: f64| {
-                let second_derivative = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
-                node.extent_along(sign * gradient) + second_derivative + rounding
+                let nonlinear = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
+                node.extent_along(sign * gradient) + nonlinear + rounding
             };
             profile.low[k] = at - reach(-1.0);
             profile.high[k] = at + reach(1.0);

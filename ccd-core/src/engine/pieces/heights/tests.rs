@@ -179,7 +179,7 @@ impl Twin {
             .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
     }
 
-    fn least_height(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+    fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
         let each = (0..self.arms.len()).map(|k| of(&self.point(k, tau)));
         each.fold(f64::INFINITY, lesser)
     }
@@ -195,28 +195,24 @@ impl Twin {
                 && is(heights.least_linear_acceleration(), linear_acceleration)
         );
         assert!(heights.least_linear_acceleration() <= heights.linear_acceleration());
-        assert!(is(
-            heights.least_height(),
-            self.least_height(0.0, |p| p.height)
-        ));
+        assert!(is(heights.least_height(), self.least_of(0.0, |p| p.height)));
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
         assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
         assert_eq!(heights.few_tracks().is_some(), self.arms.len() <= MAX_FEW);
         for tau in [0.0, 0.1, 0.5, 1.0] {
             let bound = heights.bound_all(tau);
-            assert!(is(bound.height, self.least_height(tau, |p| p.height)));
-            assert!(is(bound.rate, self.least_height(tau, |p| p.rate)));
+            assert!(is(bound.height, self.least_of(tau, |p| p.height)));
+            assert!(is(bound.rate, self.least_of(tau, |p| p.rate)));
             assert!(
-                -bound.second_derivative
-                    <= self.least_height(tau, |p| -p.second_derivative) + 1e-12
+                -bound.second_derivative <= self.least_of(tau, |p| -p.second_derivative) + 1e-12
             );
             let both = |p: &Point| p.height + p.rate;
             let least = heights.least_of(tau, both);
-            assert!(least <= self.least_height(tau, both) + 1e-11 * (1.0 + rate * rate));
+            assert!(least <= self.least_of(tau, both) + 1e-11 * (1.0 + rate * rate));
             let Some(few) = heights.few_tracks() else {
                 continue;
             };
-            assert!(is(least, self.least_height(tau, both)));
+            assert!(is(least, self.least_of(tau, both)));
             for (k, point) in few.at(heights.angle(tau), tau).into_iter().enumerate() {
                 // The last point is repeated.
                 let twin = self.point(lesser(k as u32, self.arms.len() as u32 - 1) as usize, tau);
@@ -236,9 +232,9 @@ impl Twin {
         assert!(!many);
         let samples = (0..=1_000).map(|k| horizon * f64::from(k) / 1e3);
         let lowest = samples
-            .map(|tau| self.least_height(tau, |p| p.height) - self.linear_rate(tau))
+            .map(|tau| self.least_of(tau, |p| p.height) - self.linear_rate(tau))
             .fold(f64::INFINITY, lesser);
-        let sampled = self.least_height(0.0, |p| p.height) - lowest;
+        let sampled = self.least_of(0.0, |p| p.height) - lowest;
         assert!(
             (-1e-12..1e-3).contains(&(descent - sampled)),
             "{descent} {sampled}"

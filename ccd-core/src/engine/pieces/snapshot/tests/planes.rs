@@ -224,8 +224,8 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             counts[0] += 1;
             continue;
         };
-        let linear_rate = (a.linear_rate() + b.linear_rate()) * horizon;
-        let needed = descents.0 + descents.1 - lesser(0.0, linear_rate);
+        let displacement = (a.linear_rate() + b.linear_rate()) * horizon;
+        let needed = descents.0 + descents.1 - lesser(0.0, displacement);
         let allowance = RATE_F64 * (a.speed() + b.speed()) * horizon;
         let (mut low, mut high) = (0.0, 2.0 * (needed + allowance));
         assert!(!passes(low) && passes(high));
