@@ -110,7 +110,7 @@ impl Body {
         hierarchy: &Hierarchy,
         volume: Volume,
     ) -> Result<Self, InputError> {
-        let (layout, pieces) = Layout::of(pieces, hierarchy)?;
+        let (layout, pieces) = Layout::from_hierarchy(pieces, hierarchy)?;
         let (shells, tree) = join(
             pieces.len(),
             || shells(&pieces),

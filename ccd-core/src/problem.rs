@@ -24,7 +24,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) a: Side<'a>,
     pub(crate) b: Side<'a>,
     /// The time of the motions at clock 0; not 0 if the problem is a part of another one.
-    begin: f64,
+    start_time: f64,
     duration: f64,
     /// The origin of the problem's coordinates in the world, near both bodies.
     origin: DVec3,
@@ -131,7 +131,7 @@ impl<'a> Problem<'a> {
         Ok(Problem {
             a,
             b,
-            begin: 0.0,
+            start_time: 0.0,
             duration,
             origin,
             tolerance: greater(terms.tolerance, rounding::least_tolerance(rounding)),
@@ -157,7 +157,7 @@ impl<'a> Problem<'a> {
     /// Returns the distance by which the caller's bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
         let given = |side: &Side<'a>| side.given.unwrap_or(side.body);
-        Excess::of(given(&self.a), given(&self.b))
+        Excess::of_bodies(given(&self.a), given(&self.b))
     }
 
     /// Returns whether the query uses a shortcut.
@@ -192,7 +192,7 @@ impl<'a> Problem<'a> {
     /// Converts a time of the motions to a clock, up to rounding.
     pub(crate) fn clock(&self, time: f64) -> f64 {
         if self.duration > 0.0 {
-            (time - self.begin) / self.duration
+            (time - self.start_time) / self.duration
         } else {
             0.0
         }
@@ -283,7 +283,7 @@ impl<'a> Problem<'a> {
         Problem {
             a: of(&self.a),
             b: of(&self.b),
-            begin: self.time(from),
+            start_time: self.time(from),
             // The duration is rounded down, so that no time is late.
             duration: self.duration * (to - from) * (1.0 - rounding::RATE_F64),
             margin: (self.margin + raised).next_up(),
@@ -305,9 +305,12 @@ impl<'a> Problem<'a> {
     /// Converts a clock to a time of the motions, rounded so that it is never late.
     pub(crate) fn time(&self, s: f64) -> f64 {
         if s >= 1.0 {
-            self.begin + self.duration
+            self.start_time + self.duration
         } else {
-            greater(self.begin, (self.begin + s * self.duration).next_down())
+            greater(
+                self.start_time,
+                (self.start_time + s * self.duration).next_down(),
+            )
         }
     }
 

@@ -288,6 +288,6 @@ impl<'a> Query<'a> {
 
     /// Returns the distance by which the two bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
-        Excess::of(self.a.body, self.b.body)
+        Excess::of_bodies(self.a.body, self.b.body)
     }
 }

@@ -4,7 +4,7 @@ use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::polytope::{Polytope, unit};
 use crate::tolerance::{CERTIFIED_EXCESS, MAX_AXIS_EDGES, RELATIVE_CERTIFIED_EXCESS};
-use crate::witness::{Witness, across};
+use crate::witness::{Witness, perpendicular_part};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
@@ -98,13 +98,16 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
             .copied()
             .for_each(&mut offer);
         for &edge in &around.edges {
-            offer(across(offset, edge));
+            offer(perpendicular_part(offset, edge));
             offer(edge);
         }
     }
     for one in &around_a.edges {
         for other in &around_b.edges {
-            offer(across(across(one.cross(*other), *one), *other));
+            offer(perpendicular_part(
+                perpendicular_part(one.cross(*other), *one),
+                *other,
+            ));
         }
     }
     best

@@ -122,7 +122,7 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
         if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
             return try_certify(placed, pair, &witness, axis.direction);
         }
-        match neighbourhood::nearer(placed, pair, distance) {
+        match neighbourhood::nearer_pair(placed, pair, distance) {
             Some(nearer) => pair = nearer,
             // No pair is nearer: only the axis is uncertain.
             None if axis.gap >= 0.5 * distance => {

@@ -3,7 +3,7 @@
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Which};
-use crate::placed::{Line, Placed, Scale, clamped};
+use crate::placed::{Line, Placed, Scale, clamp};
 use crate::polytope::Edge;
 use crate::tolerance::{PARALLEL_SINE, PRODUCT_ERROR};
 use crate::vertex_edge::face_towards_point;
@@ -35,12 +35,12 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     }
     let facing = NearestVector::new(&near, offset, scale);
     let slope_x = x.inward(edge_x, facing.axis);
-    if let Some(side) = facing.side(x, edge_x, slope_x) {
+    if let Some(side) = facing.face_side(x, edge_x, slope_x) {
         return side.next_pair(Feature::Edge(f), points[1]);
     }
     let facing = facing.reversed();
     let slope_y = y.inward(edge_y, facing.axis);
-    if let Some(side) = facing.side(y, edge_y, slope_y) {
+    if let Some(side) = facing.face_side(y, edge_y, slope_y) {
         return side.next_pair(Feature::Edge(e), points[0]).swapped();
     }
     let clear = edge_x.is_clear(slope_x, facing.slack) && edge_y.is_clear(slope_y, facing.slack);
@@ -82,12 +82,12 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> NearestPoints {
     let between = other.start - one.start;
     let square = across.length_squared();
     let s = if square > PARALLEL_SINE * PARALLEL_SINE {
-        clamped(between.cross(other.along).dot(across) / square, one.length)
+        clamp(between.cross(other.along).dot(across) / square, one.length)
     } else {
         clip::middle_of_overlap(one, other)
     };
     let free = (one.at(s) - other.start).dot(other.along);
-    let t = clamped(free, other.length);
+    let t = clamp(free, other.length);
     // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {
         s
@@ -146,7 +146,7 @@ impl NearestVector {
     /// Returns the face of an edge on whose side the other point is; of two, the face with the larger height of the
     /// point.
     #[inline(always)]
-    fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
+    fn face_side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
         let inward = slopes.map(|slope| slope - self.slack);
         let face = face_towards_point(p, edge.faces, inward, self.offset)?;
         let is_above = || p.vector(p.shape().face(face).normal).dot(self.offset) > 0.0;

@@ -12,7 +12,7 @@ use ccd_core::glam::DVec3;
 /// Every local minimum of the distance of convex sets is global: if no neighbouring pair is nearer, no pair is. Unlike
 /// a march, this does not compare directions of decreasing distance, which are rounding at a tie, but distances, which
 /// are accurate.
-pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
+pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
     let (a, b) = (
         SurroundingFeatures::new(&placed.a, pair.a),
         SurroundingFeatures::new(&placed.b, pair.b),

@@ -125,13 +125,13 @@ impl Line {
     /// Returns the parameter of the edge's point that is nearest to a given point.
     #[inline(always)]
     pub(crate) fn nearest(&self, point: DVec3) -> f64 {
-        clamped((point - self.start).dot(self.along), self.length)
+        clamp((point - self.start).dot(self.along), self.length)
     }
 }
 
 /// Clamps a parameter to [0, length]; NaN becomes 0.
 #[inline(always)]
-pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
+pub(crate) fn clamp(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)
 }
 

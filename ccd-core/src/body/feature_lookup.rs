@@ -30,7 +30,7 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     if let [v] = *support {
         return MeshFeature::Vertex(v);
     }
-    let near = match (FacetsByCorner::of(piece), support.first()) {
+    let near = match (FacetsByCorner::for_piece(piece), support.first()) {
         (Some(by_corner), Some(&corner)) => Some(by_corner.at(corner)),
         _ => None,
     };
@@ -64,7 +64,7 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
 
 /// Returns whether the piece has any faces of the mesh.
 fn is_on_mesh(piece: &Piece<'_>) -> bool {
-    match FacetsByCorner::of(piece) {
+    match FacetsByCorner::for_piece(piece) {
         Some(by_corner) => by_corner.is_on_mesh,
         None => piece.mesh_triangles().next().is_some(),
     }
@@ -81,7 +81,7 @@ struct FacetsByCorner {
 impl FacetsByCorner {
     /// Returns the table of a piece of many facets, created once and stored. Returns `None` for a piece of few facets,
     /// or one that belongs to no list.
-    fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
+    fn for_piece<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > CLIMBED_POINTS;
         let kept = many.then(|| piece.cached(|piece| Box::new(FacetsByCorner::new(piece))))?;
         kept.map(|kept| &**kept)
@@ -109,7 +109,7 @@ impl FacetsByCorner {
 
 /// Builds the table of a piece in advance, so that no query waits for it.
 pub(crate) fn prepare(piece: &Piece<'_>) {
-    FacetsByCorner::of(piece);
+    FacetsByCorner::for_piece(piece);
 }
 
 /// Returns the face of the mesh that contains a point, up to rounding.

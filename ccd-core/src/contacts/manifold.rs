@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use super::closest::{Part, nearest_on_crossing_edges, nearest_on_triangle};
 use super::feature_pair::FeaturePair;
 use super::measure::measure;
-use super::skin::{Skin, Spot, edge};
+use super::skin::{Skin, Spot, triangle_edge};
 use super::surface::Surface;
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
@@ -142,7 +142,7 @@ fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
     let corners = skin.face(face).corners;
     match part {
         Part::Corner(k) => Spot::Corner(corners[k]),
-        Part::Edge(k) => Spot::Edge(edge(corners, k)),
+        Part::Edge(k) => Spot::Edge(triangle_edge(corners, k)),
         Part::Inside => Spot::Face(face),
     }
 }

@@ -92,7 +92,7 @@ impl<'a> Skin<'a> {
             if let Feature::Face(_) = name {
                 self.first_triangle_of.entry(*name).or_insert(face);
             }
-            for ends in edges(*corners) {
+            for ends in triangle_edges(*corners) {
                 let sides = sides.entry(ends).or_default();
                 if let Some(side) = sides.faces.get_mut(sides.count) {
                     *side = face;
@@ -102,7 +102,7 @@ impl<'a> Skin<'a> {
         }
         self.is_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
         // Segments and points are not within a plane.
-        let thin = |face: &&Face| edges(face.corners).count() < 3;
+        let thin = |face: &&Face| triangle_edges(face.corners).count() < 3;
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
             self.is_hidden[corner as usize] = false;
         }
@@ -208,7 +208,8 @@ impl<'a> Skin<'a> {
             Spot::Face(face) => {
                 let corners = self.face(face).corners;
                 let ends = corners.into_iter().map(Spot::Corner);
-                ends.chain(edges(corners).map(Spot::Edge)).collect()
+                ends.chain(triangle_edges(corners).map(Spot::Edge))
+                    .collect()
             }
         }
     }
@@ -261,7 +262,8 @@ impl<'a> Skin<'a> {
 
     /// Returns the edges of a face, except those between coplanar faces.
     pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
-        edges(self.face(face).corners).filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
+        triangle_edges(self.face(face).corners)
+            .filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
     }
 
     /// Returns the face to which points on an edge between coplanar faces belong; `None` for other edges.
@@ -333,14 +335,14 @@ struct Sides {
 }
 
 /// Returns the edges of a triangle, the smaller end first, each once. A segment has one edge, a point none.
-pub(super) fn edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
-    let ends = move |k: usize| edge(corners, k);
+pub(super) fn triangle_edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
+    let ends = move |k: usize| triangle_edge(corners, k);
     let proper = move |&k: &usize| ends(k)[0] != ends(k)[1] && !(0..k).any(|j| ends(j) == ends(k));
     (0..3).filter(proper).map(ends)
 }
 
 /// Returns the edge of a triangle from one of its corners to the next.
-pub(super) fn edge(corners: [u32; 3], k: usize) -> [u32; 2] {
+pub(super) fn triangle_edge(corners: [u32; 3], k: usize) -> [u32; 2] {
     let (v, w) = (corners[k], corners[(k + 1) % 3]);
     [v.min(w), v.max(w)]
 }

@@ -96,7 +96,9 @@ pub(crate) fn problem_after_start_contact<'a, O: DistanceOracle>(
             let contact =
                 contact_for_given_bodies(problem, oracle, meter, *contact, within, at_start);
             let gap = contact.separation.lower - problem.margin;
-            Some(problem.ignoring_start_contact(gap, TouchingPlane::of(problem, &contact)))
+            Some(
+                problem.ignoring_start_contact(gap, TouchingPlane::from_contact(problem, &contact)),
+            )
         }
         _ => None,
     }

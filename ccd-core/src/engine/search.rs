@@ -149,7 +149,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
                 return ControlFlow::Continue(());
             }
             Item::Siblings(siblings) => {
-                if let Some((clock, alone)) = look.part(problem, siblings, s) {
+                if let Some((clock, alone)) = look.remove_if_provable(problem, siblings, s) {
                     let rest = siblings.clock();
                     let waits = self.requeue(rest, (clock, Item::Siblings(alone)));
                     return unless_full(waits, problem, question, s);
@@ -162,7 +162,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             Next::Split(split) => {
                 let expansion = expand(common, &split, s);
                 let mut siblings = Siblings::new(&expansion, split, s);
-                look.finish(problem, &split, s, &mut siblings, meter);
+                look.finish_proven(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))
             }
             Next::Measure(a, b) => {

@@ -53,8 +53,8 @@ fn measure_at_start<O: DistanceOracle>(
     let mut nearest = Nearest::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
         Some(SearchEnd::Overlap(_, contact)) => Some(overlap_outcome(contact)),
-        Some(SearchEnd::Limit(limit)) => Some(unresolved(limit)),
-        None if nearest.undecided => Some(unresolved(Limit::Undecided)),
+        Some(SearchEnd::Limit(limit)) => Some(unresolved_outcome(limit)),
+        None if nearest.undecided => Some(unresolved_outcome(Limit::Undecided)),
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
             let (pairs, pieces) = lists.touching();
@@ -85,7 +85,7 @@ pub(crate) fn overlap_outcome(contact: Contact) -> Outcome {
     Outcome::overlapping(Overlap::Pieces(contact))
 }
 
-fn unresolved(reason: Limit) -> Outcome {
+fn unresolved_outcome(reason: Limit) -> Outcome {
     Outcome::unresolved(0.0, reason)
 }
 

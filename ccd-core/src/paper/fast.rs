@@ -86,7 +86,7 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
     }
 
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let Some(hulls) = HullPair::of(problem) else {
+        let Some(hulls) = HullPair::for_problem(problem) else {
             return self.without_trees.solve(problem, oracle);
         };
         self.reaches.invalidate();

@@ -43,7 +43,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             answer_in_any_order(problem, oracle, &mut scratch, |problem, oracle, meter| {
                 in_rounds(problem, meter, |problem, meter| {
                     self.stack.clear();
-                    let outcome = self.contact(problem, oracle, meter);
+                    let outcome = self.contact_outcome(problem, oracle, meter);
                     let stats = &mut meter.stats;
                     stats.peak_front = stats.peak_front.max(self.stack.peak());
                     outcome
@@ -51,10 +51,15 @@ impl<O: DistanceOracle> DepthFirst<O> {
             });
         self.stack.clear();
         self.scratch = scratch;
-        any(answer)
+        start_contact_as_any(answer)
     }
 
-    fn contact(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
+    fn contact_outcome(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Outcome {
         if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
@@ -76,7 +81,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// Converts an answer to one in which a contact at the start counts like any other contact.
-pub(crate) fn any(answer: Answer) -> Answer {
+pub(crate) fn start_contact_as_any(answer: Answer) -> Answer {
     let outcome = match answer.outcome {
         Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
         outcome => outcome,
@@ -101,7 +106,7 @@ impl Any {
         ControlFlow::Continue(f64::INFINITY)
     }
 
-    fn unresolved(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
+    fn unresolved_outcome(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
         let stuck = self.stuck.map_or(f64::INFINITY, |(first, _)| first);
         Outcome::unresolved(problem.time(lesser(s, stuck)), reason)
     }
@@ -132,12 +137,12 @@ impl<O: DistanceOracle> Question<O> for Any {
     }
 
     fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Outcome {
-        self.unresolved(problem, s, limit)
+        self.unresolved_outcome(problem, s, limit)
     }
 
     fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
         match self.stuck {
-            Some((s, limit)) => self.unresolved(problem, s, limit),
+            Some((s, limit)) => self.unresolved_outcome(problem, s, limit),
             None => self.proven.finish(problem),
         }
     }

@@ -68,7 +68,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let found = answer.found;
         Answer {
             outcome: found
-                .unwrap_or_else(|Beyond { lower }| unresolved(lower, Limit::OracleGaveUp)),
+                .unwrap_or_else(|Beyond { lower }| unresolved_outcome(lower, Limit::OracleGaveUp)),
             tolerance: answer.tolerance,
             stats: answer.stats,
         }
@@ -115,7 +115,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut scratch = self.scratch.take();
         let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
             let problem = problem.for_distances();
-            let found = match Sample::of(&problem) {
+            let found = match Sample::for_problem(&problem) {
                 Some(sample) => {
                     let found = self.search_least_distance(&sample.part, beyond, oracle, meter);
                     at_all_times(&sample, found)
@@ -176,7 +176,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             meter,
         };
         if search.push_roots(problem).is_err() {
-            return Ok(nearing.unresolved(problem, Limit::Budget));
+            return Ok(nearing.unresolved_outcome(problem, Limit::Budget));
         }
         // Pairs that keep the least distance also keep any smaller one.
         loop {
@@ -253,7 +253,7 @@ fn distance_at_rest<O: DistanceOracle>(
         }
         Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
         Some(Outcome::Unresolved(known)) => {
-            unresolved(greater(0.0, least_distance(problem)), known.limit)
+            unresolved_outcome(greater(0.0, least_distance(problem)), known.limit)
         }
         _ => return Err(Beyond { lower: beyond }),
     })
@@ -280,7 +280,7 @@ fn moves(problem: &Problem<'_>) -> bool {
     problem.a.path.moves() || problem.b.path.moves()
 }
 
-fn unresolved(lower: f64, limit: Limit) -> Outcome {
+fn unresolved_outcome(lower: f64, limit: Limit) -> Outcome {
     Outcome::Unresolved(Unresolved::least(lower, None, limit))
 }
 

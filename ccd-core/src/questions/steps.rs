@@ -277,7 +277,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
 }
 
 fn first_part<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
-    let rounds = Rounds::of(problem)?;
+    let rounds = Rounds::for_problem(problem)?;
     let part = rounds.between_clocks();
     Some((rounds, part))
 }

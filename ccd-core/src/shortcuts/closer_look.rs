@@ -36,7 +36,7 @@ impl CloserLook {
     /// Removes the pair with the least clock `s` from its siblings, if a later clock can be proven for it. Returns that
     /// clock and the pair, which then waits alone.
     #[inline(always)]
-    pub(crate) fn part(
+    pub(crate) fn remove_if_provable(
         &self,
         problem: &Problem<'_>,
         siblings: &mut Siblings,
@@ -51,7 +51,7 @@ impl CloserLook {
 
     /// Marks the pairs of a new split that are proven apart to the end as finished.
     #[inline(always)]
-    pub(crate) fn finish(
+    pub(crate) fn finish_proven(
         &mut self,
         problem: &Problem<'_>,
         split: &Split,
@@ -75,7 +75,7 @@ impl CloserLook {
         meter: &mut Meter,
     ) {
         if self.splits == SPLITS_BEFORE_SCREW && problem.uses(Shortcut::Screw) {
-            self.screw = Screw::of(problem, &mut meter.scratch_memory().profiles);
+            self.screw = Screw::for_problem(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw

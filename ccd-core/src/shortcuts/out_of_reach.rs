@@ -21,7 +21,7 @@ pub(crate) fn out_of_reach(problem: &Problem<'_>) -> bool {
 
 /// Returns a lower bound of the distance of the bodies at all times, by bounding balls; negative if the balls meet.
 pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
-    let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
+    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
     let distance =
         least_length(b.centre - a.centre, b.velocity - a.velocity) - deviation_from_line(problem);
     // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
@@ -37,7 +37,7 @@ fn deviation_from_line(problem: &Problem<'_>) -> f64 {
 
 /// Returns the clock at which the bounding balls are nearest to each other.
 pub(crate) fn nearest_clock(problem: &Problem<'_>) -> f64 {
-    let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
+    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
     least_at(b.centre - a.centre, b.velocity - a.velocity)
 }
 
@@ -50,7 +50,7 @@ struct Ball {
 }
 
 impl Ball {
-    fn of(side: &Side<'_>) -> Self {
+    fn around_body(side: &Side<'_>) -> Self {
         let (centre, radius) = side.body.tree().bounding_ball();
         let path = &side.path;
         // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.

@@ -28,7 +28,7 @@ pub(crate) fn in_rounds(
     meter: &mut Meter,
     mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
 ) -> Outcome {
-    let Some(mut rounds) = Rounds::of(problem) else {
+    let Some(mut rounds) = Rounds::for_problem(problem) else {
         return search(problem, meter);
     };
     loop {
@@ -68,7 +68,7 @@ enum Round {
 impl<'a> Rounds<'a> {
     /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
     #[inline]
-    pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
+    pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         if turns_many_times(problem) && free_by_bounding_volumes(problem).is_none() {
             Rounds::of_many_turns(problem)
         } else {
@@ -86,7 +86,7 @@ impl<'a> Rounds<'a> {
             return None;
         }
         let tolerance = problem.tolerance;
-        let bodies = [&problem.a, &problem.b].map(reaching);
+        let bodies = [&problem.a, &problem.b].map(with_reach);
         let [a, b] = bodies.map(|PathWithReach { path, reach }| {
             let way = length(path.centre_at(0.0)) + path.speed();
             place_rounding(reach, path.rate, way)
@@ -262,7 +262,7 @@ pub(crate) struct Sample<'a> {
 impl<'a> Sample<'a> {
     /// Returns the first period if all others are equal to it, up to a part of the tolerance; `None` otherwise.
     #[inline]
-    pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
+    pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         if turns_many_times(problem) {
             Sample::of_many_turns(problem)
         } else {
@@ -308,7 +308,7 @@ fn widened(contact: Contact, rounding: f64) -> Contact {
     }
 }
 
-fn reaching<'p>(side: &'p Side<'_>) -> PathWithReach<'p> {
+fn with_reach<'p>(side: &'p Side<'_>) -> PathWithReach<'p> {
     let (centre, radius) = side.body.tree().bounding_ball();
     PathWithReach {
         path: &side.path,

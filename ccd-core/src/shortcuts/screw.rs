@@ -51,7 +51,7 @@ const NONE: u32 = u32::MAX - 1;
 impl Screw {
     /// Returns the screw motion of the problem, and clears all profiles; `None` unless one body turns, and the axis
     /// hardly moves relative to the other.
-    pub(crate) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
+    pub(crate) fn for_problem(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
         let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
             (true, false) => Which::A,
             (false, true) => Which::B,
@@ -127,8 +127,8 @@ impl Screw {
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
-        let a = of_a.of(&problem.a, a, &self.axis)?;
-        let b = of_b.of(&problem.b, b, &self.axis)?;
+        let a = of_a.profile_of(&problem.a, a, &self.axis)?;
+        let b = of_b.profile_of(&problem.b, b, &self.axis)?;
         let (turning, still) = match self.turning {
             Which::A => (a, b),
             Which::B => (b, a),
@@ -151,7 +151,7 @@ impl BodyProfiles {
     }
 
     /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly does.
-    fn of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
+    fn profile_of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
         let place = &mut self.profile_indices[id as usize];
         if *place == UNKNOWN {
             *place = match profile(side, id, axis) {

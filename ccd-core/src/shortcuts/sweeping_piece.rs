@@ -58,7 +58,7 @@ pub(crate) struct SweepingPiece<'p> {
     /// The plane's normal `n`, which turns at `ω`.
     normal: RotatingVector,
     unit: DVec3,
-    omega: f64,
+    angular_speed: f64,
     /// The vector `D` at the present time.
     offset: DVec3,
     velocity: DVec3,
@@ -67,7 +67,7 @@ pub(crate) struct SweepingPiece<'p> {
     acceleration: DVec3,
     /// The direction of the angular velocity `ω_s` of the piece's own body.
     own_axis: DVec3,
-    own_omega: f64,
+    own_angular_speed: f64,
     /// The relative angular velocity `Δ`.
     relative: DVec3,
     piece: Piece<'p>,
@@ -116,13 +116,13 @@ impl<'p> SweepingPiece<'p> {
         SweepingPiece {
             normal: RotatingVector::new(path.axis, normal),
             unit: path.axis,
-            omega: path.rate,
+            angular_speed: path.rate,
             offset,
             velocity,
             speed,
             acceleration,
             own_axis: own.axis,
-            own_omega: own.rate,
+            own_angular_speed: own.rate,
             relative: path.spin - own.spin,
             piece: other.piece,
             frame: other.frame,
@@ -169,9 +169,10 @@ impl<'p> SweepingPiece<'p> {
 
     /// Returns bounds of the rounding of height changes, and of rates.
     fn allowances(&self) -> (f64, f64) {
-        let turns = self.omega + self.own_omega;
+        let turns = self.angular_speed + self.own_angular_speed;
         let rounding = attached_rounding(turns);
-        let fastest = self.omega * self.reach + self.speed + self.own_omega * self.radius;
+        let fastest =
+            self.angular_speed * self.reach + self.speed + self.own_angular_speed * self.radius;
         (
             2.0 * self.rounding_displacement + rounding * self.reach,
             turns * self.rounding_displacement + rounding * fastest,
@@ -201,11 +202,11 @@ impl<'p> SweepingPiece<'p> {
     }
 
     fn turned(&self, tau: f64) -> Turned {
-        let angle = Angle::new(self.omega * tau);
-        let own = Angle::new(self.own_omega * tau);
+        let angle = Angle::new(self.angular_speed * tau);
+        let own = Angle::new(self.own_angular_speed * tau);
         let axis = self.normal.at(angle);
         let (offset, velocity) = self.offset_and_velocity_after(tau);
-        let turning = self.normal.derivative_at(angle) * self.omega;
+        let turning = self.normal.derivative_at(angle) * self.angular_speed;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
             let turned = RotatingVector::new(-self.own_axis, v).at(own);
@@ -232,11 +233,12 @@ impl<'p> SweepingPiece<'p> {
     fn second_derivative(&self, tau: f64) -> f64 {
         let (offset, _) = self.offset_and_velocity_after(tau);
         let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
-        let across = self.omega * (self.normal.derivative_length() + RATE_F64);
-        let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
+        let across = self.angular_speed * (self.normal.derivative_length() + RATE_F64);
+        let relative =
+            self.relative.length() + RATE_F64 * (self.angular_speed + self.own_angular_speed);
         let second_derivative = across
-            * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
-            + relative * (across + self.own_omega) * self.radius
+            * (self.angular_speed * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
+            + relative * (across + self.own_angular_speed) * self.radius
             + self.acceleration.length();
         second_derivative * (1.0 + RATE_F64)
     }

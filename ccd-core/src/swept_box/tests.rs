@@ -33,7 +33,10 @@ fn points_stay_in_their_box() {
                 let pieces = scene.bodies[k].pieces();
                 for x in (0..pieces.len()).flat_map(|piece| pieces.triangle(piece)) {
                     let point = frame.point(x);
-                    (low, high) = (least(low, point), most(high, point));
+                    (low, high) = (
+                        componentwise_min(low, point),
+                        componentwise_max(high, point),
+                    );
                 }
             }
             assert!(swept.min.cmple(low).all() && swept.max.cmpge(high).all());
@@ -71,7 +74,10 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
             let pieces = body.pieces();
             for x in (0..pieces.len()).flat_map(|piece| pieces.triangle(piece)) {
                 let point = pose.transform_point(x);
-                (low, high) = (least(low, point), most(high, point));
+                (low, high) = (
+                    componentwise_min(low, point),
+                    componentwise_max(high, point),
+                );
             }
         }
         assert!(swept.min.cmple(low).all() && swept.max.cmpge(high).all());

@@ -26,7 +26,7 @@ impl Polytope {
         }
         let largest = points.iter().map(|p| p.abs().max_element());
         let rounding = COPLANAR_DISTANCE * largest.fold(0.0, greater);
-        let ends = match spread(points, rounding) {
+        let ends = match classify_spread(points, rounding) {
             Spread::Point => return Ok(Self::assembled(points, &[0], &[])),
             Spread::Line(ends) => return Ok(Self::assembled(points, &ends, &[])),
             Spread::Wide(ends) => ends,
@@ -63,7 +63,7 @@ enum Spread {
 }
 
 /// Classifies points: within `rounding` of one point or of one line, or more.
-fn spread(points: &[DVec3], rounding: f64) -> Spread {
+fn classify_spread(points: &[DVec3], rounding: f64) -> Spread {
     let farthest = |from: DVec3| {
         let distances = points.iter().map(|p| p.distance(from)).zip(0..);
         distances.fold(

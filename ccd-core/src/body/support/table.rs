@@ -49,7 +49,7 @@ impl SupportTable {
             starts: [first; DIRECTIONS],
         };
         let mut at = first;
-        for (number, direction) in directions::all().enumerate() {
+        for (number, direction) in directions::all_directions().enumerate() {
             at = table.climb(at, direction);
             table.starts[number] = at;
         }
@@ -63,7 +63,10 @@ impl SupportTable {
     /// the hull.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
-        self.climb(self.starts[directions::nearest(direction)], direction)
+        self.climb(
+            self.starts[directions::nearest_direction(direction)],
+            direction,
+        )
     }
 
     /// Like `SupportTable::extremal`, but starts at a given corner, such as the last answer. If that corner is on no

@@ -20,7 +20,7 @@ pub(crate) struct Layout {
 }
 
 /// Returns the largest distance of a point from the origin, rounding radii included.
-fn span(pieces: &Pieces) -> f64 {
+fn max_point_distance(pieces: &Pieces) -> f64 {
     let farthest = |points: &[DVec3]| longest_length(points.iter().copied());
     if pieces.all_triangles() {
         return farthest(pieces.points());
@@ -105,7 +105,10 @@ impl Layout {
     ///
     /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
     /// triangles, or one piece of another kind.
-    pub(crate) fn of(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Self, Pieces), InputError> {
+    pub(crate) fn from_hierarchy(
+        pieces: &Pieces,
+        hierarchy: &Hierarchy,
+    ) -> Result<(Self, Pieces), InputError> {
         let ranges = PieceRanges::new(hierarchy, pieces.len())?;
         let layout = Layout::build_layout(hierarchy, &ranges, pieces.all_triangles());
         Ok((layout, pieces.reordered(&ranges.order)))
@@ -194,7 +197,7 @@ impl Layout {
             nodes,
             boxes,
             triangles,
-            span: span(pieces),
+            span: max_point_distance(pieces),
         }
     }
 }

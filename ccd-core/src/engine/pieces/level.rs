@@ -22,7 +22,7 @@ pub(crate) struct PlaneContact {
 impl TouchingPlane {
     /// Creates the plane perpendicular to the normal of a contact at the start; `None` if the bodies may overlap along
     /// it.
-    pub(crate) fn of(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
+    pub(crate) fn from_contact(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
         let normal = contact.separation.normal;
         let given = problem.with_given_bodies();
         let problem = given.as_ref().unwrap_or(problem);

@@ -36,11 +36,11 @@ pub(crate) struct Snapshot<'p> {
 impl<'p> Snapshot<'p> {
     /// Creates the snapshot of piece `a` of A and piece `b` of B at a clock.
     pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
-        Snapshot::of(problem, problem.pieces([a, b]), clock)
+        Snapshot::of_pieces(problem, problem.pieces([a, b]), clock)
     }
 
     /// Creates the snapshot of any two convex pieces, of A and of B, at a clock.
-    pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
+    pub(crate) fn of_pieces(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
         Snapshot {

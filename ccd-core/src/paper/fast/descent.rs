@@ -53,7 +53,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        let snapshot = Snapshot::of(self.problem, self.hulls.hulls([0, 0]), s);
+        let snapshot = Snapshot::of_pieces(self.problem, self.hulls.hulls([0, 0]), s);
         let mut found = Found {
             distance: f64::INFINITY,
             contact: None,
@@ -187,7 +187,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         if let Step::Contact(contact) = step
             && s > 0.0
         {
-            found.touch(contact);
+            found.in_contact(contact);
             return ControlFlow::Continue(());
         }
         node.clock = self
@@ -242,7 +242,7 @@ impl<C> Node<C> {
 }
 
 impl Found {
-    fn touch(&mut self, contact: Contact) {
+    fn in_contact(&mut self, contact: Contact) {
         let separation = &contact.separation;
         self.distance = lesser(self.distance, separation.upper);
         let nearest = self.contact.get_or_insert(contact);

@@ -38,10 +38,10 @@ pub(super) enum Below {
 
 impl<'a> HullPair<'a> {
     /// Creates the pair of trees; `None` if a body has more than one piece and no hull tree.
-    pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
+    pub(super) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         Some(HullPair {
-            a: Hulls::of(problem.a.body)?,
-            b: Hulls::of(problem.b.body)?,
+            a: Hulls::for_body(problem.a.body)?,
+            b: Hulls::for_body(problem.b.body)?,
         })
     }
 
@@ -77,7 +77,7 @@ impl<'a> HullPair<'a> {
     }
 
     fn larger(&self, [a, b]: [u32; 2]) -> Which {
-        if self.b.size(b) > self.a.size(a) {
+        if self.b.half_diagonal(b) > self.a.half_diagonal(a) {
             Which::B
         } else {
             Which::A
@@ -94,7 +94,7 @@ pub(super) enum Hulls<'a> {
 }
 
 impl<'a> Hulls<'a> {
-    fn of(body: &'a Body) -> Option<Self> {
+    fn for_body(body: &'a Body) -> Option<Self> {
         match body.hull_tree() {
             Some(tree) => Some(Hulls::Tree(tree)),
             None if body.pieces().len() == 1 => Some(Hulls::Single(body)),
@@ -123,9 +123,9 @@ impl<'a> Hulls<'a> {
         }
     }
 
-    fn size(self, node: u32) -> f64 {
+    fn half_diagonal(self, node: u32) -> f64 {
         match self {
-            Hulls::Tree(tree) => tree.size(node),
+            Hulls::Tree(tree) => tree.half_diagonal(node),
             Hulls::Single(_) => 0.0,
         }
     }

@@ -12,7 +12,7 @@ use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::questions::any::any;
+use crate::questions::any::start_contact_as_any;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
@@ -39,8 +39,13 @@ struct Any<'s, O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Any<'_, O> {
-    fn unresolved(&self, stretches: &Stretches<'_, '_>, until: f64, limit: Limit) -> Answer {
-        let until = lesser(lesser(until, self.undecided), stretches.first());
+    fn unresolved_outcome(
+        &self,
+        stretches: &Stretches<'_, '_>,
+        until: f64,
+        limit: Limit,
+    ) -> Answer {
+        let until = lesser(lesser(until, self.undecided), stretches.earliest_time());
         self.proven.unresolved(stretches, until, limit)
     }
 }
@@ -66,7 +71,9 @@ impl<O: DistanceOracle> Question<O> for Any<'_, O> {
         let seen = match self.proven.record(stretches, motions, &answer)? {
             StretchResult::Done => return Ok(ControlFlow::Continue(())),
             StretchResult::Stopped(until, limit) => {
-                return Ok(ControlFlow::Break(self.unresolved(stretches, until, limit)));
+                return Ok(ControlFlow::Break(
+                    self.unresolved_outcome(stretches, until, limit),
+                ));
             }
             StretchResult::Near(s, contact) => (s, contact),
         };
@@ -79,19 +86,19 @@ impl<O: DistanceOracle> Question<O> for Any<'_, O> {
                 self.undecided = lesser(self.undecided, known.safe_until);
                 return Ok(ControlFlow::Continue(()));
             }
-            return Ok(ControlFlow::Break(any(found)));
+            return Ok(ControlFlow::Break(start_contact_as_any(found)));
         }
         let scratch = &mut self.schedule.scratch;
         let length = 2.0 * length(stretches, motions, seen, oracle, scratch)?;
         if stretches.cut_about(motions.span, motions.time(seen.0), length) {
             return Ok(ControlFlow::Continue(()));
         }
-        let stalled = self.unresolved(stretches, motions.span.from, Limit::Stalled);
+        let stalled = self.unresolved_outcome(stretches, motions.span.from, Limit::Stalled);
         Ok(ControlFlow::Break(stalled))
     }
 
     fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
-        self.unresolved(stretches, span.from, limit)
+        self.unresolved_outcome(stretches, span.from, limit)
     }
 
     fn on_end(

@@ -90,7 +90,7 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
         let work = stretches.stats.work();
         let (Some(rung), Ok(left)) = (
             found.ladder.next_if_due(work, found.upper()),
-            stretches.terms(),
+            stretches.remaining_terms(),
         ) else {
             return Ok(());
         };
@@ -205,7 +205,7 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
         oracle: &mut O,
         nearest: Answer,
     ) -> Result<Answer, InputError> {
-        let Ok((pose, terms)) = stretches.pose(0.0)? else {
+        let Ok((pose, terms)) = stretches.pose_at(0.0)? else {
             return Ok(nearest);
         };
         let problem = pose.problem(self.query, &terms)?;
@@ -264,7 +264,7 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
         oracle: &mut O,
         time: f64,
     ) -> Result<Option<DistanceAtTime>, InputError> {
-        let Ok((pose, terms)) = stretches.pose(time)? else {
+        let Ok((pose, terms)) = stretches.pose_at(time)? else {
             return Ok(None);
         };
         let problem = pose.problem(self.query, &terms)?;

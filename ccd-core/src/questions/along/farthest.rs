@@ -126,7 +126,7 @@ struct MeasuredPoints {
 
 impl MeasuredPoints {
     /// Creates the value from the contact of the bodies in a pose.
-    fn of(pose: &Motions, contact: Contact) -> Self {
+    fn from_contact(pose: &Motions, contact: Contact) -> Self {
         let separation = contact.separation;
         let points = [separation.witness_a, separation.witness_b];
         MeasuredPoints {
@@ -157,22 +157,22 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
                 return Ok(Err((f64::INFINITY, reason)));
             }
         }
-        let mut waiting = match self.part(whole, f64::INFINITY)? {
+        let mut waiting = match self.bound_stretch(whole, f64::INFINITY)? {
             Ok(part) => BinaryHeap::from_iter(part),
             Err(reason) => return Ok(Err((f64::INFINITY, reason))),
         };
         while let Some(BoundedStretch { span, upper }) = waiting.pop() {
             let all = greater(upper, self.settled);
             // Written so that NaN is not the end.
-            if upper <= self.lower() + terms.tolerance || upper <= self.settled {
+            if upper <= self.lower_bound() + terms.tolerance || upper <= self.settled {
                 return Ok(Ok(all));
             }
-            let Some(halves) = self.stretches.parts(span, 0.5 * span.length()) else {
+            let Some(halves) = self.stretches.cut_parts(span, 0.5 * span.length()) else {
                 self.settled = all;
                 continue;
             };
             for half in halves {
-                match self.part(half, upper)? {
+                match self.bound_stretch(half, upper)? {
                     Ok(part) => waiting.extend(part),
                     Err(reason) => return Ok(Err((all, reason))),
                 }
@@ -181,14 +181,14 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         Ok(Ok(self.settled))
     }
 
-    fn lower(&self) -> f64 {
+    fn lower_bound(&self) -> f64 {
         self.best
             .map_or(0.0, |(_, contact)| contact.separation.lower)
     }
 
     /// Measures the bodies in the middle of a stretch, and bounds their distance in the whole stretch. Returns `None`
     /// if the stretch needs no further cut.
-    fn part(
+    fn bound_stretch(
         &mut self,
         span: Span,
         above: f64,
@@ -215,7 +215,7 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
 
     /// Measures the distance of the bodies at a time.
     fn measure(&mut self, time: f64) -> Result<Result<MeasuredPoints, Limit>, InputError> {
-        let (pose, terms) = match self.stretches.pose(time)? {
+        let (pose, terms) = match self.stretches.pose_at(time)? {
             Ok(pose) => pose,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -223,20 +223,20 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         let problem = pose.problem(query, &terms)?.for_distances();
         let kept = &mut self.schedule.scratch;
         let answer = run_metered(&problem, self.oracle, kept, |oracle, meter| {
-            (measured(&problem, oracle, meter), 0.0)
+            (distance_at_rest(&problem, oracle, meter), 0.0)
         });
         self.stretches.add(&answer.stats);
         Ok(answer.found.map(|place| match place {
             Placement::Apart(contact) => {
                 let contact = pose.contact(contact);
-                if contact.separation.lower > self.lower() {
+                if contact.separation.lower > self.lower_bound() {
                     self.best = Some((time, contact));
                 }
-                MeasuredPoints::of(&pose, contact)
+                MeasuredPoints::from_contact(&pose, contact)
             }
             Placement::Meeting(contact) => MeasuredPoints {
                 lower: 0.0,
-                ..MeasuredPoints::of(&pose, pose.contact(contact))
+                ..MeasuredPoints::from_contact(&pose, pose.contact(contact))
             },
             Placement::Inside(point) => MeasuredPoints {
                 points: [point; 2],
@@ -259,7 +259,7 @@ enum Placement {
 }
 
 /// Measures the distance of bodies at rest.
-fn measured<O: DistanceOracle>(
+fn distance_at_rest<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,

@@ -32,7 +32,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     } else {
         approach
     };
-    let length = worthwhile(stretches.query(), motions, (contact, approach));
+    let length = length_from_distance(stretches.query(), motions, (contact, approach));
     Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
 }
 
@@ -55,7 +55,7 @@ pub(super) fn length<O: DistanceOracle>(
         false => stretches.measure(motions.span.from, oracle, scratch)?,
     };
     Ok(match seen {
-        Some(seen) => worthwhile(query, motions, seen),
+        Some(seen) => length_from_distance(query, motions, seen),
         None => motions.length_for(DEVIATION_SHARE * query.terms.tolerance),
     })
 }
@@ -66,7 +66,11 @@ pub(super) fn length<O: DistanceOracle>(
 ///
 /// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
 /// and pass each other closely, they are nearest after about `2 d/r`.
-fn worthwhile(query: &Query<'_>, motions: &Motions, (contact, approach): (Contact, f64)) -> f64 {
+fn length_from_distance(
+    query: &Query<'_>,
+    motions: &Motions,
+    (contact, approach): (Contact, f64),
+) -> f64 {
     let Terms {
         margin, tolerance, ..
     } = query.terms;

@@ -60,18 +60,18 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the earliest time of all waiting stretches; infinite if there are none.
-    pub(super) fn first(&self) -> f64 {
+    pub(super) fn earliest_time(&self) -> f64 {
         let starts = self.waiting.iter().map(|span| span.from);
         starts.fold(f64::INFINITY, lesser)
     }
 
     /// Returns the settings with what is left of the budget and of the time to the deadline.
-    pub(super) fn terms(&self) -> Result<Terms<'a>, Limit> {
+    pub(super) fn remaining_terms(&self) -> Result<Terms<'a>, Limit> {
         let terms = &self.query.terms;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
         }
-        let spent = self.budgets.spent(self.stats.work());
+        let spent = self.budgets.spent_on_part(self.stats.work());
         let budget = terms.budget.checked_sub(spent);
         let deadline = match (terms.deadline, self.charged_from) {
             (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
@@ -109,7 +109,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
         loop {
             self.charge_to(span);
-            let terms = match self.terms() {
+            let terms = match self.remaining_terms() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
             };
@@ -132,19 +132,20 @@ impl<'j, 'a> Stretches<'j, 'a> {
     pub(super) fn accepts_contact(&self, motions: &Motions) -> Result<bool, InputError> {
         Ok(
             motions.stray <= DEVIATION_SHARE * self.query.terms.tolerance
-                || self.is_shortest(motions)?,
+                || self.is_limited_by_rounding(motions)?,
         )
     }
 
     /// Returns whether the deviations are hardly larger than in a stretch of length 0: only rounding remains.
-    fn is_shortest(&self, motions: &Motions) -> Result<bool, InputError> {
+    fn is_limited_by_rounding(&self, motions: &Motions) -> Result<bool, InputError> {
         let least = Motions::new(self.query, motions.span.start())?;
         Ok(motions.stray <= 2.0 * least.stray)
     }
 
     /// Returns whether the motions of a stretch start at the poses of the bodies at time 0, up to rounding.
     pub(super) fn begins_at_start(&self, motions: &Motions) -> Result<bool, InputError> {
-        Ok(motions.span.from == 0.0 && (motions.stray == 0.0 || self.is_shortest(motions)?))
+        Ok(motions.span.from == 0.0
+            && (motions.stray == 0.0 || self.is_limited_by_rounding(motions)?))
     }
 
     /// Schedules an examination of the start, and then the stretch again. An overlap of the stretch's motions at time 0
@@ -180,11 +181,11 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the poses of both bodies at a time, with the settings; or the limit that was reached.
-    pub(super) fn pose(
+    pub(super) fn pose_at(
         &self,
         time: f64,
     ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
-        let terms = match self.terms() {
+        let terms = match self.remaining_terms() {
             Ok(terms) => terms,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -204,7 +205,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         oracle: &mut O,
         scratch: &mut Scratch,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Ok((motions, terms)) = self.pose(time)? else {
+        let Ok((motions, terms)) = self.pose_at(time)? else {
             return Ok(None);
         };
         let problem = motions.problem(self.query, &terms)?.for_distances();
@@ -233,7 +234,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Cuts a stretch in two, at a corner or after about `length`, and makes the earlier part the next one. Returns
     /// whether it could be cut.
     pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
-        let Some([early, late]) = self.parts(span, length) else {
+        let Some([early, late]) = self.cut_parts(span, length) else {
             return false;
         };
         self.waiting.extend([late, early]);
@@ -244,7 +245,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// the part that contains the time. Returns whether the stretch could be cut.
     pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
         let whole = span.length();
-        let Some([early, late]) = self.parts(span, 0.5 * whole) else {
+        let Some([early, late]) = self.cut_parts(span, 0.5 * whole) else {
             return false;
         };
         let half = 0.5 * greater(length, MIN_CUT_SHARE * whole);
@@ -273,7 +274,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    pub(super) fn parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
+    pub(super) fn cut_parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span { from, to, part } = span;
         let Query { a, b, .. } = self.query;
         let corner = |body: &Moving<'_>| {
@@ -327,13 +328,13 @@ impl Default for Budgets {
 
 impl Budgets {
     /// Returns the work spent on the present part; `work` is the total of all parts.
-    fn spent(&self, work: u64) -> u64 {
+    fn spent_on_part(&self, work: u64) -> u64 {
         self.spent[self.part] + (work - self.charged_from)
     }
 
     /// Makes another part pay for the work that follows.
     fn charge_to(&mut self, part: usize, work: u64) {
-        self.spent[self.part] = self.spent(work);
+        self.spent[self.part] = self.spent_on_part(work);
         (self.part, self.charged_from) = (part, work);
     }
 

@@ -1,7 +1,7 @@
 //! Estimates the least distance first, from measurements at a few times.
 
 use super::follow::follow;
-use super::{BestPair, unresolved};
+use super::{BestPair, unresolved_outcome};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -27,7 +27,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
     for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
         let found = nearest_at(problem, clock, upper, oracle, meter);
-        let Some(found) = found.map_break(|stop| stopped(problem, best, stop))? else {
+        let Some(found) = found.map_break(|stop| outcome_of_stop(problem, best, stop))? else {
             break;
         };
         let followed = follow(problem, oracle, meter, found);
@@ -41,7 +41,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
     }
     // If `beyond` is infinite, every distance is of interest, and none was found.
     if best.is_none() && beyond == f64::INFINITY {
-        ControlFlow::Break(unresolved(0.0, Limit::OracleGaveUp))
+        ControlFlow::Break(unresolved_outcome(0.0, Limit::OracleGaveUp))
     } else {
         ControlFlow::Continue(best)
     }
@@ -77,7 +77,7 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
 }
 
 /// Returns the outcome when the bodies overlap at the start, or a limit is reached.
-fn stopped(problem: &Problem<'_>, best: Option<BestPair>, stop: SearchEnd) -> Outcome {
+fn outcome_of_stop(problem: &Problem<'_>, best: Option<BestPair>, stop: SearchEnd) -> Outcome {
     match stop {
         SearchEnd::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
         SearchEnd::Limit(limit) => {

@@ -80,12 +80,12 @@ impl Ladder {
         } else {
             u64::MAX
         };
-        self.rung(upper, work / 2)
+        self.next_rung(upper, work / 2)
     }
 
     /// Returns the next rung for a measured distance `upper`; `None` if the distance is unknown, or the rung would
     /// improve nothing.
-    pub(crate) fn rung(&self, upper: f64, budget: u64) -> Option<Rung> {
+    pub(crate) fn next_rung(&self, upper: f64, budget: u64) -> Option<Rung> {
         let level = self.part * upper;
         // The tolerance leaves room for proofs.
         let (margin, tolerance) = (0.75 * level, 0.25 * level);

@@ -40,7 +40,7 @@ impl LeastDistanceSearch {
         Ok(Outcome::least(lower, problem.time(best.clock), contact))
     }
 
-    pub(crate) fn unresolved(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
+    pub(crate) fn unresolved_outcome(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.ladder.lower, self.upper());
         let seen = |best: BestPair| {
             let contact = best.contact.cap_lower_bound(lower);
@@ -114,14 +114,14 @@ impl LeastDistanceSearch {
         };
         for _ in 0..LAST_RUNGS {
             let left = problem.budget.saturating_sub(meter.stats.work());
-            let Some(rung) = self.ladder.rung(self.upper(), left / 2) else {
+            let Some(rung) = self.ladder.next_rung(self.upper(), left / 2) else {
                 break;
             };
             if let ControlFlow::Break(found) = self.climb(problem, rung, oracle, meter) {
                 return Ok(found);
             }
         }
-        Ok(self.unresolved(problem, limit))
+        Ok(self.unresolved_outcome(problem, limit))
     }
 }
 
@@ -168,17 +168,17 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
     }
 
     fn on_limit(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
-        Ok(self.unresolved(problem, limit))
+        Ok(self.unresolved_outcome(problem, limit))
     }
 
     fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found {
         if let Some(limit) = self.stuck {
-            return Ok(self.unresolved(problem, limit));
+            return Ok(self.unresolved_outcome(problem, limit));
         }
         match self.proven.finish(problem) {
             overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
             Outcome::Free { proven_gap } => self.found(problem, proven_gap),
-            Outcome::Unresolved(known) => Ok(self.unresolved(problem, known.limit)),
+            Outcome::Unresolved(known) => Ok(self.unresolved_outcome(problem, known.limit)),
             _ => unreachable!("pairs that waited are in no contact"),
         }
     }

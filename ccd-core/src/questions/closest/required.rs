@@ -144,7 +144,8 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
             return Ok(ladder.lower);
         }
         for _ in 0..LAST_RUNGS {
-            let Some(rung) = ladder.rung(self.required.distance, self.remaining_work() / 2) else {
+            let Some(rung) = ladder.next_rung(self.required.distance, self.remaining_work() / 2)
+            else {
                 break;
             };
             let found = self

@@ -142,7 +142,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
         if distance(&problem, 0.0) < 2.0 * config.tolerance + config.margin {
             continue;
         }
-        repeated += usize::from(Rounds::of(&problem).is_some());
+        repeated += usize::from(Rounds::for_problem(&problem).is_some());
         let outcome = solve(&problem).outcome;
         let any = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
         let within = config.margin + config.tolerance + 1e-9;
@@ -295,7 +295,7 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
             DepthFirst::default().closest_approach_of(&problem, &mut Exhaustive)
         });
         let whole = problem(1_000.0);
-        sampled += usize::from(Sample::of(&whole.for_distances()).is_some());
+        sampled += usize::from(Sample::for_problem(&whole.for_distances()).is_some());
         let (lower, upper) = (many.outcome.lower(), many.outcome.upper());
         if let Outcome::Measured {
             at: Some((time, _)),

@@ -30,7 +30,7 @@ fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
 
 /// Returns half the surface area of the bounding box along a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
-    let FittedBox { low, high, .. } = FittedBox::along(frame, points);
+    let FittedBox { low, high, .. } = FittedBox::fit_along(frame, points);
     let size = high - low;
     size.x * size.y + size.y * size.z + size.z * size.x
 }

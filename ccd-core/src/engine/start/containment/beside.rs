@@ -19,7 +19,7 @@ pub(crate) fn beside_edges(
     place: impl Fn(DVec3) -> DVec3 + Copy,
     reach: f64,
 ) -> impl Iterator<Item = DVec3> {
-    let flat = FlatOutline::of(piece);
+    let flat = FlatOutline::of_piece(piece);
     let placed = move |k: u32| place(other.points[k as usize]);
     let is_level = move |flat: &FlatOutline<'_>, at: DVec3| flat.height(at).abs() <= reach;
     // For a piece within the plane, the faces beyond the edges decide.
@@ -48,7 +48,7 @@ struct FlatOutline<'a> {
 
 impl<'a> FlatOutline<'a> {
     /// Creates the outline; `None` for a piece of fewer than three corners.
-    fn of(piece: &Piece<'a>) -> Option<Self> {
+    fn of_piece(piece: &Piece<'a>) -> Option<Self> {
         let spread = |corners: &[u32]| match *corners {
             [a, b, c, ..] => {
                 let [a, b, c] = [a, b, c].map(|k| piece.points[k as usize]);

@@ -176,7 +176,7 @@ impl Found {
     pub(super) fn nearest(&self, query: &Query<'_>, stretches: &Stretches<'_, '_>) -> Answer {
         let Some((time, contact)) = self.best else {
             let reason = Limit::OracleGaveUp;
-            return self.answer(query, stretches, self.known(0.0, reason));
+            return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
         let nearest = Outcome::least(lower, time, contact.cap_lower_bound(lower));
@@ -202,11 +202,11 @@ impl Found {
         let known = |apart: Result<f64, InputError>| apart.ok().filter(|&apart| apart > 0.0);
         let apart = spans.map(|span| known(apart(span)).unwrap_or(0.0));
         let lower = apart.fold(self.lower, lesser);
-        self.answer(query, stretches, self.known(lower, reason))
+        self.answer(query, stretches, self.unresolved_outcome(lower, reason))
     }
 
     /// Returns the outcome when a limit is reached; `lower` is a lower bound for all times.
-    fn known(&self, lower: f64, limit: Limit) -> Outcome {
+    fn unresolved_outcome(&self, lower: f64, limit: Limit) -> Outcome {
         let lower = lesser(greater(self.ladder.lower, lower), self.upper());
         let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
         Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))

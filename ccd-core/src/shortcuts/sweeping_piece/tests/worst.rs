@@ -87,9 +87,9 @@ impl Setting<'_> {
             .cross(sweep.offset + sweep.velocity * tau)
             .length()
             + sweep.speed * f64::from(MAX_TURNING_PLANE_TIME);
-        let across = sweep.omega * sweep.normal.derivative_length();
-        let plain = across * (sweep.omega * arm + 2.0 * sweep.speed)
-            + sweep.relative.length() * (across + sweep.own_omega) * sweep.radius;
+        let across = sweep.angular_speed * sweep.normal.derivative_length();
+        let plain = across * (sweep.angular_speed * arm + 2.0 * sweep.speed)
+            + sweep.relative.length() * (across + sweep.own_angular_speed) * sweep.radius;
         [exact, Double::from(plain)]
     }
 }
@@ -115,7 +115,7 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
         point: other.piece.points[tape.pick(3)],
     };
     let tau = tape.fraction();
-    let rounding = attached_rounding(sweep.omega + sweep.own_omega);
+    let rounding = attached_rounding(sweep.angular_speed + sweep.own_angular_speed);
     let [start, end, from, to] = [
         setting.found(0.0),
         setting.found(tau),
@@ -124,7 +124,8 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     ];
     let height = ((end[0] - start[0]) - (to[0] - from[0])).get().abs();
     let rate = (end[1] - to[1]).get().abs();
-    let fastest = sweep.omega * sweep.reach + sweep.speed + sweep.own_omega * sweep.radius;
+    let fastest =
+        sweep.angular_speed * sweep.reach + sweep.speed + sweep.own_angular_speed * sweep.radius;
     let [exact, plain] = setting.second_derivatives(tau);
     let allowed = (Double::from(sweep.second_derivative(tau)) - plain).get();
     Some([

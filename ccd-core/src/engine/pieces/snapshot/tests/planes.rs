@@ -242,7 +242,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             (0.5..1.5).contains(&allowed),
             "{allowed} {needed} {allowance}"
         );
-        counts[if linear_rate < 0.0 { 1 } else { 2 }] += 1;
+        counts[if displacement < 0.0 { 1 } else { 2 }] += 1;
     }
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
