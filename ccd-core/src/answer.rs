@@ -88,9 +88,9 @@ pub enum Outcome {
     /// The bodies are in contact at the first time and at the last. They do not touch before the first or after the
     /// last, and may part in between.
     Interval {
-        /// The first contact.
+        /// The first time of contact, and its kind.
         first: Hit,
-        /// The last contact.
+        /// The last time of contact, and its kind.
         last: Hit,
     },
     /// The requested distance is between two bounds.

@@ -287,8 +287,8 @@ impl Body {
         &self.tree
     }
 
-    /// Returns a few points of every connected part. A part without its points inside another solid is outside it, or
-    /// its surface crosses that of the solid.
+    /// Returns a few points of every connected part. If one of a part's points is inside another solid, the whole part
+    /// is, or its surface crosses that of the solid.
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }

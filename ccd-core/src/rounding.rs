@@ -214,8 +214,8 @@ pub const RESTING: f64 = 4.0;
 /// point, and one for the corners around it.
 pub const LEVEL: f64 = 2.0;
 
-/// The distance up to which faces count as around a point, in units of the distance's rounding. They are the faces
-/// across an edge that contains the point, and faces that bridge cracks.
+/// The distance from a point up to which faces count as adjacent to it, in units of the distance's rounding. They are
+/// the faces across an edge that contains the point, and faces that bridge cracks.
 pub const AROUND: f64 = 256.0;
 
 /// Returns whether rounding may turn the direction between two points by more than a millionth of a radian. Such a

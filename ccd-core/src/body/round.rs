@@ -60,7 +60,7 @@ impl Round {
         Round::new(Kind::Cylinder, radius, half_height)
     }
 
-    /// Creates a cone. Its base is at `−half_height` along z, its apex at `half_height`.
+    /// Creates a cone along z. Its base is at `−half_height` along z, its apex at `half_height`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].

@@ -28,7 +28,7 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Debug)]
 pub enum Support {
-    /// Evaluates every point.
+    /// Evaluates the height of every point.
     Scan(SupportScan),
     /// Climbs along the edges of the hull.
     Climb(Box<SupportTable>),

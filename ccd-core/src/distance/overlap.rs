@@ -14,7 +14,8 @@ use glam::DVec3;
 pub(crate) enum Intersection {
     /// The pieces certainly intersect, even after any displacement smaller than rounding.
     Certain,
-    /// The pieces do not intersect by more than rounding: an axis separates them, or would after such a displacement.
+    /// The pieces do not intersect by more than rounding: an axis separates them, or would after a displacement smaller
+    /// than rounding.
     None,
     /// Neither intersection nor its absence could be proven.
     Undecided,

@@ -33,7 +33,7 @@ pub(crate) trait Question<O: DistanceOracle> {
     /// The type of the result.
     type Found;
 
-    /// Called with the clock of the next pair before the pair is examined; may end the search.
+    /// Decides from the clock of the next pair whether the search ends before the pair is examined.
     #[inline]
     fn on_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
         ControlFlow::Continue(())

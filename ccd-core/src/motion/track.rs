@@ -6,8 +6,8 @@ use crate::rounding::RATE_F64;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// The height of a moving point along a fixed axis as a function of time: `height + drift τ + pull τ²/2 + (cos ωτ − 1)
-/// p + sin ωτ q`.
+/// The height of a moving point along a fixed axis as a function of time, `height + linear_rate τ + linear_acceleration
+/// τ²/2 + (cos ωτ − 1) p + sin ωτ q`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Track {
     height: f64,

@@ -40,7 +40,7 @@ impl AxisCandidates {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex. Returns `false` if it is a duplicate, or there are too many vertices.
+    /// Adds a vertex to the candidates. Returns `false` if it is a duplicate, or there are too many vertices.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| v.point == vertex.point;
         let room = self.len < MAX_AXIS_VERTICES && !self.vertices().iter().any(same);

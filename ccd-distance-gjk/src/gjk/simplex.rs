@@ -20,7 +20,7 @@ pub(crate) struct Simplex {
 }
 
 impl Simplex {
-    /// The empty simplex.
+    /// The simplex without vertices.
     pub(crate) const EMPTY: Self = Simplex {
         vertices: [Vertex {
             point: DVec3::ZERO,
@@ -35,7 +35,7 @@ impl Simplex {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex. Returns `false` if it is a duplicate, or there are four already.
+    /// Adds a vertex to the simplex. Returns `false` if it is a duplicate, or there are four already.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| (v.a, v.b) == (vertex.a, vertex.b);
         let room = self.len < 4 && !self.vertices().iter().any(same);

@@ -116,7 +116,7 @@ impl FittedBox {
             }
             square = greater(square, way.length_squared());
         }
-        // A product that cancels is off by this much, which `up` does not cover in a flat box.
+        // A product that cancels is off by this much, which `round_up_to_f32` does not cover in a flat box.
         let rounding = 8.0 * U64 * square.sqrt();
         let outward = |x: f64| round_up_to_f32(x + rounding).next_up();
         Node {

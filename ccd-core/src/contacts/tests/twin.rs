@@ -32,7 +32,8 @@ impl Mesh {
         }
     }
 
-    /// Creates a box. Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+    /// Creates a box of 12 triangles with the given half extents. Corner `k` has a positive x, y, z where bit 0, 1, 2
+    /// of `k` is set.
     pub(super) fn cuboid(half: DVec3) -> Self {
         let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let quads = [

@@ -16,7 +16,7 @@ pub(super) trait Question<O: DistanceOracle> {
         true
     }
 
-    /// Called before each stretch, for work on the whole query.
+    /// Does work on the whole query before each stretch is searched.
     fn prepare(
         &mut self,
         _stretches: &mut Stretches<'_, '_>,

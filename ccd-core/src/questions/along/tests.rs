@@ -238,7 +238,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
 /// A motion of constant velocities behind a user's implementation of a trajectory.
 struct Own(Motion);
 
-/// A motion behind a trajectory that does not return it as a motion, so that the query is answered stretch by stretch.
+/// A motion that hides behind a trajectory, so that the query is answered stretch by stretch.
 struct Unknown(Motion);
 
 impl Trajectory for Unknown {

@@ -44,7 +44,7 @@ pub(crate) struct Profile {
     width: f64,
     /// A length for which any path of at most this length from the node stays at least as far from the axis.
     safe_length: f64,
-    /// The greatest change of any `f` per unit of length on such paths.
+    /// The greatest change of any `f` per unit of length, on paths of at most `safe_length`.
     steepest_change: f64,
     /// The projection of a single triangle, which gives intervals for any surface.
     outline: Option<Outline>,
