@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
-use super::skin::{Skin, Spot};
+use super::skin::{Skin, SurfacePart};
 use crate::answer::Separation;
 use crate::distance::common_normals::CommonNormals;
 use crate::math::order::{greater, lesser};
@@ -13,7 +13,7 @@ use crate::rounding::is_blurred;
 use glam::DVec3;
 
 /// A part of A's surface and one of B's.
-pub(super) type Spots = [Spot; 2];
+pub(super) type SurfaceParts = [SurfacePart; 2];
 
 /// Bounds the distance of two features with known nearest points, in the world's coordinates. `a_to_world` is A's
 /// frame, relative to the problem's origin. If the points are too near for a direction, `common_normals` returns those
@@ -26,7 +26,7 @@ pub(super) fn measure(
     problem: &Problem<'_>,
     skins: [&Skin<'_>; 2],
     a_to_world: &Frame,
-    (spots, candidate): &(Spots, Candidate),
+    (spots, candidate): &(SurfaceParts, Candidate),
     common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
 ) -> FeaturePair {
     let face = |k: usize| skins[k].face(candidate.faces[k]);
@@ -99,7 +99,11 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
 
 /// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without an
 /// outside it leads from the middle of one piece to the middle of the other.
-fn outward_direction(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
+fn outward_direction(
+    skins: [&Skin<'_>; 2],
+    spots: &[SurfacePart; 2],
+    candidate: &Candidate,
+) -> DVec3 {
     let out = |k: usize| {
         let out = skins[k].outward_direction(spots[k], candidate.faces[k]);
         unit(out).unwrap_or(DVec3::ZERO)

@@ -49,7 +49,7 @@ pub(super) struct Face {
 
 /// A corner, an edge or a face of the surface, by its index here rather than in the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Spot {
+pub(super) enum SurfacePart {
     Corner(u32),
     Edge([u32; 2]),
     Face(u32),
@@ -136,22 +136,22 @@ impl<'a> Skin<'a> {
     }
 
     /// Returns three points, possibly equal, whose hull is a corner, edge or face.
-    pub(super) fn points(&self, spot: Spot, face: u32) -> [DVec3; 3] {
+    pub(super) fn points(&self, spot: SurfacePart, face: u32) -> [DVec3; 3] {
         match spot {
-            Spot::Corner(corner) => [self.at(corner); 3],
-            Spot::Edge([v, w]) => [v, w, w].map(|end| self.at(end)),
-            Spot::Face(_) => self.triangle(face),
+            SurfacePart::Corner(corner) => [self.at(corner); 3],
+            SurfacePart::Edge([v, w]) => [v, w, w].map(|end| self.at(end)),
+            SurfacePart::Face(_) => self.triangle(face),
         }
     }
 
     /// Returns the approximate outward direction at a corner, edge or face: the sum of the normals around it, or zero
     /// if none is known.
-    pub(super) fn outward_direction(&self, spot: Spot, face: u32) -> DVec3 {
+    pub(super) fn outward_direction(&self, spot: SurfacePart, face: u32) -> DVec3 {
         let at = |corner: u32| self.corner_normals[corner as usize];
         match spot {
-            Spot::Corner(corner) => at(corner),
-            Spot::Edge([v, w]) => at(v) + at(w),
-            Spot::Face(_) => self.normal(face),
+            SurfacePart::Corner(corner) => at(corner),
+            SurfacePart::Edge([v, w]) => at(v) + at(w),
+            SurfacePart::Face(_) => self.normal(face),
         }
     }
 
@@ -201,53 +201,53 @@ impl<'a> Skin<'a> {
     }
 
     /// Returns the edges and corners on the boundary of an edge or face.
-    pub(super) fn boundary(&self, spot: Spot) -> Vec<Spot> {
+    pub(super) fn boundary(&self, spot: SurfacePart) -> Vec<SurfacePart> {
         match spot {
-            Spot::Corner(_) => Vec::new(),
-            Spot::Edge(ends) => ends.map(Spot::Corner).to_vec(),
-            Spot::Face(face) => {
+            SurfacePart::Corner(_) => Vec::new(),
+            SurfacePart::Edge(ends) => ends.map(SurfacePart::Corner).to_vec(),
+            SurfacePart::Face(face) => {
                 let corners = self.face(face).corners;
-                let ends = corners.into_iter().map(Spot::Corner);
-                ends.chain(triangle_edges(corners).map(Spot::Edge))
+                let ends = corners.into_iter().map(SurfacePart::Corner);
+                ends.chain(triangle_edges(corners).map(SurfacePart::Edge))
                     .collect()
             }
         }
     }
 
     /// Returns the coplanar faces around an edge or corner that is inside a flat part; empty for others.
-    pub(super) fn coplanar_faces_around(&self, spot: Spot) -> &[u32] {
+    pub(super) fn coplanar_faces_around(&self, spot: SurfacePart) -> &[u32] {
         let faces = match spot {
-            Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
-            Spot::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
-            Spot::Face(_) => None,
+            SurfacePart::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
+            SurfacePart::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
+            SurfacePart::Face(_) => None,
         };
         faces.unwrap_or_default()
     }
 
     /// Returns the corner, edge or face to report instead of `spot`, and a face with it. Edges and corners inside a
     /// flat part are replaced by a face. Triangles with the same face number are one face.
-    pub(super) fn reported_part(&self, spot: Spot, face: u32) -> (Spot, u32) {
+    pub(super) fn reported_part(&self, spot: SurfacePart, face: u32) -> (SurfacePart, u32) {
         let face = match spot {
-            Spot::Corner(corner) if self.is_hidden[corner as usize] => face,
-            Spot::Edge(ends) => match self.face_of_coplanar_edge(ends) {
+            SurfacePart::Corner(corner) if self.is_hidden[corner as usize] => face,
+            SurfacePart::Edge(ends) => match self.face_of_coplanar_edge(ends) {
                 Some(face) => face,
                 None => return (spot, face),
             },
-            Spot::Face(face) => face,
-            Spot::Corner(_) => return (spot, face),
+            SurfacePart::Face(face) => face,
+            SurfacePart::Corner(_) => return (spot, face),
         };
         let first = self.first_triangle_of.get(&self.face(face).name);
-        (Spot::Face(first.copied().unwrap_or(face)), face)
+        (SurfacePart::Face(first.copied().unwrap_or(face)), face)
     }
 
     /// Returns the mesh's feature of a corner, edge or face. If it has no number, the feature is that of the face
     /// `face`, or the piece.
-    pub(super) fn feature_of(&self, spot: Spot, face: u32) -> Feature {
+    pub(super) fn feature_of(&self, spot: SurfacePart, face: u32) -> Feature {
         let id = |corner: u32| self.mesh_number(corner);
         let own = match spot {
-            Spot::Corner(corner) => id(corner).map(Feature::Vertex),
-            Spot::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
-            Spot::Face(_) => None,
+            SurfacePart::Corner(corner) => id(corner).map(Feature::Vertex),
+            SurfacePart::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
+            SurfacePart::Face(_) => None,
         };
         own.unwrap_or(self.face(face).name)
     }

@@ -3,12 +3,12 @@
 pub(crate) mod lists;
 
 use super::meter::Meter;
-use super::nodes::common::Common;
+use super::nodes::common::NodeContext;
 use super::nodes::expand::measure;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
-use super::waiting::{Full, Rank, Waiting};
+use super::waiting::{QueueFull, Rank, Waiting};
 use crate::answer::{Contact, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 /// Pairs that may intersect have no lower bound of their distance, and therefore come first.
 pub(crate) struct Nearest<'p> {
     problem: &'p Problem<'p>,
-    common: Common<'p>,
+    common: NodeContext<'p>,
     clock: f64,
     lists: &'p mut Lists,
     /// The distance at and beyond which pairs are ignored.
@@ -51,7 +51,7 @@ impl<'p> Nearest<'p> {
     pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut Lists) -> Self {
         Nearest {
             problem,
-            common: Common::new(problem),
+            common: NodeContext::new(problem),
             clock,
             lists,
             beyond: f64::INFINITY,
@@ -107,7 +107,7 @@ impl<'p> Nearest<'p> {
         }
         match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
             Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
+            Err(QueueFull) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! A priority queue of pairs, ordered by clock.
 
 use super::capacity::empty;
-use super::waiting::{Full, Rank, Waiting};
+use super::waiting::{QueueFull, Rank, Waiting};
 use crate::math::order::greater;
 
 /// A priority queue of items by their clocks. Among equal clocks pairs of pieces come first, then the newest item, for
@@ -113,7 +113,7 @@ impl<T> Queue<T> {
 
 impl<T> Waiting<T> for Queue<T> {
     #[inline]
-    fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full> {
+    fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull> {
         let place = match self.vacant.pop() {
             Some(place) => {
                 self.items[place as usize] = item;
@@ -124,7 +124,7 @@ impl<T> Waiting<T> for Queue<T> {
                 self.grow();
                 (self.items.len() - 1) as u32
             }
-            None => return Err(Full),
+            None => return Err(QueueFull),
         };
         let key = self.newest(clock, rank, place);
         self.set(place, key);

@@ -1,11 +1,11 @@
 //! The loop of every search: the next waiting pair is proven apart for longer, or split.
 
 use super::meter::Meter;
-use super::nodes::common::Common;
+use super::nodes::common::NodeContext;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::{Pair, Step};
-use super::waiting::{Full, Rank, Waiting};
+use super::waiting::{QueueFull, Rank, Waiting};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -82,7 +82,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         if self.push_roots(problem).is_err() {
             return question.on_limit(problem, 0.0, Limit::Budget);
         }
-        let common = Common::new(problem);
+        let common = NodeContext::new(problem);
         let mut look = CloserLook::new(problem);
         loop {
             if let ControlFlow::Break(found) = self.visit(&common, &mut look, question) {
@@ -99,7 +99,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         question: &mut Q,
         until: f64,
     ) -> ControlFlow<Q::Found, f64> {
-        let common = Common::new(problem);
+        let common = NodeContext::new(problem);
         loop {
             if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
                 question.on_clock(problem, s)?;
@@ -110,7 +110,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     }
 
     /// Adds the pair of both roots to the waiting pairs.
-    pub(crate) fn push_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
+    pub(crate) fn push_roots(&mut self, problem: &Problem<'_>) -> Result<(), QueueFull> {
         let item = match Next::roots(problem) {
             Next::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
             Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
@@ -122,7 +122,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     #[inline(always)]
     pub(crate) fn visit<Q: Question<O>>(
         &mut self,
-        common: &Common<'_>,
+        common: &NodeContext<'_>,
         look: &mut CloserLook,
         question: &mut Q,
     ) -> ControlFlow<Q::Found> {
@@ -179,7 +179,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     /// Puts the remaining siblings of the last pair, and its new item, back among the waiting items if their clocks are
     /// before the end.
     #[inline(always)]
-    fn requeue(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
+    fn requeue(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), QueueFull> {
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {
@@ -211,13 +211,13 @@ fn advance<O: DistanceOracle>(
 
 #[inline(always)]
 fn unless_full<O: DistanceOracle, Q: Question<O>>(
-    waits: Result<(), Full>,
+    waits: Result<(), QueueFull>,
     problem: &Problem<'_>,
     question: &mut Q,
     s: f64,
 ) -> ControlFlow<Q::Found> {
     match waits {
         Ok(()) => ControlFlow::Continue(()),
-        Err(Full) => ControlFlow::Break(question.on_limit(problem, s, Limit::Budget)),
+        Err(QueueFull) => ControlFlow::Break(question.on_limit(problem, s, Limit::Budget)),
     }
 }

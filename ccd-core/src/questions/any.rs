@@ -68,7 +68,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             oracle,
             meter,
         };
-        let mut any = Any::default();
+        let mut any = AnyContactSearch::default();
         match search.run(problem, &mut any) {
             // Waiting pairs are proven apart only until their clocks.
             Outcome::Unresolved(known) => Outcome::unresolved(
@@ -91,28 +91,28 @@ pub(crate) fn start_contact_as_any(answer: Answer) -> Answer {
 
 /// The search for any contact of the bodies.
 #[derive(Default)]
-struct Any {
+struct AnyContactSearch {
     proven: Proven,
     /// The clock of the first pair that could not be proven to the end, and the reason.
-    stuck: Option<(f64, Limit)>,
+    first_failure: Option<(f64, Limit)>,
 }
 
-impl Any {
+impl AnyContactSearch {
     /// Gives up a pair that cannot be proven further, because another pair may be in contact.
     fn give_up_pair(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
-        if self.stuck.is_none_or(|(first, _)| s < first) {
-            self.stuck = Some((s, limit));
+        if self.first_failure.is_none_or(|(first, _)| s < first) {
+            self.first_failure = Some((s, limit));
         }
         ControlFlow::Continue(f64::INFINITY)
     }
 
     fn unresolved_outcome(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
-        let stuck = self.stuck.map_or(f64::INFINITY, |(first, _)| first);
-        Outcome::unresolved(problem.time(lesser(s, stuck)), reason)
+        let first_failure = self.first_failure.map_or(f64::INFINITY, |(first, _)| first);
+        Outcome::unresolved(problem.time(lesser(s, first_failure)), reason)
     }
 }
 
-impl<O: DistanceOracle> Question<O> for Any {
+impl<O: DistanceOracle> Question<O> for AnyContactSearch {
     type Found = Outcome;
 
     fn on_advance(
@@ -141,7 +141,7 @@ impl<O: DistanceOracle> Question<O> for Any {
     }
 
     fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
-        match self.stuck {
+        match self.first_failure {
             Some((s, limit)) => self.unresolved_outcome(problem, s, limit),
             None => self.proven.finish(problem),
         }

@@ -11,7 +11,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{SearchResult, contact_for_given_bodies, run_metered};
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
-use crate::engine::nodes::common::Common;
+use crate::engine::nodes::common::NodeContext;
 use crate::engine::proven::Proven;
 use crate::engine::search::Search;
 use crate::engine::start::at_start;
@@ -167,7 +167,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             best,
             beyond,
             proven: Proven::default(),
-            stuck: None,
+            first_failure: None,
             ladder: ladder(problem),
         };
         let mut search = Search {
@@ -186,7 +186,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             if !(upper > problem.tolerance && upper > below.contact_distance()) {
                 return nearing.found(problem, 0.0);
             }
-            let common = Common::new(&below);
+            let common = NodeContext::new(&below);
             let mut look = CloserLook::new(&below);
             while nearing.upper() == upper {
                 if let Some(rung) = nearing.ladder.next_if_due(search.meter.stats.work(), upper) {

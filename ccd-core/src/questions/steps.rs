@@ -69,13 +69,13 @@ struct Steps<'a, O: DistanceOracle> {
     memory: BestFirst<O>,
     meter: Meter,
     /// The state of the search; `None` before the first step.
-    begun: Option<Begun>,
+    state: Option<SearchState>,
     answer: Option<Answer>,
 }
 
 /// The state of the search without the waiting pairs.
 #[derive(Debug)]
-struct Begun {
+struct SearchState {
     look: CloserLook,
     proven: Proven,
 }
@@ -151,7 +151,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             problem,
             memory,
             meter,
-            begun: None,
+            state: None,
             answer: None,
         }
     }
@@ -202,7 +202,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             let stats = &mut self.meter.stats;
             stats.peak_front = stats.peak_front.max(self.memory.queue.peak());
             self.memory.queue.clear();
-            self.begun = None;
+            self.state = None;
             let outcome = match &mut self.part {
                 None => outcome,
                 Some((rounds, part)) => match rounds.on_outcome(&outcome, &mut self.meter) {
@@ -252,9 +252,9 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             oracle,
             meter: &mut self.meter,
         };
-        let Begun { look, proven } = match &mut self.begun {
-            Some(begun) => begun,
-            begun => {
+        let SearchState { look, proven } = match &mut self.state {
+            Some(state) => state,
+            state => {
                 if let Some(free) = free_by_bounding_volumes(problem) {
                     return ControlFlow::Break(free);
                 }
@@ -268,7 +268,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     ));
                 }
                 let look = CloserLook::new(problem);
-                begun.insert(Begun { look, proven })
+                state.insert(SearchState { look, proven })
             }
         };
         let reached = search.until(problem, look, proven, until);

@@ -17,7 +17,7 @@ use crate::settings::Settings;
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
-    Look, Pcg64, RngExt, body, direction, magnitude, rng, rotation, soup, within,
+    Pcg64, RngExt, SoupKind, body, direction, magnitude, rng, rotation, soup, within,
 };
 use crate::tests::worst::share;
 use crate::{Body, Pose};
@@ -93,7 +93,7 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
 }
 
 fn far_body(rng: &mut impl RngExt, count: usize, size: f64) -> Body {
-    let look = Look::ALL[rng.random_range(0..5)];
+    let look = SoupKind::ALL[rng.random_range(0..5)];
     let offset = match rng.random_range(0..3) {
         0 => 0.0,
         _ => magnitude(rng, 0.0, 6.0),

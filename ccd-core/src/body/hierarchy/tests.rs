@@ -3,7 +3,7 @@
 use super::{Hierarchy, HierarchyNode::Inner, HierarchyNode::Leaf};
 use crate::body::{Body, Volume};
 use crate::error::InputError;
-use crate::tests::scene::{Look, pieces, rng, soup};
+use crate::tests::scene::{SoupKind, pieces, rng, soup};
 
 fn refused(nodes: &[super::HierarchyNode], pieces: usize) -> usize {
     match Hierarchy::new(nodes.to_vec(), pieces) {
@@ -47,12 +47,12 @@ fn a_hierarchy_of_other_pieces_is_refused() {
     let of = |count| {
         Hierarchy::median_split(&pieces(&soup(
             &mut crate::tests::scene::rng(2),
-            Look::Plump,
+            SoupKind::Plump,
             count,
             1.0,
         )))
     };
-    let pieces = pieces(&soup(&mut rng, Look::Plump, 5, 1.0));
+    let pieces = pieces(&soup(&mut rng, SoupKind::Plump, 5, 1.0));
     for count in [1, 4, 6, 40] {
         let made = Body::with_hierarchy(&pieces, &of(count), Volume::Surface);
         assert!(
@@ -66,7 +66,7 @@ fn a_hierarchy_of_other_pieces_is_refused() {
 #[test]
 fn the_median_split_is_a_tree_and_balanced() {
     let mut rng = rng(3);
-    for look in Look::ALL {
+    for look in SoupKind::ALL {
         for count in [1, 2, 3, 31, 1_000] {
             let pieces = pieces(&soup(&mut rng, look, count, 1.0));
             let hierarchy = Hierarchy::median_split(&pieces);
@@ -105,7 +105,7 @@ fn a_chain_is_a_hierarchy_too() {
     let mut short: Vec<_> = nodes[..2 * few - 2].to_vec();
     short.push(Leaf(few as u32 - 1));
     let hierarchy = Hierarchy::new(short, few).unwrap();
-    let pieces = pieces(&soup(&mut rng(4), Look::Plump, few, 1.0));
+    let pieces = pieces(&soup(&mut rng(4), SoupKind::Plump, few, 1.0));
     let body = Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap();
     assert_eq!(body.pieces().len(), few);
 }

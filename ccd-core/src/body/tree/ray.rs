@@ -1,6 +1,6 @@
 //! Computes the winding number of a body's surface about a point, by a ray.
 
-use super::waiting::Waiting;
+use super::waiting::NodeStack;
 use super::{Below, Node, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
@@ -63,7 +63,7 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
         triangles_at_start: 0,
         along,
     };
-    let mut stack = Waiting::root();
+    let mut stack = NodeStack::root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
         if !may_hit(node, start.from, along) {

@@ -13,7 +13,7 @@ use std::cell::OnceCell;
 
 /// A query with derived numbers for pairs of nodes, rounded to f32.
 #[derive(Debug)]
-pub(crate) struct Common<'p> {
+pub(crate) struct NodeContext<'p> {
     pub(crate) problem: &'p Problem<'p>,
     /// The motion of B relative to A, and of A relative to B. Each is computed at the first split of its body: queries
     /// of a few pieces need neither.
@@ -59,9 +59,9 @@ fn reach(side: &Side<'_>) -> f64 {
     centre.distance(side.path.centre) + 4.0 * radius
 }
 
-impl<'p> Common<'p> {
+impl<'p> NodeContext<'p> {
     pub(crate) fn new(problem: &'p Problem<'_>) -> Self {
-        Common {
+        NodeContext {
             problem,
             views: [const { OnceCell::new() }; 2],
             spins: [&problem.a.path, &problem.b.path].map(|path| {

@@ -22,7 +22,7 @@ pub(crate) struct Heights<'a> {
     normal: DVec3,
     /// The unit axis about which the body turns.
     axis: DVec3,
-    along: AxisMotion,
+    axis_motion: AxisMotion,
     omega: f64,
     speed: f64,
     /// The magnitude of the centre's acceleration.
@@ -79,7 +79,7 @@ impl<'a> Heights<'a> {
             centre: path.centre,
             normal,
             axis: path.axis,
-            along: AxisMotion::new(velocity, path.axis, path.rate, normal)
+            axis_motion: AxisMotion::new(velocity, path.axis, path.rate, normal)
                 .with_acceleration(path.acceleration.dot(normal)),
             omega: path.rate,
             speed: length(velocity) + length(path.acceleration),
@@ -118,7 +118,7 @@ impl<'a> Heights<'a> {
         let farthest = (length(arm) + radius) * (1.0 + RATE_F64);
         self.speed += self.omega * farthest;
         self.second_derivative = self
-            .along
+            .axis_motion
             .second_derivative(length(self.axis.cross(arm)) + radius)
             * (1.0 + RATE_F64);
         self.support_error = TURNED_SUPPORT * (farthest + length(middle) + radius);
@@ -183,17 +183,17 @@ impl<'a> Heights<'a> {
 
     /// Returns the present rate of the points' heights without rotation, which is the same for all points.
     pub(crate) fn linear_rate(&self) -> f64 {
-        self.along.linear_rate()
+        self.axis_motion.linear_rate()
     }
 
     /// Returns the second derivative of the points' heights without rotation.
     pub(crate) fn linear_acceleration(&self) -> f64 {
-        self.along.linear_acceleration()
+        self.axis_motion.linear_acceleration()
     }
 
     /// Returns a lower bound of the second derivative of the points' heights without rotation.
     pub(crate) fn least_linear_acceleration(&self) -> f64 {
-        self.along.linear_acceleration() - RATE_F64 * self.acceleration
+        self.axis_motion.linear_acceleration() - RATE_F64 * self.acceleration
     }
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
@@ -220,8 +220,8 @@ impl<'a> Heights<'a> {
     fn bound_of_many(&self, angle: Angle, tau: f64) -> Point {
         if self.is_nonrotating() {
             return Point {
-                height: self.least_height + self.along.linear_displacement(tau),
-                rate: self.along.linear_rate() + self.along.linear_acceleration() * tau,
+                height: self.least_height + self.axis_motion.linear_displacement(tau),
+                rate: self.axis_motion.linear_rate() + self.axis_motion.linear_acceleration() * tau,
                 second_derivative: 0.0,
             };
         }
@@ -250,7 +250,7 @@ impl<'a> Heights<'a> {
     #[inline]
     fn track(&self, point: DVec3) -> (Track, DVec3) {
         let arm = self.frame.rotation * (point - self.centre);
-        (self.along.track(self.normal.dot(arm), arm), arm)
+        (self.axis_motion.track(self.normal.dot(arm), arm), arm)
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) struct Descent<'s, 'p, C> {
 }
 
 /// The results at a clock so far, and the pairs that may improve them.
-struct Found {
+struct DescentState {
     /// An upper bound of the distance of the two bodies.
     distance: f64,
     /// The nearest pair of pieces in contact.
@@ -54,7 +54,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         O: DistanceOracle<Cache = C>,
     {
         let snapshot = Snapshot::of_pieces(self.problem, self.hulls.hulls([0, 0]), s);
-        let mut found = Found {
+        let mut found = DescentState {
             distance: f64::INFINITY,
             contact: None,
             open: BinaryHeap::new(),
@@ -90,7 +90,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
-        found: &mut Found,
+        found: &mut DescentState,
     ) -> ControlFlow<Outcome>
     where
         O: DistanceOracle<Cache = C>,
@@ -115,7 +115,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
-        found: &mut Found,
+        found: &mut DescentState,
     ) where
         O: DistanceOracle<Cache = C>,
     {
@@ -165,7 +165,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
-        found: &mut Found,
+        found: &mut DescentState,
     ) -> ControlFlow<Outcome>
     where
         O: DistanceOracle<Cache = C>,
@@ -202,7 +202,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
-        found: &mut Found,
+        found: &mut DescentState,
         next: f64,
     ) -> ControlFlow<Outcome>
     where
@@ -241,7 +241,7 @@ impl<C> Node<C> {
     }
 }
 
-impl Found {
+impl DescentState {
     fn in_contact(&mut self, contact: Contact) {
         let separation = &contact.separation;
         self.distance = lesser(self.distance, separation.upper);

@@ -22,7 +22,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let mut any = Any {
+        let mut any = AnyContactSearch {
             schedule: self,
             proven: ProvenContacts::new(query),
             undecided: f64::INFINITY,
@@ -31,14 +31,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-struct Any<'s, O: DistanceOracle> {
+struct AnyContactSearch<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
     proven: ProvenContacts,
     /// The first time at which it is undecided whether one body is inside the other.
     undecided: f64,
 }
 
-impl<O: DistanceOracle> Any<'_, O> {
+impl<O: DistanceOracle> AnyContactSearch<'_, O> {
     fn unresolved_outcome(
         &self,
         stretches: &Stretches<'_, '_>,
@@ -50,7 +50,7 @@ impl<O: DistanceOracle> Any<'_, O> {
     }
 }
 
-impl<O: DistanceOracle> Question<O> for Any<'_, O> {
+impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,

@@ -15,7 +15,7 @@ use crate::query::Query;
 use crate::questions::closest::required::Required;
 use crate::questions::closest::{Beyond, meets_later};
 use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
-use found::{Found, StretchResult};
+use found::{BestSoFar, StretchResult};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -40,10 +40,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let mut closest = Closest {
+        let mut closest = ClosestApproachSearch {
             schedule: self,
             query,
-            found: Found::new(query),
+            found: BestSoFar::new(query),
         };
         drive(&mut closest, query, oracle)
     }
@@ -73,13 +73,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-struct Closest<'s, 'q, 'a, O: DistanceOracle> {
+struct ClosestApproachSearch<'s, 'q, 'a, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
     query: &'q Query<'a>,
-    found: Found,
+    found: BestSoFar,
 }
 
-impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
+impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     /// Tries to prove a lower bound of the whole query's least distance, if it is time for that.
     fn prepare(
         &mut self,
@@ -197,7 +197,7 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
     }
 }
 
-impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
+impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     /// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
     fn or_overlap(
         &mut self,

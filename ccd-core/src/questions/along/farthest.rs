@@ -43,7 +43,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let query = &query.for_distances();
-        let mut search = Search {
+        let mut search = GreatestDistanceSearch {
             stretches: Stretches::new(query),
             schedule: self,
             oracle,
@@ -79,7 +79,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-struct Search<'s, 'j, 'a, O: DistanceOracle> {
+struct GreatestDistanceSearch<'s, 'j, 'a, O: DistanceOracle> {
     stretches: Stretches<'j, 'a>,
     schedule: &'s mut DepthFirst<O>,
     oracle: &'s mut O,
@@ -141,7 +141,7 @@ impl MeasuredPoints {
 /// An upper bound for all times; or, if a limit was reached, the best known bound and the limit.
 type Bounded = Result<f64, (f64, Limit)>;
 
-impl<O: DistanceOracle> Search<'_, '_, '_, O> {
+impl<O: DistanceOracle> GreatestDistanceSearch<'_, '_, '_, O> {
     /// Cuts the stretch with the greatest upper bound until the tolerance is met.
     fn run(&mut self) -> Result<Bounded, InputError> {
         let Query {

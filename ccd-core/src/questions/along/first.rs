@@ -20,19 +20,19 @@ pub(crate) fn first_contact<O: DistanceOracle, S: Solve<O>>(
     query: &Query<'_>,
     oracle: &mut O,
 ) -> Result<Answer, InputError> {
-    let mut first = First {
+    let mut first = FirstContactSearch {
         schedule,
         proven: ProvenContacts::new(query),
     };
     drive(&mut first, query, oracle)
 }
 
-struct First<'s, S> {
+struct FirstContactSearch<'s, S> {
     schedule: &'s mut S,
     proven: ProvenContacts,
 }
 
-impl<O: DistanceOracle, S: Solve<O>> Question<O> for First<'_, S> {
+impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
     fn takes_accelerations(&self) -> bool {
         self.schedule.takes_accelerations()
     }

@@ -6,7 +6,7 @@ use super::{BestPair, Beyond};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::nodes::common::Common;
+use crate::engine::nodes::common::NodeContext;
 use crate::engine::pieces::pair::Step;
 use crate::engine::proven::Proven;
 use crate::engine::search::{Advance, Question, Search};
@@ -23,7 +23,7 @@ pub(crate) struct LeastDistanceSearch {
     pub(crate) beyond: f64,
     pub(crate) proven: Proven,
     /// The reason why some pair could not be proven to the end, if there is one.
-    pub(crate) stuck: Option<Limit>,
+    pub(crate) first_failure: Option<Limit>,
     /// The lower bound that is proven for all pairs.
     pub(crate) ladder: Ladder,
 }
@@ -66,7 +66,7 @@ impl LeastDistanceSearch {
             best: None,
             beyond: lower.contact_distance(),
             proven: Proven::default(),
-            stuck: None,
+            first_failure: None,
             ladder: Ladder::new(0.0, 0),
         };
         let mut stack = Stack::default();
@@ -75,7 +75,7 @@ impl LeastDistanceSearch {
             oracle,
             meter,
         };
-        let common = Common::new(&lower);
+        let common = NodeContext::new(&lower);
         let mut look = CloserLook::new(&lower);
         let mut found = None;
         if search.push_roots(&lower).is_ok() {
@@ -108,7 +108,7 @@ impl LeastDistanceSearch {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Result<Outcome, Beyond> {
-        let limit = match (&found, self.stuck) {
+        let limit = match (&found, self.first_failure) {
             (Ok(Outcome::Unresolved(known)), Some(_)) => known.limit,
             _ => return found,
         };
@@ -157,11 +157,11 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
                 ControlFlow::Break(Ok(Outcome::overlapping(overlap)))
             }
             Step::Stalled => {
-                self.stuck = Some(Limit::Stalled);
+                self.first_failure = Some(Limit::Stalled);
                 ControlFlow::Continue(f64::INFINITY)
             }
             Step::GaveUp => {
-                self.stuck = Some(Limit::OracleGaveUp);
+                self.first_failure = Some(Limit::OracleGaveUp);
                 ControlFlow::Continue(f64::INFINITY)
             }
         }
@@ -172,7 +172,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
     }
 
     fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found {
-        if let Some(limit) = self.stuck {
+        if let Some(limit) = self.first_failure {
             return Ok(self.unresolved_outcome(problem, limit));
         }
         match self.proven.finish(problem) {

@@ -113,7 +113,7 @@ fn planes_hold_and_allowances_suffice_for_triangles() {
 
 /// The values that the bounds compute along one axis, before they become eight free times: one number for each child.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct AxisValues {
     axis: [[f32; LANES]; 3],
     gap: [f32; LANES],
     rate: [f32; LANES],
@@ -123,7 +123,7 @@ struct Found {
     free: [[f32; LANES]; 3],
 }
 
-impl Found {
+impl AxisValues {
     fn normal(&self, lane: usize) -> DVec3 {
         DVec3::from_array(self.axis.map(|row| row[lane].into()))
     }
@@ -170,7 +170,7 @@ fn find<L: Simd, C: Children, P: OtherNode>(
     level: L,
     sample: &Sample<C, P>,
     some: Vec3,
-) -> [Found; 3] {
+) -> [AxisValues; 3] {
     let pairs = sample.pairs(level);
     let some = axis::oriented_towards(Vec3x8::splat(level, some), pairs.offset);
     let axes = [
@@ -195,7 +195,10 @@ fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Ax
 }
 
 #[inline(never)]
-fn along<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>, axis: Axis<L>) -> Found {
+fn along<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> AxisValues {
     let motion = pairs.motion;
     let (m, o) = (
         motion.split.cross_spin(axis.n),
@@ -203,7 +206,7 @@ fn along<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>, axis: A
     );
     let rate =
         axis.n.dot(pairs.velocity) + pairs.children.extent_along(m) + pairs.other.extent_along(o);
-    Found {
+    AxisValues {
         axis: [*axis.n.x, *axis.n.y, *axis.n.z],
         gap: *axis.gap,
         rate: *rate,
@@ -280,7 +283,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Computes the values with all sets of vector instructions, and checks that they are equal.
-    fn found_on_all_levels(&self, some: Vec3) -> [Found; 3] {
+    fn found_on_all_levels(&self, some: Vec3) -> [AxisValues; 3] {
         let [best, baseline] = [Instructions::Best, Instructions::Baseline]
             .map(|instructions| vectorize!(instructions.level(), level => find(level, self, some)));
         for (best, baseline) in best.iter().zip(&baseline) {
@@ -290,7 +293,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Compares each rounded value with the same in f64, and records the error.
-    fn sample_allowances(&self, found: &Found, worst: &mut Worst) {
+    fn sample_allowances(&self, found: &AxisValues, worst: &mut Worst) {
         let frees = self.clocks(found);
         for lane in 0..self.children.len() {
             let of = self.shares(found, &frees, lane);
@@ -306,7 +309,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Checks that a fixed plane keeps the pair apart for its whole free time.
-    fn check_still(&self, found: &Found, worst: &mut Worst) {
+    fn check_still(&self, found: &AxisValues, worst: &mut Worst) {
         let [free, ..] = found.free;
         for (lane, free) in free.into_iter().enumerate() {
             let n = found.normal(lane);
@@ -319,7 +322,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Checks that a plane that turns with a body keeps the pair apart for its whole free time.
-    fn check_attached(&self, found: &Found, with: Larger, worst: &mut Worst) {
+    fn check_attached(&self, found: &AxisValues, with: Larger, worst: &mut Worst) {
         let [_, with_split, with_other] = found.free;
         let free = match with {
             Larger::Split => with_split,

@@ -126,7 +126,7 @@ impl Audit<'_> {
             };
             let s = self.clock(rng);
             let expansion = expand(
-                &Common::new(self.problem),
+                &NodeContext::new(self.problem),
                 &Split::all(split, node, other),
                 s,
             );
@@ -351,7 +351,7 @@ fn planes_that_stand_still(
     let NodeOrTriangle::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
-    let common = Common::new(problem);
+    let common = NodeContext::new(problem);
     let split_all = Split::all(split, node, other);
     vectorize!(problem.level, level => {
         let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::OfMotion);

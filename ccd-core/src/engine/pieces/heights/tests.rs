@@ -133,7 +133,7 @@ fn points_rise_and_sink_as_their_body_turns() {
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
         let (piece, normal) = (body.piece(0), direction(&mut rng));
-        let twin = Twin {
+        let twin = ReferenceHeights {
             arms: piece
                 .points
                 .iter()
@@ -151,7 +151,7 @@ fn points_rise_and_sink_as_their_body_turns() {
 }
 
 /// The points relative to the centre of rotation, as a reference.
-struct Twin {
+struct ReferenceHeights {
     arms: Vec<DVec3>,
     normal: DVec3,
     velocity: DVec3,
@@ -159,7 +159,7 @@ struct Twin {
     spin: DVec3,
 }
 
-impl Twin {
+impl ReferenceHeights {
     /// Returns the height of a point, its rate, and the second derivative due to rotation.
     fn point(&self, k: usize, tau: f64) -> Point {
         let arm = DQuat::from_scaled_axis(self.spin * tau) * self.arms[k];

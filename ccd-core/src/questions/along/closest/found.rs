@@ -95,7 +95,7 @@ impl StretchResult {
 }
 
 /// The bounds of the least distance found so far.
-pub(super) struct Found {
+pub(super) struct BestSoFar {
     /// A lower bound of the distance in all finished stretches.
     pub(super) lower: f64,
     pub(super) best: Option<(f64, Contact)>,
@@ -103,11 +103,11 @@ pub(super) struct Found {
     pub(super) ladder: Ladder,
 }
 
-impl Found {
+impl BestSoFar {
     pub(super) fn new(query: &Query<'_>) -> Self {
         let ladder = Ladder::new(0.0, query.terms.budget);
         let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
-        Found {
+        BestSoFar {
             lower: f64::INFINITY,
             best: None,
             ladder: if is_timed {

@@ -6,7 +6,7 @@ use crate::body::tree::{
 };
 use crate::engine::nodes::eight_pairs::RelativeMotionF32;
 use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
-use crate::engine::nodes::turn::Turn;
+use crate::engine::nodes::turn::BodyRotation;
 use crate::math::order::greater;
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use crate::tests::scene::{RngExt, direction, magnitude, rotation, within};
@@ -238,8 +238,8 @@ impl Setting {
         children: Vec<Solid>,
         far: Solid,
     ) -> Sample<C, P> {
-        let turning = |k: usize| Turn {
-            turns: true,
+        let turning = |k: usize| BodyRotation {
+            is_turning: true,
             spin: self.spins[k].as_vec3(),
             rate: round_up_to_f32(self.spins[k].length()),
             centre: self.centres[k].as_vec3(),

@@ -1,6 +1,6 @@
 //! The errors of bounds, as shares of their allowances.
 
-use super::{Found, Sample, clocks};
+use super::{AxisValues, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -39,7 +39,7 @@ pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
     /// Computes the free times from the gaps and rates of an axis, with exact second derivatives.
-    pub(super) fn clocks(&self, found: &Found) -> Clocks {
+    pub(super) fn clocks(&self, found: &AxisValues) -> Clocks {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
@@ -56,7 +56,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Returns the errors of a lane as shares of their allowances.
-    pub(super) fn shares(&self, found: &Found, clocks: &Clocks, lane: usize) -> Shares {
+    pub(super) fn shares(&self, found: &AxisValues, clocks: &Clocks, lane: usize) -> Shares {
         let (motion, child) = (&self.motion, &self.children[lane]);
         let (n, rate) = (found.normal(lane), found.rate[lane]);
         let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);

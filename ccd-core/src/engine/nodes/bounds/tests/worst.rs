@@ -4,7 +4,7 @@
 
 use super::setting::{Setting, Shape};
 use super::shares::{Shares, share_of_clock};
-use super::{Found, Sample, clocks};
+use super::{AxisValues, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::lanes::Vec3x8;
@@ -47,7 +47,7 @@ impl Search {
     /// Returns the largest share of the allowance among eight pairs and three axes.
     fn share_of<C: Children, P: OtherNode>(self, tape: &mut Tape, sample: &Sample<C, P>) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
-        let of = |found: &Found, lane: usize| {
+        let of = |found: &AxisValues, lane: usize| {
             (self.share)(&sample.shares(found, &sample.clocks(found), lane))
         };
         let found = sample.found_on_all_levels(some);

@@ -15,11 +15,11 @@ use crate::tests::scene::{
 use glam::DQuat;
 
 /// An oracle that counts its steps.
-struct Telling {
+struct CountingOracle {
     steps: u64,
 }
 
-impl DistanceOracle for Telling {
+impl DistanceOracle for CountingOracle {
     type Cache = ();
 
     fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut ()) -> Result<Claim, GiveUp> {
@@ -36,9 +36,9 @@ impl DistanceOracle for Telling {
 }
 
 /// An oracle that always gives up.
-struct Silent;
+struct FailingOracle;
 
-impl DistanceOracle for Silent {
+impl DistanceOracle for FailingOracle {
     type Cache = ();
 
     fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
@@ -62,7 +62,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
         ASSUMED_STEPS * snapshot.pieces.points()
     );
     let mut meter = Meter::new(&problem);
-    let mut telling = Telling { steps: 7 };
+    let mut telling = CountingOracle { steps: 7 };
     assert!(
         snapshot
             .query_oracle(&mut telling, &mut (), &mut meter)
@@ -72,7 +72,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
     assert!(
         snapshot
-            .query_oracle(&mut Silent, &mut (), &mut meter)
+            .query_oracle(&mut FailingOracle, &mut (), &mut meter)
             .is_none()
     );
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
