@@ -20,7 +20,7 @@ impl CommonNormals {
     /// Removes all offsets, and sets the slack.
     pub(crate) fn reset(&mut self, slack: f64) {
         self.offsets.clear();
-        self.offsets.shrink_to(MOST_KEPT);
+        self.offsets.shrink_to(MAX_KEPT_OFFSETS);
         self.slack = slack;
     }
 
@@ -112,7 +112,7 @@ impl CommonNormals {
 }
 
 /// The largest number of offsets for which memory is kept between uses.
-const MOST_KEPT: usize = 1 << 20;
+const MAX_KEPT_OFFSETS: usize = 1 << 20;
 
 /// Returns the unit vector along a component of a unit vector; `None` if the component may be mere rounding.
 fn unit_if_distinct(part: DVec3) -> Option<DVec3> {

@@ -62,7 +62,7 @@ impl<T> Queue<T> {
 
     fn place_of_least(&self) -> u32 {
         assert!(self.least != VACANT, "no item waits");
-        place(self.least)
+        slot(self.least)
     }
 
     fn newest(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
@@ -133,7 +133,7 @@ impl<T> Waiting<T> for Queue<T> {
 
     #[inline]
     fn next(&mut self) -> Option<(f64, &mut T)> {
-        let item = self.items.get_mut(place(self.least) as usize)?;
+        let item = self.items.get_mut(slot(self.least) as usize)?;
         Some((clock(self.least), item))
     }
 
@@ -161,7 +161,7 @@ impl<T> Waiting<T> for Queue<T> {
     #[inline]
     fn remove(&mut self) {
         if self.least != VACANT {
-            let place = place(self.least);
+            let place = slot(self.least);
             self.vacant.push(place);
             self.set(place, VACANT);
         }
@@ -180,7 +180,7 @@ fn clock(key: Key) -> f64 {
     f64::from_bits((key >> 64) as u64)
 }
 
-fn place(key: Key) -> u32 {
+fn slot(key: Key) -> u32 {
     key as u32
 }
 

@@ -101,7 +101,8 @@ impl View {
             } => {
                 let angle = sin_cos(rotation.rate * s);
                 let acceleration = acceleration.map(|change| change.vector(level, angle));
-                let [travel, change] = accelerated(change.vector(level, angle), acceleration, s);
+                let [travel, change] =
+                    displacement_and_rate(change.vector(level, angle), acceleration, s);
                 RelativeState {
                     rotation: rotation.matrix(level, angle),
                     offset: offset.vector(level, angle) + travel,
@@ -121,7 +122,8 @@ impl View {
                 let inverse = inverse.matrix(level, sin_cos(inverse.rate * s));
                 let other = other.matrix(level, sin_cos(other.rate * s));
                 let acceleration = acceleration.map(|change| Packed::load(level, &change));
-                let [travel, change] = accelerated(Packed::load(level, change), acceleration, s);
+                let [travel, change] =
+                    displacement_and_rate(Packed::load(level, change), acceleration, s);
                 RelativeState {
                     rotation: inverse * other,
                     offset: inverse * (Packed::load(level, offset) + travel),
@@ -206,7 +208,7 @@ impl RotatingQuantity<Row> {
 
 /// Returns the displacement until `s`, and the velocity at `s`, for a constant acceleration.
 #[inline(always)]
-fn accelerated<L: Simd>(
+fn displacement_and_rate<L: Simd>(
     change: Packed<L>,
     acceleration: Option<Packed<L>>,
     s: f64,

@@ -249,7 +249,7 @@ fn distance_at_rest<O: DistanceOracle>(
 ) -> Result<Outcome, Beyond> {
     Ok(match at_start(problem, beyond, oracle, meter) {
         Some(Outcome::Touching { contact }) => {
-            Outcome::least(greater(0.0, contact.separation.lower), 0.0, contact)
+            Outcome::from_least_distance(greater(0.0, contact.separation.lower), 0.0, contact)
         }
         Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
         Some(Outcome::Unresolved(known)) => {
@@ -281,7 +281,7 @@ fn moves(problem: &Problem<'_>) -> bool {
 }
 
 fn unresolved_outcome(lower: f64, limit: Limit) -> Outcome {
-    Outcome::Unresolved(Unresolved::least(lower, None, limit))
+    Outcome::Unresolved(Unresolved::for_least_distance(lower, None, limit))
 }
 
 /// Returns whether the bodies come within the tolerance after the start, and not at the start.

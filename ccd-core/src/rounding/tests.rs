@@ -132,7 +132,7 @@ fn sample(
     s: f64,
     worst: &mut Worst,
 ) {
-    let of = shares_of_a_look(rng, problem, motions, duration, s);
+    let of = shares_of_comparison(rng, problem, motions, duration, s);
     worst.place = greater(worst.place, of.place);
     worst.gap = greater(worst.gap, of.gap);
     worst.distance = greater(worst.distance, of.distance);
@@ -147,7 +147,7 @@ struct Shares {
 }
 
 /// Returns the errors of positions, of a support gap and of a distance at one clock, as shares of the bound.
-fn shares_of_a_look(
+fn shares_of_comparison(
     rng: &mut impl RngExt,
     problem: &Problem<'_>,
     motions: &[Motion; 2],

@@ -70,14 +70,14 @@ impl<'a> Rounds<'a> {
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         if turns_many_times(problem) && free_by_bounding_volumes(problem).is_none() {
-            Rounds::of_many_turns(problem)
+            Rounds::for_many_turns(problem)
         } else {
             None
         }
     }
 
     #[cold]
-    fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
+    fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
         if !problem.uses(Shortcut::Rounds) {
             return None;
         }
@@ -264,15 +264,15 @@ impl<'a> Sample<'a> {
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         if turns_many_times(problem) {
-            Sample::of_many_turns(problem)
+            Sample::for_many_turns(problem)
         } else {
             None
         }
     }
 
     #[cold]
-    fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
-        let rounds = Rounds::of_many_turns(problem)?;
+    fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
+        let rounds = Rounds::for_many_turns(problem)?;
         let (change, rounding) = (rounds.distance_change(), rounds.rounding);
         // Written so that NaN is too much.
         let stands_for_all =

@@ -5,7 +5,7 @@ use crate::body::{Body, Volume};
 use crate::error::InputError;
 use crate::tests::scene::{SoupKind, pieces, rng, soup};
 
-fn refused(nodes: &[super::HierarchyNode], pieces: usize) -> usize {
+fn assert_refused(nodes: &[super::HierarchyNode], pieces: usize) -> usize {
     match Hierarchy::new(nodes.to_vec(), pieces) {
         Err(InputError::BadHierarchy { at }) => at,
         other => panic!("{nodes:?} made {other:?}"),
@@ -23,20 +23,23 @@ fn a_tree_over_all_pieces_is_taken() {
 #[test]
 fn invalid_nodes_are_refused_by_index() {
     // There is no root, and no node for the piece.
-    assert_eq!(refused(&[], 1), 0);
-    assert_eq!(refused(&[], 0), 0);
-    assert_eq!(refused(&[Leaf(0)], 0), 0);
+    assert_eq!(assert_refused(&[], 1), 0);
+    assert_eq!(assert_refused(&[], 0), 0);
+    assert_eq!(assert_refused(&[Leaf(0)], 0), 0);
     // A piece is missing, repeated, or out of range.
-    assert_eq!(refused(&[Leaf(0)], 2), 1);
-    assert_eq!(refused(&[Inner(1, 2), Leaf(1), Leaf(1)], 2), 1);
-    assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(9)], 2), 9);
+    assert_eq!(assert_refused(&[Leaf(0)], 2), 1);
+    assert_eq!(assert_refused(&[Inner(1, 2), Leaf(1), Leaf(1)], 2), 1);
+    assert_eq!(assert_refused(&[Inner(1, 2), Leaf(0), Leaf(9)], 2), 9);
     // A node is reached twice, from itself, never, or is out of range.
-    assert_eq!(refused(&[Inner(1, 1), Leaf(0)], 1), 1);
-    assert_eq!(refused(&[Inner(0, 1), Leaf(0)], 1), 0);
-    assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(1), Leaf(2)], 2), 3);
-    assert_eq!(refused(&[Inner(1, 7), Leaf(0)], 1), 7);
+    assert_eq!(assert_refused(&[Inner(1, 1), Leaf(0)], 1), 1);
+    assert_eq!(assert_refused(&[Inner(0, 1), Leaf(0)], 1), 0);
     assert_eq!(
-        refused(&[Inner(1, u32::MAX), Leaf(0)], 1),
+        assert_refused(&[Inner(1, 2), Leaf(0), Leaf(1), Leaf(2)], 2),
+        3
+    );
+    assert_eq!(assert_refused(&[Inner(1, 7), Leaf(0)], 1), 7);
+    assert_eq!(
+        assert_refused(&[Inner(1, u32::MAX), Leaf(0)], 1),
         u32::MAX as usize
     );
 }

@@ -240,7 +240,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
         if let Some(end) = seen.end_with_decrease_beyond(motions)
-            && let Some(beyond) = stretches.take_beside(end)
+            && let Some(beyond) = stretches.take_adjacent(end)
         {
             let is_cut = stretches.cut_about(motions.span, time, f64::INFINITY);
             stretches.push(beyond);

@@ -220,7 +220,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Removes and returns the waiting stretch that begins or ends at a time; `None` if there is none.
-    pub(super) fn take_beside(&mut self, time: f64) -> Option<Span> {
+    pub(super) fn take_adjacent(&mut self, time: f64) -> Option<Span> {
         let is_beside = |span: &Span| span.from == time || span.to == time;
         let index = self.waiting.iter().rposition(is_beside)?;
         Some(self.waiting.remove(index))

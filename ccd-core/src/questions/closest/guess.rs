@@ -84,7 +84,7 @@ fn outcome_of_stop(problem: &Problem<'_>, best: Option<BestPair>, stop: SearchEn
             let seen =
                 |best: BestPair| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
             let lower = greater(0.0, least_distance(problem));
-            Outcome::Unresolved(Unresolved::least(lower, best.map(seen), limit))
+            Outcome::Unresolved(Unresolved::for_least_distance(lower, best.map(seen), limit))
         }
     }
 }

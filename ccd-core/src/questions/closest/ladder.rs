@@ -46,7 +46,7 @@ const FIRST: u64 = 1 << 17;
 const FIRST_TIMED: u64 = 1 << 14;
 
 /// The largest number of rungs that are tried after a search reached a limit.
-pub(crate) const LAST_RUNGS: usize = 8;
+pub(crate) const MAX_FINAL_RUNGS: usize = 8;
 
 impl Ladder {
     /// Creates the ladder with a known lower bound, for a search with a given budget.

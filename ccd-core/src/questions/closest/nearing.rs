@@ -1,7 +1,7 @@
 //! Searches for the least distance of two bodies.
 
 use super::follow::follow;
-use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use super::ladder::{Ladder, MAX_FINAL_RUNGS, Rung};
 use super::{BestPair, Beyond};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
@@ -37,7 +37,11 @@ impl LeastDistanceSearch {
     pub(crate) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
         let best = self.best.ok_or(Beyond { lower })?;
         let contact = best.contact.cap_lower_bound(lower);
-        Ok(Outcome::least(lower, problem.time(best.clock), contact))
+        Ok(Outcome::from_least_distance(
+            lower,
+            problem.time(best.clock),
+            contact,
+        ))
     }
 
     pub(crate) fn unresolved_outcome(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
@@ -46,7 +50,11 @@ impl LeastDistanceSearch {
             let contact = best.contact.cap_lower_bound(lower);
             (problem.time(best.clock), contact)
         };
-        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
+        Outcome::Unresolved(Unresolved::for_least_distance(
+            lower,
+            self.best.map(seen),
+            limit,
+        ))
     }
 
     /// Tries one rung of the ladder in a separate search, which proves it, or finds nearer pieces.
@@ -112,7 +120,7 @@ impl LeastDistanceSearch {
             (Ok(Outcome::Unresolved(known)), Some(_)) => known.limit,
             _ => return found,
         };
-        for _ in 0..LAST_RUNGS {
+        for _ in 0..MAX_FINAL_RUNGS {
             let left = problem.budget.saturating_sub(meter.stats.work());
             let Some(rung) = self.ladder.next_rung(self.upper(), left / 2) else {
                 break;

@@ -1,6 +1,6 @@
 //! Decides whether bodies keep a required distance, by two queries for any contact.
 
-use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use super::ladder::{Ladder, MAX_FINAL_RUNGS, Rung};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
 use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
@@ -78,7 +78,7 @@ impl Required {
                 bracket(0.0, time, contact)
             }
             Outcome::Unresolved(known) => {
-                Outcome::Unresolved(Unresolved::least(0.0, None, known.limit))
+                Outcome::Unresolved(Unresolved::for_least_distance(0.0, None, known.limit))
             }
             found => found,
         }
@@ -128,7 +128,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
             .outcome;
         Ok(match (found, self.required.decision_for(found)) {
             (Outcome::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
-            (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::least(
+            (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
                 known.lower,
                 Some((time, contact)),
                 known.limit,
@@ -143,7 +143,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
         if matches!(reason, Limit::Deadline | Limit::Stopped) {
             return Ok(ladder.lower);
         }
-        for _ in 0..LAST_RUNGS {
+        for _ in 0..MAX_FINAL_RUNGS {
             let Some(rung) = ladder.next_rung(self.required.distance, self.remaining_work() / 2)
             else {
                 break;
@@ -162,5 +162,5 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
 
 fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
-    Outcome::least(lower, time, contact.cap_lower_bound(lower))
+    Outcome::from_least_distance(lower, time, contact.cap_lower_bound(lower))
 }

@@ -179,7 +179,7 @@ impl BestSoFar {
             return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = Outcome::least(lower, time, contact.cap_lower_bound(lower));
+        let nearest = Outcome::from_least_distance(lower, time, contact.cap_lower_bound(lower));
         self.answer(query, stretches, nearest)
     }
 
@@ -209,7 +209,11 @@ impl BestSoFar {
     fn unresolved_outcome(&self, lower: f64, limit: Limit) -> Outcome {
         let lower = lesser(greater(self.ladder.lower, lower), self.upper());
         let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
-        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
+        Outcome::Unresolved(Unresolved::for_least_distance(
+            lower,
+            self.best.map(seen),
+            limit,
+        ))
     }
 
     pub(super) fn answer(
